@@ -1,0 +1,164 @@
+//! The class of an impact, and how far it is from the neighbouring class.
+
+use core::fmt;
+
+/// What became of the sphere along the normal.
+///
+/// ```
+/// use microimpact::{ConstantRestitution, NormalMotion, Outcome, RigidBody, Sphere};
+///
+/// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.9)?);
+/// assert_eq!(scene.classify(&NormalMotion::new(1.0)?).outcome, Outcome::Rebound);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Outcome {
+    /// The sphere leaves the surface.
+    Rebound,
+    /// The surface holds the sphere.
+    Capture,
+}
+
+/// How the contact point moves when the impact is over.
+///
+/// ```
+/// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere, SurfaceMotion};
+///
+/// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.0)?).with_friction(0.2)?;
+/// let motion_after = |v_t| Ok(scene.classify(&NormalMotion::new(1.0)?.with_tangential(v_t)?).contact.motion);
+/// assert_eq!(motion_after(0.0), Ok::<_, microimpact::InputError>(SurfaceMotion::Resting));
+/// assert_eq!(motion_after(0.5), Ok(SurfaceMotion::Rolling));
+/// assert_eq!(motion_after(5.0), Ok(SurfaceMotion::Sliding));
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SurfaceMotion {
+    /// The contact point slips over the surface.
+    Sliding,
+    /// The contact point is at rest and the sphere turns.
+    Rolling,
+    /// Nothing moves: the impact has used up all kinetic energy.
+    Resting,
+}
+
+/// The class of an impact with friction.
+///
+/// ```
+/// use microimpact::{Class, ConstantRestitution, NormalMotion, RigidBody, Sphere};
+///
+/// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.9)?).with_friction(0.1)?;
+/// let class = scene.classify(&NormalMotion::new(1.0)?.with_tangential(5.0)?).class();
+/// assert_eq!(class, Class::ReboundSliding);
+/// assert_eq!(class.to_string(), "rebound sliding");
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Class {
+    /// Leaves the surface while its contact point slips.
+    ReboundSliding,
+    /// Leaves the surface rolling: the slip has ended during contact.
+    ReboundRolling,
+    /// Captured, and slides on along the surface.
+    CapturedSliding,
+    /// Captured, and rolls on along the surface.
+    CapturedRolling,
+    /// Captured and at rest: full capture.
+    CapturedResting,
+}
+
+impl fmt::Display for Class {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::ReboundSliding => "rebound sliding",
+            Self::ReboundRolling => "rebound rolling",
+            Self::CapturedSliding => "captured sliding",
+            Self::CapturedRolling => "captured rolling",
+            Self::CapturedResting => "captured resting",
+        })
+    }
+}
+
+/// The approach speed that separates capture from rebound, m/s.
+///
+/// ```
+/// use microimpact::{ConstantRestitution, CriticalSpeed, RigidBody, Sphere};
+///
+/// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.9)?);
+/// assert_eq!(scene.critical_speed(), CriticalSpeed::AlwaysRebounds);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CriticalSpeed<T> {
+    /// No approach is too slow to rebound.
+    AlwaysRebounds,
+    /// This and every lower speed is captured.
+    At(T),
+    /// No approach is fast enough to rebound.
+    NeverRebounds,
+}
+
+/// The class of an impact and its margins: `C` is `()` without friction and [`ContactClass`] with it.
+///
+/// ```
+/// use microimpact::{Class, NormalMotion, RigidBody, Sphere, SpeedRestitution};
+///
+/// let scene = RigidBody::new(Sphere::solid(4.3e-6, 2600.0)?, SpeedRestitution::new(130.0)?)
+///     .with_work_of_adhesion(1e-12)?
+///     .with_friction(0.1)?;
+/// let classification = scene.classify(&NormalMotion::new(2.8)?.with_tangential(0.2)?);
+/// assert_eq!(classification.class(), Class::ReboundRolling);
+/// assert!(classification.speed_over_critical.is_some_and(|margin| (margin - 1.82_f64).abs() < 0.01));
+/// assert!(classification.contact.friction_over_limit.is_some_and(|margin| margin > 1.0));
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Classification<T, C> {
+    /// Rebound or capture.
+    pub outcome: Outcome,
+    /// Approach speed over the critical speed: above one for a rebound. `None` where every speed has this outcome.
+    pub speed_over_critical: Option<T>,
+    /// How the contact point moves, where friction takes part.
+    pub contact: C,
+}
+
+/// The tangential side of a [`Classification`].
+///
+/// ```
+/// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
+///
+/// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.75)?).with_friction(0.1)?;
+/// let contact = scene.classify(&NormalMotion::new(1.0)?.with_tangential(1.225)?).contact;
+/// assert!(contact.friction_over_limit.is_some_and(|margin| (margin - 0.5_f64).abs() < 1e-12));
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactClass<T> {
+    /// Sliding, rolling or resting.
+    pub motion: SurfaceMotion,
+    /// f over the size of mu_0: one or more rolls, less slides. `None` where nothing slips, so that any friction rolls.
+    ///
+    /// For a measured impact, whose f is not known, the size of mu over that of mu_0.
+    pub friction_over_limit: Option<T>,
+}
+
+impl<T> Classification<T, ContactClass<T>> {
+    /// Outcome and motion along the surface in one word.
+    ///
+    /// ```
+    /// use microimpact::{Class, Classification, ContactClass, Outcome, SurfaceMotion};
+    ///
+    /// let contact = ContactClass { motion: SurfaceMotion::Rolling, friction_over_limit: Some(2.0) };
+    /// let classification = Classification { outcome: Outcome::Capture, speed_over_critical: Some(0.5), contact };
+    /// assert_eq!(classification.class(), Class::CapturedRolling);
+    /// ```
+    #[inline]
+    pub fn class(&self) -> Class {
+        match (self.outcome, self.contact.motion) {
+            (Outcome::Rebound, SurfaceMotion::Sliding) => Class::ReboundSliding,
+            (Outcome::Rebound, _) => Class::ReboundRolling,
+            (Outcome::Capture, SurfaceMotion::Sliding) => Class::CapturedSliding,
+            (Outcome::Capture, SurfaceMotion::Rolling) => Class::CapturedRolling,
+            (Outcome::Capture, SurfaceMotion::Resting) => Class::CapturedResting,
+        }
+    }
+}

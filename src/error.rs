@@ -1,0 +1,311 @@
+//! What can be wrong with an input, and the range each input must lie in.
+
+use core::fmt;
+
+use crate::Real;
+
+/// A quantity that a caller supplies, with its unit and its valid range.
+///
+/// The range is one both number types can carry through every formula without overflow, and wide enough for
+/// particles from a nanometre to centimetres.
+///
+/// ```
+/// use microimpact::Parameter;
+///
+/// assert_eq!(Parameter::Radius.name(), "radius");
+/// assert_eq!(Parameter::Radius.unit(), "m");
+/// assert_eq!(Parameter::Radius.range(), (1e-10, 1.0));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Parameter {
+    /// Outer radius r of a sphere, m.
+    Radius,
+    /// Wall of a hollow sphere or coating of a coated one, m; at most the radius.
+    Thickness,
+    /// Density of a material, kg/m^3.
+    Density,
+    /// kappa = k^2/r^2, the squared radius of gyration over the squared radius.
+    GyrationRatio,
+    /// Young's modulus E, Pa.
+    YoungsModulus,
+    /// Poisson's ratio nu.
+    PoissonRatio,
+    /// Hertz stiffness K (B2), Pa.
+    Stiffness,
+    /// Size of the normal velocity before the impact, m/s. Zero or less is a particle that does not approach.
+    ApproachSpeed,
+    /// Tangential velocity, m/s.
+    TangentialVelocity,
+    /// Spin, rad/s.
+    Spin,
+    /// Spin times radius: the velocity at which the sphere's surface turns, m/s.
+    PeripheralVelocity,
+    /// Normal velocity after the impact, m/s. Below zero the particle would have passed through the surface.
+    ReboundSpeed,
+    /// Standard error of the measured velocities, m/s.
+    VelocityError,
+    /// Kinetic restitution R, without adhesion.
+    Restitution,
+    /// Speed k of the restitution law R = k/(k + v), m/s.
+    RestitutionSpeed,
+    /// Adhesion coefficient rho.
+    AdhesionCoefficient,
+    /// Work of adhesion W_A, J.
+    WorkOfAdhesion,
+    /// Coulomb's coefficient f.
+    Friction,
+    /// Impulse ratio mu.
+    ImpulseRatio,
+    /// Rolling-dissipation coefficient times its moment arm, mu_m a_c, m.
+    RollingArm,
+    /// Impulse of an external force during one phase of the impact, N s.
+    ExternalImpulse,
+    /// Change of velocity that an external impulse makes, m/s.
+    VelocityChange,
+    /// Constant external force, N.
+    ExternalForce,
+    /// Duration of a contact, s.
+    Duration,
+}
+
+impl Parameter {
+    /// All of them.
+    ///
+    /// ```
+    /// use microimpact::Parameter;
+    ///
+    /// assert!(Parameter::ALL.iter().all(|parameter| parameter.range().0 < parameter.range().1));
+    /// ```
+    pub const ALL: [Self; 24] = [
+        Self::Radius,
+        Self::Thickness,
+        Self::Density,
+        Self::GyrationRatio,
+        Self::YoungsModulus,
+        Self::PoissonRatio,
+        Self::Stiffness,
+        Self::ApproachSpeed,
+        Self::TangentialVelocity,
+        Self::Spin,
+        Self::PeripheralVelocity,
+        Self::ReboundSpeed,
+        Self::VelocityError,
+        Self::Restitution,
+        Self::RestitutionSpeed,
+        Self::AdhesionCoefficient,
+        Self::WorkOfAdhesion,
+        Self::Friction,
+        Self::ImpulseRatio,
+        Self::RollingArm,
+        Self::ExternalImpulse,
+        Self::VelocityChange,
+        Self::ExternalForce,
+        Self::Duration,
+    ];
+
+    /// Name, in the words of the field.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::Parameter::Friction.name(), "friction coefficient");
+    /// ```
+    pub const fn name(self) -> &'static str {
+        self.describe().0
+    }
+
+    /// Unit; "1" where the quantity is a ratio.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::Parameter::Stiffness.unit(), "Pa");
+    /// ```
+    pub const fn unit(self) -> &'static str {
+        self.describe().1
+    }
+
+    /// Smallest and largest valid value, both included.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::Parameter::Restitution.range(), (0.0, 1.0));
+    /// ```
+    pub const fn range(self) -> (f64, f64) {
+        self.describe().2
+    }
+
+    const fn describe(self) -> (&'static str, &'static str, (f64, f64)) {
+        match self {
+            Self::Radius => ("radius", "m", (1e-10, 1.0)),
+            Self::Thickness => ("thickness", "m", (1e-12, 1.0)),
+            Self::Density => ("density", "kg/m^3", (1e-2, 1e6)),
+            Self::GyrationRatio => ("gyration ratio", "1", (1e-3, 1.0)),
+            Self::YoungsModulus => ("Young's modulus", "Pa", (1.0, 1e16)),
+            Self::PoissonRatio => ("Poisson's ratio", "1", (-0.999, 0.5)),
+            Self::Stiffness => ("stiffness", "Pa", (1.0, 1e16)),
+            Self::ApproachSpeed => ("approach speed", "m/s", (1e-12, 1e6)),
+            Self::TangentialVelocity => ("tangential velocity", "m/s", (-1e7, 1e7)),
+            Self::Spin => ("spin", "rad/s", (-1e17, 1e17)),
+            Self::PeripheralVelocity => ("peripheral velocity", "m/s", (-1e7, 1e7)),
+            Self::ReboundSpeed => ("rebound speed", "m/s", (0.0, 1e6)),
+            Self::VelocityError => ("velocity error", "m/s", (0.0, 1e6)),
+            Self::Restitution => ("restitution", "1", (0.0, 1.0)),
+            Self::RestitutionSpeed => ("restitution speed", "m/s", (1e-6, 1e12)),
+            Self::AdhesionCoefficient => ("adhesion coefficient", "1", (0.0, 1.0)),
+            Self::WorkOfAdhesion => ("work of adhesion", "J", (0.0, 1e6)),
+            Self::Friction => ("friction coefficient", "1", (0.0, 1e3)),
+            Self::ImpulseRatio => ("impulse ratio", "1", (-1e3, 1e3)),
+            Self::RollingArm => ("rolling-dissipation arm", "m", (0.0, 1.0)),
+            Self::ExternalImpulse => ("external impulse", "N s", (-1e6, 1e6)),
+            Self::VelocityChange => ("velocity change by an external impulse", "m/s", (-1e7, 1e7)),
+            Self::ExternalForce => ("external force", "N", (-1e6, 1e6)),
+            Self::Duration => ("duration", "s", (0.0, 1.0)),
+        }
+    }
+
+    /// The value itself when it lies in the parameter's range.
+    ///
+    /// # Errors
+    /// [`InputError`] naming the parameter when the value is not a number or outside the range.
+    ///
+    /// ```
+    /// use microimpact::{Fault, Parameter};
+    ///
+    /// assert_eq!(Parameter::Density.check(2600.0), Ok(2600.0));
+    /// assert_eq!(Parameter::Density.check(f64::NAN).unwrap_err().fault, Fault::NotFinite);
+    /// assert_eq!(Parameter::Density.check(0.0).unwrap_err().fault, Fault::TooSmall);
+    /// ```
+    #[inline]
+    pub fn check<T: Real>(self, value: T) -> Result<T, InputError> {
+        let (smallest, largest) = self.range();
+        let fault = if !value.is_finite() {
+            Fault::NotFinite
+        } else if value < T::constant(smallest) {
+            Fault::TooSmall
+        } else if value > T::constant(largest) {
+            Fault::TooLarge
+        } else {
+            return Ok(value);
+        };
+        Err(InputError { parameter: self, fault })
+    }
+}
+
+/// How a value misses its range.
+///
+/// ```
+/// use microimpact::{ConstantRestitution, Fault};
+///
+/// assert_eq!(ConstantRestitution::new(1.5).unwrap_err().fault, Fault::TooLarge);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Fault {
+    /// NaN or infinite.
+    NotFinite,
+    /// Below the smallest valid value.
+    TooSmall,
+    /// Above the largest valid value.
+    TooLarge,
+    /// A thickness that exceeds the radius of its sphere.
+    ExceedsRadius,
+}
+
+/// An input that is not valid: which one, and how.
+///
+/// ```
+/// use microimpact::{Parameter, Sphere};
+///
+/// let error = Sphere::solid(-1e-6, 2600.0).unwrap_err();
+/// assert_eq!(error.parameter, Parameter::Radius);
+/// assert_eq!(error.to_string(), "radius is below its range, 1e-10 to 1 m");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct InputError {
+    /// The quantity at fault.
+    pub parameter: Parameter,
+    /// What is wrong with it.
+    pub fault: Fault,
+}
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (smallest, largest) = self.parameter.range();
+        let fault = match self.fault {
+            Fault::NotFinite => "is not a finite number",
+            Fault::TooSmall => "is below its range",
+            Fault::TooLarge => "is above its range",
+            Fault::ExceedsRadius => "exceeds the radius",
+        };
+        write!(f, "{} {fault}, {} to {}", self.parameter.name(), Bound(smallest), Bound(largest))?;
+        match self.parameter.unit() {
+            "1" => Ok(()),
+            unit => write!(f, " {unit}"),
+        }
+    }
+}
+
+impl core::error::Error for InputError {}
+
+/// A bound of a range as a person writes it: with an exponent where it is far from one.
+struct Bound(f64);
+
+impl fmt::Display for Bound {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.abs() {
+            size if size == 0.0 || (1e-3..1e4).contains(&size) => write!(f, "{}", self.0),
+            _ => write!(f, "{:e}", self.0),
+        }
+    }
+}
+
+/// Velocities that no impact can have, or an input that is not valid at all.
+///
+/// ```
+/// use microimpact::{ConstantRestitution, ImpactError, NormalImpact, NormalMotion};
+///
+/// let law = ConstantRestitution::new(0.9)?;
+/// let before = NormalMotion::new(2.0)?;
+/// assert_eq!(
+///     NormalImpact::from_measurement(&law, &before, 1.9),
+///     Err(ImpactError::ReboundExceedsRestitution)
+/// );
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ImpactError {
+    /// An input lies outside its range.
+    Input(InputError),
+    /// The rebound is faster than the kinetic restitution R allows: the adhesion coefficient would be negative.
+    ReboundExceedsRestitution,
+    /// The impulse ratio lies outside its bounds, 0 to mu_0: friction would drive the slip or reverse it.
+    ImpulseRatioOutsideBounds,
+    /// The kinetic energy after the impact exceeds that before it.
+    EnergyGained,
+}
+
+impl From<InputError> for ImpactError {
+    fn from(error: InputError) -> Self {
+        Self::Input(error)
+    }
+}
+
+impl fmt::Display for ImpactError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Input(error) => return error.fmt(f),
+            Self::ReboundExceedsRestitution => {
+                "rebound speed exceeds R times the approach speed: the adhesion coefficient would lie outside 0 to 1"
+            }
+            Self::ImpulseRatioOutsideBounds => "impulse ratio lies outside its bounds, 0 to mu_0",
+            Self::EnergyGained => "kinetic energy after the impact exceeds that before it, ratio above 1",
+        })
+    }
+}
+
+impl core::error::Error for ImpactError {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::Input(error) => Some(error),
+            _ => None,
+        }
+    }
+}

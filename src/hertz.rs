@@ -1,0 +1,61 @@
+//! Hertz's elastic impact: its peak and its duration, without adhesion or loss.
+
+use core::f64::consts::PI;
+
+use crate::{Approach, Real, Sphere, Stiffness};
+
+/// Peak values and duration of an elastic impact of a sphere on a flat surface.
+///
+/// ```
+/// use microimpact::{Hertz, Material, NormalMotion, Sphere, Stiffness};
+///
+/// // The mean sphere of the paper: glass of 4.3 um radius on steel, at 2.8 m/s.
+/// let stiffness = Stiffness::between(&Material::new(72e9, 0.21)?, &Material::new(207e9, 0.27)?)?;
+/// let hertz = Hertz::new(&Sphere::solid(4.3e-6, 2600.0)?, stiffness, &NormalMotion::new(2.8)?);
+/// assert!((hertz.indentation - 1.97e-8_f64).abs() < 0.005e-8);
+/// assert!((hertz.force - 4.31e-4).abs() < 0.005e-4);
+/// assert!((hertz.duration - 2.07e-8).abs() < 0.005e-8);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hertz<T> {
+    /// Peak indentation delta_max, m.
+    pub indentation: T,
+    /// Contact radius a = sqrt(r delta_max) at the peak, m.
+    pub contact_radius: T,
+    /// Peak force F_max = sqrt(r) K delta_max^(3/2), N.
+    pub force: T,
+    /// Duration of contact T = 2.9432752 delta_max/v, s.
+    pub duration: T,
+}
+
+impl<T: Real> Hertz<T> {
+    /// The impact of a sphere that approaches as in `motion`; only the normal part of the motion counts.
+    ///
+    /// ```
+    /// use microimpact::{Hertz, NormalMotion, Sphere, Stiffness};
+    ///
+    /// let sphere = Sphere::solid(1e-6, 1000.0)?;
+    /// let stiffness = Stiffness::new(1e10)?;
+    /// let slow = Hertz::new(&sphere, stiffness, &NormalMotion::new(1.0)?);
+    /// let fast = Hertz::new(&sphere, stiffness, &NormalMotion::new(32.0)?);
+    /// assert!((fast.indentation / slow.indentation - 16.0_f64).abs() < 1e-12);
+    /// assert!((fast.duration / slow.duration - 0.5).abs() < 1e-12);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn new(sphere: &Sphere<T>, stiffness: Stiffness<T>, motion: &impl Approach<T>) -> Self {
+        let radius = sphere.radius();
+        let speed = motion.normal().speed();
+        // delta_max = (5 m v^2/(4 sqrt(r) K))^(2/5) in units of r, where m/r^3 = 4 pi density/3: neither the
+        // mass of a nanometre sphere nor its energy appears, which single precision could not hold.
+        let compression = T::constant(5.0 * PI / 3.0) * sphere.density() / stiffness.pascals() * speed * speed;
+        let depth = compression.two_fifths_power();
+        let root = depth.sqrt();
+        Self {
+            indentation: radius * depth,
+            contact_radius: radius * root,
+            force: radius * radius * stiffness.pascals() * depth * root,
+            duration: T::constant(2.943_275_2) * radius * depth / speed,
+        }
+    }
+}

@@ -1,0 +1,25 @@
+#![doc = include_str!("../README.md")]
+#![no_std]
+#![forbid(unsafe_code)]
+
+mod classify;
+mod error;
+mod hertz;
+mod motion;
+mod real;
+pub mod rigid;
+mod scene;
+mod sphere;
+mod surface;
+
+pub use classify::{Class, Classification, ContactClass, CriticalSpeed, Outcome, SurfaceMotion};
+pub use error::{Fault, ImpactError, InputError, Parameter};
+pub use hertz::Hertz;
+pub use motion::{Approach, NormalMotion, Oblique, ObliqueMotion, PlanarMotion};
+pub use real::Real;
+pub use rigid::{
+    ConstantRestitution, Impact, NormalImpact, RestitutionLaw, RigidBody, SpeedRestitution, TangentialImpact,
+};
+pub use scene::{Coulomb, NoAdhesion, NoFriction};
+pub use sphere::Sphere;
+pub use surface::{Material, Stiffness};

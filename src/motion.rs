@@ -1,0 +1,240 @@
+//! How the sphere moves before the impact: normal, tangential and spinning.
+//!
+//! The normal points out of the surface; an approaching sphere has v_n < 0 and its *approach speed* is -v_n.
+//! Spin is carried as the *peripheral velocity* r w, so that all of a motion is in m/s.
+
+use crate::{InputError, Parameter, Real, Sphere};
+
+/// A motion towards the surface.
+///
+/// ```
+/// use microimpact::{Approach, NormalMotion};
+///
+/// fn speed(motion: &impl Approach<f32>) -> f32 {
+///     motion.normal().speed()
+/// }
+/// let motion = NormalMotion::new(2.8)?;
+/// assert_eq!(speed(&motion), 2.8);
+/// assert_eq!(speed(&motion.with_tangential(1.0)?), 2.8);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+pub trait Approach<T> {
+    /// The part of the motion along the normal.
+    fn normal(&self) -> NormalMotion<T>;
+}
+
+/// A motion that also has a component along the surface.
+///
+/// ```
+/// use microimpact::{NormalMotion, Oblique};
+///
+/// let rolling = NormalMotion::new(1.0)?.with_tangential(3.0)?.with_peripheral_velocity(3.0)?;
+/// assert_eq!(rolling.slip(), 0.0);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+pub trait Oblique<T: Real>: Approach<T> {
+    /// Tangential velocity v_t of the centre, m/s.
+    fn tangential(&self) -> T;
+
+    /// Peripheral velocity r w, m/s.
+    fn peripheral(&self) -> T;
+
+    /// Velocity of the contact point v_ct = v_t - r w, m/s; zero when rolling.
+    fn slip(&self) -> T;
+}
+
+/// Straight towards the surface, without tangential velocity or spin.
+///
+/// ```
+/// use microimpact::NormalMotion;
+///
+/// assert_eq!(NormalMotion::new(2.8)?.speed(), 2.8);
+/// assert!(NormalMotion::new(0.0).is_err());
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalMotion<T> {
+    speed: T,
+}
+
+impl<T: Real> NormalMotion<T> {
+    /// A motion with an approach `speed` -v_n > 0, m/s.
+    ///
+    /// # Errors
+    /// A speed outside its range; a speed of zero or less belongs to a particle that rests or recedes.
+    ///
+    /// ```
+    /// use microimpact::{NormalMotion, Parameter};
+    ///
+    /// assert_eq!(NormalMotion::new(-1.0).unwrap_err().parameter, Parameter::ApproachSpeed);
+    /// ```
+    #[inline]
+    pub fn new(speed: T) -> Result<Self, InputError> {
+        Ok(Self { speed: Parameter::ApproachSpeed.check(speed)? })
+    }
+
+    /// A motion with a signed normal velocity v_n < 0, m/s.
+    ///
+    /// # Errors
+    /// As [`NormalMotion::new`], for -v_n.
+    ///
+    /// ```
+    /// use microimpact::NormalMotion;
+    ///
+    /// assert_eq!(NormalMotion::from_velocity(-2.8), NormalMotion::new(2.8));
+    /// assert!(NormalMotion::from_velocity(2.8).is_err());
+    /// ```
+    #[inline]
+    pub fn from_velocity(normal_velocity: T) -> Result<Self, InputError> {
+        Self::new(-normal_velocity)
+    }
+
+    /// The same motion with a tangential velocity v_t (m/s), without spin.
+    ///
+    /// # Errors
+    /// A velocity outside its range.
+    ///
+    /// ```
+    /// use microimpact::{NormalMotion, Oblique};
+    ///
+    /// assert_eq!(NormalMotion::new(2.8)?.with_tangential(-4.0)?.slip(), -4.0);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn with_tangential(self, velocity: T) -> Result<ObliqueMotion<T>, InputError> {
+        Ok(ObliqueMotion { normal: self, tangential: Parameter::TangentialVelocity.check(velocity)? })
+    }
+
+    /// Approach speed -v_n, m/s.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::NormalMotion::new(2.8)?.speed(), 2.8);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn speed(&self) -> T {
+        self.speed
+    }
+}
+
+impl<T: Real> Approach<T> for NormalMotion<T> {
+    #[inline]
+    fn normal(&self) -> NormalMotion<T> {
+        *self
+    }
+}
+
+/// At an angle to the surface, without spin.
+///
+/// ```
+/// use microimpact::{NormalMotion, Oblique};
+///
+/// let motion = NormalMotion::new(2.0)?.with_tangential(3.0)?;
+/// assert_eq!((motion.tangential(), motion.peripheral()), (3.0, 0.0));
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ObliqueMotion<T> {
+    normal: NormalMotion<T>,
+    tangential: T,
+}
+
+impl<T: Real> ObliqueMotion<T> {
+    /// The same motion of a given `sphere` with a spin w, rad/s.
+    ///
+    /// # Errors
+    /// A spin, or a peripheral velocity r w, outside its range.
+    ///
+    /// ```
+    /// use microimpact::{NormalMotion, Oblique, Sphere};
+    ///
+    /// let sphere = Sphere::solid(5.06e-6, 2600.0)?;
+    /// let motion = NormalMotion::new(2.8)?.with_tangential(0.0)?.with_spin(&sphere, 1.46e5)?;
+    /// assert!((motion.slip() + 0.73876_f64).abs() < 1e-12);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn with_spin(self, sphere: &Sphere<T>, spin: T) -> Result<PlanarMotion<T>, InputError> {
+        self.with_peripheral_velocity(sphere.radius() * Parameter::Spin.check(spin)?)
+    }
+
+    /// The same motion with a spin given by the peripheral velocity r w, m/s.
+    ///
+    /// # Errors
+    /// A velocity outside its range.
+    ///
+    /// ```
+    /// use microimpact::{NormalMotion, Oblique};
+    ///
+    /// let motion = NormalMotion::new(2.8)?.with_tangential(1.0)?.with_peripheral_velocity(0.25)?;
+    /// assert_eq!(motion.slip(), 0.75);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn with_peripheral_velocity(self, velocity: T) -> Result<PlanarMotion<T>, InputError> {
+        Ok(PlanarMotion { oblique: self, peripheral: Parameter::PeripheralVelocity.check(velocity)? })
+    }
+}
+
+impl<T: Real> Approach<T> for ObliqueMotion<T> {
+    #[inline]
+    fn normal(&self) -> NormalMotion<T> {
+        self.normal
+    }
+}
+
+impl<T: Real> Oblique<T> for ObliqueMotion<T> {
+    #[inline]
+    fn tangential(&self) -> T {
+        self.tangential
+    }
+
+    #[inline]
+    fn peripheral(&self) -> T {
+        T::ZERO
+    }
+
+    #[inline]
+    fn slip(&self) -> T {
+        self.tangential
+    }
+}
+
+/// At an angle to the surface and spinning: the whole planar motion.
+///
+/// ```
+/// use microimpact::{NormalMotion, Oblique};
+///
+/// let motion = NormalMotion::new(2.8)?.with_tangential(1.0)?.with_peripheral_velocity(0.25)?;
+/// assert_eq!((motion.tangential(), motion.peripheral()), (1.0, 0.25));
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanarMotion<T> {
+    oblique: ObliqueMotion<T>,
+    peripheral: T,
+}
+
+impl<T: Real> Approach<T> for PlanarMotion<T> {
+    #[inline]
+    fn normal(&self) -> NormalMotion<T> {
+        self.oblique.normal
+    }
+}
+
+impl<T: Real> Oblique<T> for PlanarMotion<T> {
+    #[inline]
+    fn tangential(&self) -> T {
+        self.oblique.tangential
+    }
+
+    #[inline]
+    fn peripheral(&self) -> T {
+        self.peripheral
+    }
+
+    #[inline]
+    fn slip(&self) -> T {
+        self.oblique.tangential - self.peripheral
+    }
+}

@@ -1,0 +1,114 @@
+//! The numbers the models compute with.
+
+use core::fmt::Debug;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A number type that both models can run in.
+///
+/// The core uses the four operations, comparison and the few functions below. It never relies on NaN or
+/// infinity as a signal, so a type without them (fixed point) or with more behind a value (a dual number)
+/// can implement the trait.
+///
+/// ```
+/// use microimpact::Real;
+///
+/// fn hypotenuse<T: Real>(a: T, b: T) -> T {
+///     (a * a + b * b).sqrt()
+/// }
+/// assert_eq!(hypotenuse(3.0_f32, 4.0), 5.0);
+/// assert_eq!(hypotenuse(3.0_f64, 4.0), 5.0);
+/// ```
+pub trait Real:
+    Copy
+    + Debug
+    + PartialOrd
+    + Neg<Output = Self>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + 'static
+{
+    /// Zero.
+    const ZERO: Self;
+    /// One.
+    const ONE: Self;
+    /// Distance from one to the next larger number.
+    const EPSILON: Self;
+
+    /// The number nearest to a constant; the closest bound where the constant lies outside the type's range.
+    fn constant(value: f64) -> Self;
+
+    /// Whether this is a number: neither infinite nor NaN, where the type has those.
+    fn is_finite(self) -> bool;
+
+    /// Square root of a number that is not negative.
+    fn sqrt(self) -> Self;
+
+    /// `self` to the power 2/5, the exponent of Hertz's contact, for a number that is not negative.
+    fn two_fifths_power(self) -> Self;
+
+    /// Quotient, held at the type's largest number where it would overflow; the divisor is positive.
+    fn saturating_div(self, divisor: Self) -> Self;
+
+    /// Size without sign.
+    #[inline]
+    fn abs(self) -> Self {
+        if self < Self::ZERO { -self } else { self }
+    }
+
+    /// The smaller of two numbers.
+    #[inline]
+    fn min(self, other: Self) -> Self {
+        if other < self { other } else { self }
+    }
+
+    /// The larger of two numbers.
+    #[inline]
+    fn max(self, other: Self) -> Self {
+        if other > self { other } else { self }
+    }
+}
+
+macro_rules! impl_real_for_float {
+    ($float:ident, $sqrt:path, $power:path) => {
+        impl Real for $float {
+            const ZERO: Self = 0.0;
+            const ONE: Self = 1.0;
+            const EPSILON: Self = $float::EPSILON;
+
+            #[inline]
+            fn constant(value: f64) -> Self {
+                value as $float
+            }
+
+            #[inline]
+            fn is_finite(self) -> bool {
+                $float::is_finite(self)
+            }
+
+            #[inline]
+            fn sqrt(self) -> Self {
+                $sqrt(self)
+            }
+
+            #[inline]
+            fn two_fifths_power(self) -> Self {
+                $power(self, 0.4)
+            }
+
+            #[inline]
+            fn saturating_div(self, divisor: Self) -> Self {
+                (self / divisor).clamp($float::MIN, $float::MAX)
+            }
+
+            #[inline]
+            fn abs(self) -> Self {
+                $float::abs(self)
+            }
+        }
+    };
+}
+
+impl_real_for_float!(f32, libm::sqrtf, libm::powf);
+impl_real_for_float!(f64, libm::sqrt, libm::pow);

@@ -1,0 +1,123 @@
+//! What adhesion leaves of the rebound.
+
+use crate::{InputError, NoAdhesion, Parameter, Real, Sphere};
+
+/// How adhesion slows a sphere that its body throws back at `body_rebound` = R v.
+///
+/// ```
+/// use microimpact::{NoAdhesion, rigid::ReboundAdhesion};
+///
+/// assert_eq!(NoAdhesion.departure(1.5), 1.5);
+/// ```
+pub trait ReboundAdhesion<T> {
+    /// Speed left after adhesion, m/s: (1 - rho) R v; zero when adhesion holds the sphere.
+    fn departure(&self, body_rebound: T) -> T;
+
+    /// The largest body rebound speed that still leaves a departure of at most `pull` >= 0, both m/s; `None` if
+    /// adhesion holds every rebound.
+    fn holding_speed(&self, pull: T) -> Option<T>;
+}
+
+impl<T: Real> ReboundAdhesion<T> for NoAdhesion {
+    #[inline]
+    fn departure(&self, body_rebound: T) -> T {
+        body_rebound
+    }
+
+    #[inline]
+    fn holding_speed(&self, pull: T) -> Option<T> {
+        Some(pull)
+    }
+}
+
+/// Adhesion that takes the share rho of the body's rebound impulse (A14).
+///
+/// ```
+/// use microimpact::rigid::{AdhesionCoefficient, ReboundAdhesion};
+///
+/// assert_eq!(AdhesionCoefficient::new(0.25)?.departure(2.0), 1.5);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AdhesionCoefficient<T> {
+    remainder: T,
+}
+
+impl<T: Real> AdhesionCoefficient<T> {
+    /// A coefficient rho from 0, no adhesion, to 1, capture.
+    ///
+    /// # Errors
+    /// A value outside its range.
+    ///
+    /// ```
+    /// assert!(microimpact::rigid::AdhesionCoefficient::new(-0.1).is_err());
+    /// ```
+    #[inline]
+    pub fn new(coefficient: T) -> Result<Self, InputError> {
+        Ok(Self { remainder: T::ONE - Parameter::AdhesionCoefficient.check(coefficient)? })
+    }
+}
+
+impl<T: Real> ReboundAdhesion<T> for AdhesionCoefficient<T> {
+    #[inline]
+    fn departure(&self, body_rebound: T) -> T {
+        self.remainder * body_rebound
+    }
+
+    #[inline]
+    fn holding_speed(&self, pull: T) -> Option<T> {
+        (self.remainder > T::ZERO).then(|| pull.saturating_div(self.remainder))
+    }
+}
+
+/// Adhesion that takes a fixed work W_A from the rebound: e^2 = R^2 - B with B = 2 W_A/(m v_n^2) (A33, A34).
+///
+/// ```
+/// use microimpact::{Sphere, rigid::{ReboundAdhesion, WorkOfAdhesion}};
+///
+/// let sphere = Sphere::solid(1e-6, 1000.0)?;
+/// let adhesion = WorkOfAdhesion::new(sphere.mass() * 9.0 / 2.0, &sphere)?;
+/// assert_eq!(adhesion.departure(5.0), 4.0);
+/// assert_eq!(adhesion.departure(3.0), 0.0);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorkOfAdhesion<T> {
+    /// sqrt(2 W_A/m): the rebound whose whole energy adhesion takes, m/s.
+    speed: T,
+}
+
+impl<T: Real> WorkOfAdhesion<T> {
+    /// A work W_A >= 0 (J) on a given sphere.
+    ///
+    /// # Errors
+    /// A value outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Sphere, rigid::WorkOfAdhesion};
+    ///
+    /// assert!(WorkOfAdhesion::new(-1e-12, &Sphere::solid(1e-6, 1000.0)?).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn new(work: T, sphere: &Sphere<T>) -> Result<Self, InputError> {
+        let work = Parameter::WorkOfAdhesion.check(work)?;
+        Ok(Self { speed: (T::constant(2.0) * work / sphere.mass()).sqrt() })
+    }
+}
+
+impl<T: Real> ReboundAdhesion<T> for WorkOfAdhesion<T> {
+    #[inline]
+    fn departure(&self, body_rebound: T) -> T {
+        if body_rebound <= self.speed {
+            return T::ZERO;
+        }
+        // The factors keep the digits that a difference of squares loses close to capture.
+        ((body_rebound - self.speed) * (body_rebound + self.speed)).sqrt()
+    }
+
+    #[inline]
+    fn holding_speed(&self, pull: T) -> Option<T> {
+        Some((self.speed * self.speed + pull * pull).sqrt())
+    }
+}

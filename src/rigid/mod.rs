@@ -1,0 +1,396 @@
+//! The rigid-body model (Appendix A): impulses and coefficients instead of forces and time.
+//!
+//! A scene is a sphere, a restitution law and the terms that take part. Per unit mass an impulse is a change
+//! of velocity, so the model computes in m/s throughout; mass enters only with a work of adhesion, an external
+//! impulse, or where a result in N s or J is asked for.
+
+mod adhesion;
+mod energy;
+mod impulses;
+mod inverse;
+mod microforce;
+mod normal;
+mod restitution;
+mod tangential;
+
+pub use adhesion::{AdhesionCoefficient, ReboundAdhesion, WorkOfAdhesion};
+pub use energy::{EnergyLedger, NormalWorks};
+pub use impulses::{NormalImpulses, Phases, TangentialImpulses};
+pub use inverse::{Departure, infer, infer_assuming_rolling, infer_with_spins};
+pub use microforce::{Microforce, MicroforceTerm, NoMicroforce};
+pub use normal::NormalImpact;
+pub use restitution::{ConstantRestitution, RestitutionLaw, SpeedRestitution};
+pub use tangential::{
+    NoRollingDissipation, RollingDissipation, RollingTerm, TangentialImpact, TangentialOutcome, TangentialTerm,
+};
+
+use crate::{
+    Approach, Classification, Coulomb, CriticalSpeed, ImpactError, InputError, NoAdhesion, NoFriction, Oblique,
+    Outcome, Parameter, Real, Sphere,
+};
+
+/// A sphere and the physics of its impacts: `L` restitution law, `A` adhesion, `F` friction, `D` rolling
+/// dissipation, `E` external microforce. A term that is not named has size zero and costs nothing.
+///
+/// ```
+/// use microimpact::{Class, ConstantRestitution, NormalMotion, RigidBody, Sphere};
+///
+/// // Table 1 of the paper.
+/// let sphere = Sphere::solid(5.06e-6, 2600.0)?;
+/// let scene = RigidBody::new(sphere, ConstantRestitution::new(0.978)?)
+///     .with_adhesion_coefficient(0.237)?
+///     .with_friction(0.1)?;
+/// let before = NormalMotion::new(2.8)?.with_tangential(0.0)?.with_spin(&sphere, 1.46e5)?;
+///
+/// let impact = scene.impact(&before);
+/// assert!((impact.normal.rebound_speed() - 2.09_f64).abs() < 0.005);
+/// assert!((impact.tangential.tangential() - 0.21).abs() < 0.005);
+/// assert!((impact.tangential.spin(&sphere) - 4.16e4).abs() < 0.03e4);
+/// assert_eq!(scene.classify(&before).class(), Class::ReboundRolling);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidBody<T, L, A = NoAdhesion, F = NoFriction, D = NoRollingDissipation, E = NoMicroforce> {
+    sphere: Sphere<T>,
+    restitution: L,
+    adhesion: A,
+    friction: F,
+    rolling: D,
+    microforce: E,
+}
+
+/// The result of an impact; `X` is `()` without friction and [`TangentialImpact`] with it.
+///
+/// ```
+/// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
+///
+/// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.5)?);
+/// let impact = scene.impact(&NormalMotion::new(2.0)?);
+/// assert_eq!(impact.normal.rebound_speed(), 1.0);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact<T, X> {
+    /// Along the normal.
+    pub normal: NormalImpact<T>,
+    /// Along the surface, where friction takes part.
+    pub tangential: X,
+}
+
+impl<T: Real, L: RestitutionLaw<T>> RigidBody<T, L> {
+    /// A scene of a sphere and a restitution law, with no other physics.
+    ///
+    /// ```
+    /// use microimpact::{ConstantRestitution, RigidBody, Sphere};
+    ///
+    /// let scene = RigidBody::new(Sphere::solid(1e-6_f32, 1000.0)?, ConstantRestitution::new(0.9)?);
+    /// assert_eq!(size_of_val(&scene), size_of::<Sphere<f32>>() + size_of::<f32>());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn new(sphere: Sphere<T>, restitution: L) -> Self {
+        Self {
+            sphere,
+            restitution,
+            adhesion: NoAdhesion,
+            friction: NoFriction,
+            rolling: NoRollingDissipation,
+            microforce: NoMicroforce,
+        }
+    }
+}
+
+/// Adding terms.
+impl<T: Real, L, A, F, D, E> RigidBody<T, L, A, F, D, E> {
+    /// The same scene with adhesion given by its coefficient rho, 0 to 1.
+    ///
+    /// # Errors
+    /// A coefficient outside its range.
+    ///
+    /// ```
+    /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
+    ///
+    /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.8)?)
+    ///     .with_adhesion_coefficient(0.25)?;
+    /// assert!((scene.impact(&NormalMotion::new(1.0)?).normal.overall_restitution() - 0.6_f64).abs() < 1e-15);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn with_adhesion_coefficient(
+        self,
+        coefficient: T,
+    ) -> Result<RigidBody<T, L, AdhesionCoefficient<T>, F, D, E>, InputError> {
+        Ok(self.with_adhesion(AdhesionCoefficient::new(coefficient)?))
+    }
+
+    /// The same scene with adhesion given by its work W_A, J (A34).
+    ///
+    /// # Errors
+    /// A work outside its range.
+    ///
+    /// ```
+    /// use microimpact::{ConstantRestitution, CriticalSpeed, RigidBody, Sphere};
+    ///
+    /// let sphere = Sphere::solid(1e-6, 1000.0)?;
+    /// let energy_at_2_m_s = sphere.mass() * 2.0 * 2.0 / 2.0;
+    /// let scene = RigidBody::new(sphere, ConstantRestitution::new(1.0)?).with_work_of_adhesion(energy_at_2_m_s)?;
+    /// assert_eq!(scene.critical_speed(), CriticalSpeed::At(2.0));
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn with_work_of_adhesion(self, work: T) -> Result<RigidBody<T, L, WorkOfAdhesion<T>, F, D, E>, InputError> {
+        let adhesion = WorkOfAdhesion::new(work, &self.sphere)?;
+        Ok(self.with_adhesion(adhesion))
+    }
+
+    /// The same scene with Coulomb friction of `coefficient` f >= 0.
+    ///
+    /// # Errors
+    /// A coefficient outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Class, ConstantRestitution, NormalMotion, RigidBody, Sphere};
+    ///
+    /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.8)?).with_friction(0.3)?;
+    /// let motion = NormalMotion::new(1.0)?.with_tangential(0.5)?;
+    /// assert_eq!(scene.classify(&motion).class(), Class::ReboundRolling);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn with_friction(self, coefficient: T) -> Result<RigidBody<T, L, A, Coulomb<T>, D, E>, InputError> {
+        let Self { sphere, restitution, adhesion, rolling, microforce, .. } = self;
+        let friction = Coulomb::new(coefficient)?;
+        Ok(RigidBody { sphere, restitution, adhesion, friction, rolling, microforce })
+    }
+
+    /// The same scene with an external microforce that gives these impulses (N s, positive out of the surface)
+    /// during approach and rebound.
+    ///
+    /// # Errors
+    /// An impulse outside its range.
+    ///
+    /// ```
+    /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
+    ///
+    /// let sphere = Sphere::solid(1e-3, 1000.0)?;
+    /// let pull = -0.1 * sphere.mass();
+    /// let scene = RigidBody::new(sphere, ConstantRestitution::new(1.0)?).with_external_impulses(0.0, pull)?;
+    /// let impact = scene.impact(&NormalMotion::new(1.0)?);
+    /// assert!((impact.normal.rebound_speed() - 0.9_f64).abs() < 1e-12);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn with_external_impulses(
+        self,
+        approach: T,
+        rebound: T,
+    ) -> Result<RigidBody<T, L, A, F, D, Microforce<T>>, InputError> {
+        let Self { sphere, restitution, adhesion, friction, rolling, .. } = self;
+        let microforce = Microforce::from_impulses(approach, rebound, &sphere)?;
+        Ok(RigidBody { sphere, restitution, adhesion, friction, rolling, microforce })
+    }
+
+    /// The same scene with a constant external force (N, positive out of the surface) over a contact of
+    /// `duration` (s), half of it approach, half rebound.
+    ///
+    /// # Errors
+    /// A force or a duration outside its range.
+    ///
+    /// ```
+    /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
+    ///
+    /// let sphere = Sphere::solid(1e-3, 1000.0)?;
+    /// let weight = -9.81 * sphere.mass();
+    /// let scene = RigidBody::new(sphere, ConstantRestitution::new(1.0)?).with_external_force(weight, 1e-4)?;
+    /// let impact = scene.impact(&NormalMotion::new(1.0)?);
+    /// assert!((impact.normal.rebound_speed() - 1.0_f64).abs() < 1e-12);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_external_force(
+        self,
+        force: T,
+        duration: T,
+    ) -> Result<RigidBody<T, L, A, F, D, Microforce<T>>, InputError> {
+        let force = Parameter::ExternalForce.check(force)?;
+        let impulse = force * Parameter::Duration.check(duration)? / T::constant(2.0);
+        self.with_external_impulses(impulse, impulse)
+    }
+
+    /// The sphere of this scene.
+    ///
+    /// ```
+    /// use microimpact::{ConstantRestitution, RigidBody, Sphere};
+    ///
+    /// let sphere = Sphere::solid(1e-6, 1000.0)?;
+    /// assert_eq!(RigidBody::new(sphere, ConstantRestitution::new(0.9)?).sphere(), &sphere);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn sphere(&self) -> &Sphere<T> {
+        &self.sphere
+    }
+
+    #[inline]
+    fn with_adhesion<B>(self, adhesion: B) -> RigidBody<T, L, B, F, D, E> {
+        let Self { sphere, restitution, friction, rolling, microforce, .. } = self;
+        RigidBody { sphere, restitution, adhesion, friction, rolling, microforce }
+    }
+}
+
+impl<T: Real, L, A, D, E> RigidBody<T, L, A, Coulomb<T>, D, E> {
+    /// The same scene with a moment mu_m a_c P_n (mu_m a_c in m, given without sign) that resists the spin (A15, A16).
+    ///
+    /// # Errors
+    /// An arm outside its range.
+    ///
+    /// ```
+    /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
+    ///
+    /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.8)?).with_friction(0.3)?;
+    /// let resisted = scene.with_rolling_dissipation(2e-8)?;
+    /// let motion = NormalMotion::new(1.0)?.with_tangential(0.5)?;
+    /// let (free, slowed) = (scene.impact(&motion).tangential, resisted.impact(&motion).tangential);
+    /// assert!(slowed.tangential() < free.tangential());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn with_rolling_dissipation(
+        self,
+        arm: T,
+    ) -> Result<RigidBody<T, L, A, Coulomb<T>, RollingDissipation<T>, E>, InputError> {
+        let Self { sphere, restitution, adhesion, friction, microforce, .. } = self;
+        let rolling = RollingDissipation::new(arm, &sphere)?;
+        Ok(RigidBody { sphere, restitution, adhesion, friction, rolling, microforce })
+    }
+}
+
+/// What happens in an impact.
+impl<T, L, A, F, D, E> RigidBody<T, L, A, F, D, E>
+where
+    T: Real,
+    L: RestitutionLaw<T>,
+    A: ReboundAdhesion<T>,
+    E: MicroforceTerm<T>,
+{
+    /// The impact of a sphere that arrives with `motion`.
+    ///
+    /// ```
+    /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
+    ///
+    /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.8)?).with_friction(0.1)?;
+    /// let impact = scene.impact(&NormalMotion::new(1.0)?.with_tangential(5.0)?);
+    /// assert!((impact.tangential.tangential() - 4.82_f64).abs() < 1e-12);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn impact<M>(&self, motion: &M) -> Impact<T, F::Impact>
+    where
+        M: Approach<T>,
+        F: TangentialTerm<T, M, D>,
+    {
+        let normal = NormalImpact::of(&self.restitution, &self.adhesion, &self.microforce, &motion.normal());
+        let tangential = self.friction.impact(&self.sphere, motion, &normal, &self.rolling);
+        Impact { normal, tangential }
+    }
+
+    /// The class of the impact of a sphere that arrives with `motion`, and its margins.
+    ///
+    /// ```
+    /// use microimpact::{ConstantRestitution, NormalMotion, Outcome, RigidBody, Sphere};
+    ///
+    /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.9)?)
+    ///     .with_work_of_adhesion(1e-14)?;
+    /// let slow = scene.classify(&NormalMotion::new(1.0)?);
+    /// assert_eq!(slow.outcome, Outcome::Capture);
+    /// assert!(slow.speed_over_critical.is_some_and(|margin: f64| margin < 0.5));
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn classify<M>(&self, motion: &M) -> Classification<T, <F::Impact as TangentialOutcome<T>>::Class>
+    where
+        M: Approach<T>,
+        F: TangentialTerm<T, M, D>,
+    {
+        self.classify_impact(&self.impact(motion))
+    }
+
+    /// The class of an impact that this scene has computed, or that was measured on it.
+    ///
+    /// ```
+    /// use microimpact::{Class, ConstantRestitution, NormalMotion, RigidBody, Sphere};
+    ///
+    /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.9)?);
+    /// let motion = NormalMotion::new(1.0)?.with_tangential(1.0)?;
+    /// let impact = scene.impact_with_ratio(&motion, -0.1)?;
+    /// assert_eq!(scene.classify_impact(&impact).class(), Class::ReboundSliding);
+    /// # Ok::<(), microimpact::ImpactError>(())
+    /// ```
+    #[inline]
+    pub fn classify_impact<X: TangentialOutcome<T>>(&self, impact: &Impact<T, X>) -> Classification<T, X::Class> {
+        let outcome = if impact.normal.is_capture() { Outcome::Capture } else { Outcome::Rebound };
+        let speed_over_critical = match self.critical_speed() {
+            CriticalSpeed::At(critical) => Some(impact.normal.approach_speed().saturating_div(critical)),
+            CriticalSpeed::AlwaysRebounds | CriticalSpeed::NeverRebounds => None,
+        };
+        Classification { outcome, speed_over_critical, contact: impact.tangential.classify(outcome) }
+    }
+
+    /// The approach speed that separates capture from rebound.
+    ///
+    /// With a work of adhesion it follows from e^2 = R^2 - B (A34) at e = 0.
+    ///
+    /// ```
+    /// use microimpact::{ConstantRestitution, CriticalSpeed, RigidBody, Sphere};
+    ///
+    /// let sphere = Sphere::solid(1e-6, 1000.0)?;
+    /// let scene = RigidBody::new(sphere, ConstantRestitution::new(0.5)?).with_work_of_adhesion(sphere.mass() / 2.0)?;
+    /// assert_eq!(scene.critical_speed(), CriticalSpeed::At(2.0));
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn critical_speed(&self) -> CriticalSpeed<T> {
+        let Some(pull) = self.microforce.pull() else {
+            return CriticalSpeed::AlwaysRebounds;
+        };
+        let body_approach = self.adhesion.holding_speed(pull).and_then(|speed| self.restitution.approach_speed(speed));
+        match body_approach.map(|speed| self.microforce.approach_speed(speed)) {
+            Some(speed) if speed > T::ZERO => CriticalSpeed::At(speed),
+            Some(_) => CriticalSpeed::AlwaysRebounds,
+            None => CriticalSpeed::NeverRebounds,
+        }
+    }
+}
+
+impl<T, L, A, E> RigidBody<T, L, A, NoFriction, NoRollingDissipation, E>
+where
+    T: Real,
+    L: RestitutionLaw<T>,
+    A: ReboundAdhesion<T>,
+    E: MicroforceTerm<T>,
+{
+    /// The impact of a sphere whose impulse ratio mu = P_t/P_n is known, whatever the tangential process.
+    ///
+    /// # Errors
+    /// A ratio outside its range, or outside its bounds for this impact: from 0 to mu_0 (A27).
+    ///
+    /// ```
+    /// use microimpact::{ConstantRestitution, ImpactError, NormalMotion, RigidBody, Sphere};
+    ///
+    /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(1.0)?);
+    /// let motion = NormalMotion::new(1.0)?.with_tangential(-0.7)?;
+    /// let impact = scene.impact_with_ratio(&motion, 0.05)?;
+    /// assert!((impact.tangential.tangential() + 0.6_f64).abs() < 1e-12);
+    /// assert_eq!(scene.impact_with_ratio(&motion, 0.11), Err(ImpactError::ImpulseRatioOutsideBounds));
+    /// # Ok::<(), ImpactError>(())
+    /// ```
+    pub fn impact_with_ratio<M: Oblique<T>>(
+        &self,
+        motion: &M,
+        ratio: T,
+    ) -> Result<Impact<T, TangentialImpact<T>>, ImpactError> {
+        let ratio = Parameter::ImpulseRatio.check(ratio)?;
+        let normal = NormalImpact::of(&self.restitution, &self.adhesion, &self.microforce, &motion.normal());
+        let tangential = TangentialImpact::with_ratio(&self.sphere, motion, &normal, ratio)?;
+        Ok(Impact { normal, tangential })
+    }
+}

@@ -1,0 +1,122 @@
+//! Kinetic restitution R of the materials, without adhesion (A11).
+
+use crate::{InputError, Parameter, Real};
+
+/// How the kinetic restitution R depends on the approach speed.
+///
+/// A law of your own needs R between 0 and 1, and R(v) v that does not fall as v grows, so that capture and
+/// rebound are separated by one speed.
+///
+/// ```
+/// use microimpact::{ConstantRestitution, CriticalSpeed, NormalMotion, RestitutionLaw, RigidBody, Sphere};
+///
+/// /// R = (v_y/v)^(1/4) above the speed v_y = 1 m/s at which the material yields.
+/// struct Yielding;
+///
+/// impl RestitutionLaw<f64> for Yielding {
+///     fn restitution(&self, speed: f64) -> f64 {
+///         speed.max(1.0).powf(-0.25)
+///     }
+///
+///     fn approach_speed(&self, body_rebound: f64) -> Option<f64> {
+///         Some(if body_rebound < 1.0 { body_rebound } else { body_rebound.powf(4.0 / 3.0) })
+///     }
+/// }
+///
+/// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, Yielding);
+/// assert_eq!(scene.impact(&NormalMotion::new(16.0)?).normal.overall_restitution(), 0.5);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+pub trait RestitutionLaw<T> {
+    /// R at an approach speed in m/s.
+    fn restitution(&self, speed: T) -> T;
+
+    /// The approach speed (m/s) whose body rebound speed R(v) v is `body_rebound`; `None` if none is fast enough.
+    fn approach_speed(&self, body_rebound: T) -> Option<T>;
+}
+
+/// The same R at every speed.
+///
+/// ```
+/// use microimpact::{ConstantRestitution, RestitutionLaw};
+///
+/// let law = ConstantRestitution::new(0.5)?;
+/// assert_eq!(law.restitution(3.0), 0.5);
+/// assert_eq!(law.approach_speed(3.0), Some(6.0));
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConstantRestitution<T> {
+    restitution: T,
+}
+
+impl<T: Real> ConstantRestitution<T> {
+    /// A law with R from 0 to 1.
+    ///
+    /// # Errors
+    /// A value outside its range.
+    ///
+    /// ```
+    /// assert!(microimpact::ConstantRestitution::new(1.01).is_err());
+    /// ```
+    #[inline]
+    pub fn new(restitution: T) -> Result<Self, InputError> {
+        Ok(Self { restitution: Parameter::Restitution.check(restitution)? })
+    }
+}
+
+impl<T: Real> RestitutionLaw<T> for ConstantRestitution<T> {
+    #[inline]
+    fn restitution(&self, _speed: T) -> T {
+        self.restitution
+    }
+
+    #[inline]
+    fn approach_speed(&self, body_rebound: T) -> Option<T> {
+        (self.restitution > T::ZERO).then(|| body_rebound.saturating_div(self.restitution))
+    }
+}
+
+/// R = k/(k + v): restitution falls with speed. k is about 130 m/s for silver-coated glass on steel.
+///
+/// ```
+/// use microimpact::{RestitutionLaw, SpeedRestitution};
+///
+/// let law = SpeedRestitution::new(130.0)?;
+/// assert!((law.restitution(2.8) - 0.979_f64).abs() < 0.0005);
+/// assert_eq!(law.approach_speed(65.0), Some(130.0));
+/// assert_eq!(law.approach_speed(130.0), None);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpeedRestitution<T> {
+    speed: T,
+}
+
+impl<T: Real> SpeedRestitution<T> {
+    /// A law with k in m/s: the speed at which R is one half.
+    ///
+    /// # Errors
+    /// A value outside its range.
+    ///
+    /// ```
+    /// assert!(microimpact::SpeedRestitution::new(0.0).is_err());
+    /// ```
+    #[inline]
+    pub fn new(speed: T) -> Result<Self, InputError> {
+        Ok(Self { speed: Parameter::RestitutionSpeed.check(speed)? })
+    }
+}
+
+impl<T: Real> RestitutionLaw<T> for SpeedRestitution<T> {
+    #[inline]
+    fn restitution(&self, speed: T) -> T {
+        self.speed / (self.speed + speed)
+    }
+
+    #[inline]
+    fn approach_speed(&self, body_rebound: T) -> Option<T> {
+        // R(v) v approaches k from below, so no speed gives a rebound of k or more.
+        (body_rebound < self.speed).then(|| body_rebound * (self.speed / (self.speed - body_rebound)))
+    }
+}

@@ -1,0 +1,191 @@
+//! The particle: a sphere whose mass is distributed with spherical symmetry.
+
+use core::f64::consts::PI;
+
+use crate::{InputError, Parameter, Real, error::Fault};
+
+/// A solid, hollow or coated sphere.
+///
+/// Only its radius r, its mean density and its gyration ratio kappa = k^2/r^2 enter an impact.
+///
+/// ```
+/// use microimpact::Sphere;
+///
+/// let sphere = Sphere::solid(5.06e-6, 2600.0)?;
+/// assert!((sphere.mass() / 1.41e-12_f64 - 1.0).abs() < 0.002);
+/// assert!((sphere.radius_of_gyration() / 3.20e-6 - 1.0).abs() < 0.001);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere<T> {
+    radius: T,
+    density: T,
+    gyration_ratio: T,
+    contact_inertia: T,
+}
+
+impl<T: Real> Sphere<T> {
+    /// A sphere of `radius` (m) made of one material of `density` (kg/m^3): kappa = 2/5.
+    ///
+    /// # Errors
+    /// Radius or density outside its range.
+    ///
+    /// ```
+    /// use microimpact::Sphere;
+    ///
+    /// let sphere = Sphere::solid(1e-6, 1000.0)?;
+    /// assert_eq!(sphere.gyration_ratio(), 0.4);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn solid(radius: T, density: T) -> Result<Self, InputError> {
+        Self::new(radius, density, T::constant(0.4))
+    }
+
+    /// A sphere of `radius` (m) with a wall of `thickness` (m) and `density` (kg/m^3) around an empty core.
+    ///
+    /// kappa lies between 2/5 (no core) and 2/3 (thin wall).
+    ///
+    /// # Errors
+    /// A value outside its range, or a wall thicker than the radius.
+    ///
+    /// ```
+    /// use microimpact::Sphere;
+    ///
+    /// let balloon = Sphere::hollow(30e-6, 1e-9, 2200.0)?;
+    /// assert!((balloon.gyration_ratio() - 2.0 / 3.0_f64).abs() < 3e-5);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn hollow(radius: T, thickness: T, density: T) -> Result<Self, InputError> {
+        let density = Parameter::Density.check(density)?;
+        Self::layered(radius, thickness, T::ZERO, density)
+    }
+
+    /// A core of `core_density` (kg/m^3) under a coating of `thickness` (m) and `coating_density` (kg/m^3);
+    /// `radius` (m) is that of the outside.
+    ///
+    /// # Errors
+    /// A value outside its range, or a coating thicker than the radius.
+    ///
+    /// ```
+    /// use microimpact::Sphere;
+    ///
+    /// let glass = Sphere::solid(5e-6, 2600.0)?;
+    /// let silvered = Sphere::coated(5e-6, 50e-9, 2600.0, 10490.0)?;
+    /// assert!(silvered.mass() > glass.mass());
+    /// assert!(silvered.gyration_ratio() > 0.4_f64);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn coated(radius: T, thickness: T, core_density: T, coating_density: T) -> Result<Self, InputError> {
+        let core_density = Parameter::Density.check(core_density)?;
+        let coating_density = Parameter::Density.check(coating_density)?;
+        Self::layered(radius, thickness, core_density, coating_density)
+    }
+
+    /// A sphere of known `radius` (m), mean `density` (kg/m^3) and `gyration_ratio` kappa = k^2/r^2.
+    ///
+    /// # Errors
+    /// A value outside its range.
+    ///
+    /// ```
+    /// use microimpact::Sphere;
+    ///
+    /// assert_eq!(Sphere::new(1e-6, 1000.0, 0.4), Sphere::solid(1e-6, 1000.0));
+    /// ```
+    #[inline]
+    pub fn new(radius: T, density: T, gyration_ratio: T) -> Result<Self, InputError> {
+        let radius = Parameter::Radius.check(radius)?;
+        let density = Parameter::Density.check(density)?;
+        let gyration_ratio = Parameter::GyrationRatio.check(gyration_ratio)?;
+        Ok(Self { radius, density, gyration_ratio, contact_inertia: gyration_ratio / (T::ONE + gyration_ratio) })
+    }
+
+    /// A homogeneous core under a homogeneous layer.
+    ///
+    /// With q = 1 - thickness/radius the masses are as q^3 and 1 - q^3, the moments of inertia as q^5 and
+    /// 1 - q^5. Both differences are taken as (1 - q) times a sum, which stays exact for a thin layer.
+    fn layered(radius: T, thickness: T, core: T, layer: T) -> Result<Self, InputError> {
+        let radius = Parameter::Radius.check(radius)?;
+        let thickness = Parameter::Thickness.check(thickness)?;
+        if thickness > radius {
+            return Err(InputError { parameter: Parameter::Thickness, fault: Fault::ExceedsRadius });
+        }
+        let depth = thickness / radius;
+        let q = T::ONE - depth;
+        let q2 = q * q;
+        let q3 = q2 * q;
+        let layer_mass = layer * depth * (T::ONE + q + q2);
+        let layer_inertia = layer * depth * (T::ONE + q + q2 + q3 + q2 * q2);
+        let density = core * q3 + layer_mass;
+        let inertia = core * q3 * q2 + layer_inertia;
+        Self::new(radius, density, T::constant(0.4) * inertia / density)
+    }
+
+    /// Outer radius r, m.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::Sphere::solid(1e-6, 1000.0)?.radius(), 1e-6);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn radius(&self) -> T {
+        self.radius
+    }
+
+    /// Mean density, kg/m^3.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::Sphere::solid(1e-6, 1000.0)?.density(), 1000.0);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn density(&self) -> T {
+        self.density
+    }
+
+    /// Mass m = (4/3) pi density r^3, kg.
+    ///
+    /// ```
+    /// let droplet = microimpact::Sphere::solid(1e-3, 1000.0)?;
+    /// assert!((droplet.mass() - 4.18879e-6_f64).abs() < 1e-11);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn mass(&self) -> T {
+        T::constant(4.0 / 3.0 * PI) * self.density * self.radius * self.radius * self.radius
+    }
+
+    /// Gyration ratio kappa = k^2/r^2.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::Sphere::solid(1e-6, 1000.0)?.gyration_ratio(), 0.4);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn gyration_ratio(&self) -> T {
+        self.gyration_ratio
+    }
+
+    /// Radius of gyration k, m.
+    ///
+    /// ```
+    /// let sphere = microimpact::Sphere::new(2e-6, 1000.0, 0.25)?;
+    /// assert_eq!(sphere.radius_of_gyration(), 1e-6);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn radius_of_gyration(&self) -> T {
+        self.radius * self.gyration_ratio.sqrt()
+    }
+
+    /// Share of the mass that a tangential force at the contact point has to move: kappa/(1 + kappa), 2/7 when solid.
+    ///
+    /// ```
+    /// let solid = microimpact::Sphere::solid(1e-6, 1000.0)?;
+    /// assert!((solid.contact_inertia() - 2.0 / 7.0_f64).abs() < 1e-15);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn contact_inertia(&self) -> T {
+        self.contact_inertia
+    }
+}
