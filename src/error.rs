@@ -175,16 +175,24 @@ impl Parameter {
     #[inline]
     pub fn check<T: Real>(self, value: T) -> Result<T, InputError> {
         let (smallest, largest) = self.range();
+        // Both comparisons fail for NaN.
+        if value >= T::constant(smallest) && value <= T::constant(largest) {
+            Ok(value)
+        } else {
+            Err(self.refuse(value, T::constant(smallest)))
+        }
+    }
+
+    #[cold]
+    fn refuse<T: Real>(self, value: T, smallest: T) -> InputError {
         let fault = if !value.is_finite() {
             Fault::NotFinite
-        } else if value < T::constant(smallest) {
+        } else if value < smallest {
             Fault::TooSmall
-        } else if value > T::constant(largest) {
-            Fault::TooLarge
         } else {
-            return Ok(value);
+            Fault::TooLarge
         };
-        Err(InputError { parameter: self, fault })
+        InputError { parameter: self, fault }
     }
 }
 

@@ -118,6 +118,7 @@ impl<T: Real> ReboundAdhesion<T> for WorkOfAdhesion<T> {
 
     #[inline]
     fn holding_speed(&self, pull: T) -> Option<T> {
-        Some((self.speed * self.speed + pull * pull).sqrt())
+        let held = if pull > T::ZERO { (self.speed * self.speed + pull * pull).sqrt() } else { self.speed };
+        Some(held)
     }
 }

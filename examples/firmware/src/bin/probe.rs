@@ -1,0 +1,17 @@
+//! Calls all of the library and links only if nothing in it can panic: the panic
+//! handler refers to a symbol that does not exist.
+
+#![no_std]
+#![no_main]
+
+use cortex_m_rt::entry;
+use microimpact_firmware::entries;
+use panic_never as _;
+
+#[entry]
+fn main() -> ! {
+    loop {
+        entries::call_all::<f32>();
+        entries::call_all::<f64>();
+    }
+}

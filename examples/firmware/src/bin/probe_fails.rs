@@ -1,0 +1,20 @@
+//! The same as `probe`, and one index that may be out of bounds: must not link, or
+//! else `probe` proves nothing.
+
+#![no_std]
+#![no_main]
+
+use core::hint::black_box;
+
+use cortex_m_rt::entry;
+use microimpact_firmware::entries;
+use panic_never as _;
+
+#[entry]
+fn main() -> ! {
+    loop {
+        entries::call_all::<f32>();
+        entries::call_all::<f64>();
+        black_box([1, 2, 3][black_box(0)]);
+    }
+}

@@ -1,0 +1,231 @@
+//! The scenes in which the impacts are classified: normal impacts only, or friction
+//! and spin, each with adhesion given in either way, in f32 and in f64.
+
+use core::fmt::LowerExp;
+use core::hint::black_box;
+
+use microimpact::rigid::{AdhesionCoefficient, ReboundAdhesion, WorkOfAdhesion};
+use microimpact::{
+    Class, Classification, ContactClass, Coulomb, NormalMotion, Outcome, PlanarMotion, Real, RigidBody,
+    SpeedRestitution, Sphere,
+};
+
+use super::impacts::{IMPACTS, Impact};
+
+// The sphere of Brach & Dunn (1995), Table 1.
+const RADIUS_M: f64 = 5.06e-6;
+const DENSITY_KG_M3: f64 = 2600.0;
+const RESTITUTION_SPEED_M_S: f64 = 130.0;
+const ADHESION_COEFFICIENT: f64 = 0.237;
+const WORK_OF_ADHESION_J: f64 = 2.22e-12;
+const FRICTION: f64 = 0.1;
+
+/// A number type of the comparison.
+pub trait Number: Real + LowerExp {
+    /// Its name in tables.
+    const NAME: &'static str;
+}
+
+impl Number for f32 {
+    const NAME: &'static str = "f32";
+}
+
+impl Number for f64 {
+    const NAME: &'static str = "f64";
+}
+
+/// What an instrument measures before an impact.
+#[derive(Debug, Clone, Copy)]
+pub struct Measured<T> {
+    /// Approach speed in m/s.
+    pub approach_m_s: T,
+    /// Tangential velocity in m/s.
+    pub tangential_m_s: T,
+    /// Spin in rad/s.
+    pub spin_rad_s: T,
+}
+
+impl<T: Number> From<&Impact> for Measured<T> {
+    fn from(impact: &Impact) -> Self {
+        Self {
+            approach_m_s: T::constant(impact.approach_m_s),
+            tangential_m_s: T::constant(impact.tangential_m_s),
+            spin_rad_s: T::constant(impact.spin_rad_s),
+        }
+    }
+}
+
+/// A verdict in the form in which the firmware prints it and the host compares it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Answer<T> {
+    /// One word for how the impact ends.
+    pub class: &'static str,
+    /// Approach speed over critical speed, where there is one.
+    pub speed_margin: Option<T>,
+    /// Friction over the impulse ratio that ends sliding, where there is one.
+    pub friction_margin: Option<T>,
+}
+
+/// A scene, and the steps of its use.
+pub trait Scene<T: Number>: Sized {
+    /// Its name in tables.
+    const NAME: &'static str;
+    /// Whether it knows tangential motion and spin.
+    const PLANAR: bool;
+    /// A validated motion.
+    type Motion;
+    /// What the library says of an impact.
+    type Verdict: Into<Answer<T>>;
+
+    /// The scene, validated.
+    fn new() -> Option<Self>;
+    /// The validated motion.
+    fn motion(&self, measured: &Measured<T>) -> Option<Self::Motion>;
+    /// The classification itself.
+    fn classify(&self, motion: &Self::Motion) -> Self::Verdict;
+
+    /// The impacts that suit this scene.
+    fn impacts() -> impl Iterator<Item = &'static Impact> {
+        IMPACTS.iter().filter(|impact| Self::PLANAR || impact.is_normal())
+    }
+}
+
+/// Normal impacts only.
+pub struct Normal<T, A>(RigidBody<T, SpeedRestitution<T>, A>);
+
+/// Friction and spin.
+pub struct Planar<T, A>(RigidBody<T, SpeedRestitution<T>, A, Coulomb<T>>);
+
+impl<T: Number, A: Adhesion<T>> Scene<T> for Normal<T, A> {
+    const NAME: &'static str = A::NORMAL_SCENE;
+    const PLANAR: bool = false;
+    type Motion = NormalMotion<T>;
+    type Verdict = Classification<T, ()>;
+
+    fn new() -> Option<Self> {
+        A::scene().map(Self)
+    }
+
+    fn motion(&self, measured: &Measured<T>) -> Option<Self::Motion> {
+        NormalMotion::new(measured.approach_m_s).ok()
+    }
+
+    // What is counted is the library, not a second call around it.
+    #[inline(always)]
+    fn classify(&self, motion: &Self::Motion) -> Self::Verdict {
+        self.0.classify(motion)
+    }
+}
+
+impl<T: Number, A: Adhesion<T>> Scene<T> for Planar<T, A> {
+    const NAME: &'static str = A::PLANAR_SCENE;
+    const PLANAR: bool = true;
+    type Motion = PlanarMotion<T>;
+    type Verdict = Classification<T, ContactClass<T>>;
+
+    fn new() -> Option<Self> {
+        A::scene()?.with_friction(given(FRICTION)).ok().map(Self)
+    }
+
+    fn motion(&self, measured: &Measured<T>) -> Option<Self::Motion> {
+        NormalMotion::new(measured.approach_m_s)
+            .and_then(|normal| normal.with_tangential(measured.tangential_m_s))
+            .and_then(|oblique| oblique.with_spin(self.0.sphere(), measured.spin_rad_s))
+            .ok()
+    }
+
+    // What is counted is the library, not a second call around it.
+    #[inline(always)]
+    fn classify(&self, motion: &Self::Motion) -> Self::Verdict {
+        self.0.classify(motion)
+    }
+}
+
+/// A way to give the adhesion of a scene.
+pub trait Adhesion<T: Number>: ReboundAdhesion<T> + Sized {
+    /// Name of the scene with normal impacts only.
+    const NORMAL_SCENE: &'static str;
+    /// Name of the scene with friction and spin.
+    const PLANAR_SCENE: &'static str;
+
+    /// The scene with nothing but this adhesion.
+    fn scene() -> Option<RigidBody<T, SpeedRestitution<T>, Self>>;
+}
+
+impl<T: Number> Adhesion<T> for AdhesionCoefficient<T> {
+    const NORMAL_SCENE: &'static str = "normal/coefficient";
+    const PLANAR_SCENE: &'static str = "planar/coefficient";
+
+    fn scene() -> Option<RigidBody<T, SpeedRestitution<T>, Self>> {
+        bare_scene()?.with_adhesion_coefficient(given(ADHESION_COEFFICIENT)).ok()
+    }
+}
+
+impl<T: Number> Adhesion<T> for WorkOfAdhesion<T> {
+    const NORMAL_SCENE: &'static str = "normal/work";
+    const PLANAR_SCENE: &'static str = "planar/work";
+
+    fn scene() -> Option<RigidBody<T, SpeedRestitution<T>, Self>> {
+        bare_scene()?.with_work_of_adhesion(given(WORK_OF_ADHESION_J)).ok()
+    }
+}
+
+fn bare_scene<T: Number>() -> Option<RigidBody<T, SpeedRestitution<T>>> {
+    let sphere = Sphere::solid(given(RADIUS_M), given(DENSITY_KG_M3)).ok()?;
+    let restitution = SpeedRestitution::new(given(RESTITUTION_SPEED_M_S)).ok()?;
+    Some(RigidBody::new(sphere, restitution))
+}
+
+/// A number that the compiler does not know, as if it were read from a configuration:
+/// without this it would do the work of the scene beforehand and measure nothing.
+fn given<T: Number>(number: f64) -> T {
+    black_box(T::constant(number))
+}
+
+impl<T> From<Classification<T, ()>> for Answer<T> {
+    fn from(verdict: Classification<T, ()>) -> Self {
+        Self {
+            class: match verdict.outcome {
+                Outcome::Rebound => "rebound",
+                Outcome::Capture => "captured",
+            },
+            speed_margin: verdict.speed_over_critical,
+            friction_margin: None,
+        }
+    }
+}
+
+impl<T> From<Classification<T, ContactClass<T>>> for Answer<T> {
+    fn from(verdict: Classification<T, ContactClass<T>>) -> Self {
+        Self {
+            class: match verdict.class() {
+                Class::ReboundSliding => "rebound-sliding",
+                Class::ReboundRolling => "rebound-rolling",
+                Class::CapturedSliding => "captured-sliding",
+                Class::CapturedRolling => "captured-rolling",
+                Class::CapturedResting => "captured-resting",
+            },
+            speed_margin: verdict.speed_over_critical,
+            friction_margin: verdict.contact.friction_over_limit,
+        }
+    }
+}
+
+/// Work to do for every scene and number type.
+pub trait Visitor {
+    /// Does it for one of them.
+    fn visit<T: Number, S: Scene<T>>(&mut self);
+}
+
+/// Goes through all scenes in both number types.
+pub fn visit_scenes(visitor: &mut impl Visitor) {
+    visit_scenes_of::<f32>(visitor);
+    visit_scenes_of::<f64>(visitor);
+}
+
+fn visit_scenes_of<T: Number>(visitor: &mut impl Visitor) {
+    visitor.visit::<T, Normal<T, AdhesionCoefficient<T>>>();
+    visitor.visit::<T, Normal<T, WorkOfAdhesion<T>>>();
+    visitor.visit::<T, Planar<T, AdhesionCoefficient<T>>>();
+    visitor.visit::<T, Planar<T, WorkOfAdhesion<T>>>();
+}

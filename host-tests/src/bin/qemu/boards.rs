@@ -1,0 +1,30 @@
+//! The emulated boards, one for each processor core.
+
+/// An emulated board and what the firmware must be built for.
+pub(crate) struct Board {
+    /// The processor core.
+    pub(crate) core: &'static str,
+    /// QEMU's name of the board.
+    pub(crate) machine: &'static str,
+    /// Rust's name of the target.
+    pub(crate) triple: &'static str,
+    /// The processor to optimise for, where it offers more than the target assumes.
+    pub(crate) cpu: Option<&'static str>,
+}
+
+/// The core for which the library's promises of size and speed hold.
+pub(crate) const REFERENCE_CORE: &str = "Cortex-M4F";
+
+/// Every board of a run, from the smallest core to the largest.
+pub(crate) const BOARDS: [Board; 4] = [
+    Board { core: "Cortex-M0", machine: "microbit", triple: "thumbv6m-none-eabi", cpu: None },
+    Board { core: "Cortex-M3", machine: "mps2-an385", triple: "thumbv7m-none-eabi", cpu: None },
+    Board { core: REFERENCE_CORE, machine: "mps2-an386", triple: "thumbv7em-none-eabihf", cpu: None },
+    Board {
+        core: "Cortex-M7",
+        machine: "mps2-an500",
+        triple: "thumbv7em-none-eabihf",
+        // The target alone assumes single precision; this core also has double.
+        cpu: Some("cortex-m7"),
+    },
+];

@@ -1,0 +1,189 @@
+//! The figures of a run, and those of an earlier one to compare with.
+
+use std::fmt::{self, Display};
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::firmware::repository;
+
+/// What is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Quantity {
+    /// A classification.
+    Classify,
+    /// A classification and the validation of the measured motion before it.
+    SetUpAndClassify,
+    Stack,
+    Flash,
+    StaticMemory,
+}
+
+impl Quantity {
+    const ALL: [Self; 5] = [Self::Classify, Self::SetUpAndClassify, Self::Stack, Self::Flash, Self::StaticMemory];
+
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Classify => "classify",
+            Self::SetUpAndClassify => "set up and classify",
+            Self::Stack => "stack",
+            Self::Flash => "flash",
+            Self::StaticMemory => "static memory",
+        }
+    }
+
+    pub(crate) fn unit(self) -> &'static str {
+        match self {
+            Self::Classify | Self::SetUpAndClassify => "instructions",
+            Self::Stack | Self::Flash | Self::StaticMemory => "bytes",
+        }
+    }
+}
+
+/// What a figure belongs to; `impact` is empty where it belongs to a whole scene.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Subject {
+    pub(crate) core: String,
+    pub(crate) scene: String,
+    pub(crate) scalar: String,
+    pub(crate) impact: String,
+    pub(crate) quantity: Quantity,
+}
+
+impl Display for Subject {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { core, scene, scalar, impact, quantity } = self;
+        write!(f, "{core}, {scene}, {scalar}")?;
+        if !impact.is_empty() {
+            write!(f, ", {impact}")?;
+        }
+        write!(f, ": {}", quantity.name())
+    }
+}
+
+/// One measured number.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Figure {
+    pub(crate) subject: Subject,
+    pub(crate) value: u32,
+}
+
+const COLUMNS: [&str; 8] = ["compiler", "core", "scene", "scalar", "impact", "quantity", "value", "unit"];
+
+/// Writes figures as CSV, with their column names.
+pub(crate) fn write(rows: &[(&str, &Figure)], destination: impl io::Write) -> Result<(), csv::Error> {
+    let mut writer = csv::Writer::from_writer(destination);
+    writer.write_record(COLUMNS)?;
+    for (compiler, Figure { subject, value }) in rows {
+        writer.write_record([
+            compiler,
+            &*subject.core,
+            &*subject.scene,
+            &*subject.scalar,
+            &*subject.impact,
+            subject.quantity.name(),
+            &value.to_string(),
+            subject.quantity.unit(),
+        ])?;
+    }
+    writer.flush()?;
+    Ok(())
+}
+
+/// The figures that are kept in the repository, each with the compiler that led to it.
+pub(crate) struct Stored {
+    rows: Vec<(String, Figure)>,
+}
+
+impl Stored {
+    /// The file in the repository.
+    pub(crate) fn path() -> PathBuf {
+        repository().join("host-tests/data/footprint.csv")
+    }
+
+    pub(crate) fn read(path: &Path) -> Result<Self, String> {
+        if !path.exists() {
+            return Ok(Self { rows: Vec::new() });
+        }
+        let wrong = |error: &dyn Display| {
+            format!("{}: {error}; correct it, or delete it and run `cargo qemu --overwrite`", path.display())
+        };
+        let mut reader = csv::Reader::from_path(path).map_err(|error| wrong(&error))?;
+        let mut rows = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(|error| wrong(&error))?;
+            let row = parse(&record).ok_or_else(|| wrong(&format!("wrong row {record:?}")))?;
+            rows.push(row);
+        }
+        Ok(Self { rows })
+    }
+
+    /// What is worse than stored, for the same compiler.
+    pub(crate) fn compare(&self, compiler: &str, figures: &[Figure]) -> Comparison {
+        let own: Vec<&Figure> = self.rows_of(compiler).collect();
+        let mut comparison = Comparison { stored: own.len(), unknown: 0, worse: Vec::new() };
+        for figure in figures {
+            let Some(before) = own.iter().find(|old| old.subject == figure.subject) else {
+                comparison.unknown += 1;
+                continue;
+            };
+            if is_worse(before.value, figure.value) {
+                comparison.worse.push(format!(
+                    "{}: {} {}, {} when stored; make it better, or accept it with `cargo qemu \
+                     --overwrite`",
+                    figure.subject,
+                    figure.value,
+                    figure.subject.quantity.unit(),
+                    before.value
+                ));
+            }
+        }
+        comparison
+    }
+
+    /// Replaces the figures of one compiler and keeps those of all others.
+    pub(crate) fn overwrite(&self, compiler: &str, figures: &[Figure], path: &Path) -> Result<(), String> {
+        let others = self.rows.iter().filter(|(by, _)| by != compiler);
+        let mut rows: Vec<(&str, &Figure)> = others.map(|(by, figure)| (&**by, figure)).collect();
+        rows.extend(figures.iter().map(|figure| (compiler, figure)));
+        rows.sort_by_key(|(by, _)| *by);
+
+        let wrong = |error: &dyn Display| format!("cannot write {}: {error}", path.display());
+        let file = std::fs::File::create(path).map_err(|error| wrong(&error))?;
+        write(&rows, file).map_err(|error| wrong(&error))
+    }
+
+    fn rows_of(&self, compiler: &str) -> impl Iterator<Item = &Figure> {
+        let own = self.rows.iter().filter(move |(by, _)| by == compiler);
+        own.map(|(_, figure)| figure)
+    }
+}
+
+/// How a run compares with the stored figures of the same compiler.
+pub(crate) struct Comparison {
+    /// Stored figures of this compiler.
+    pub(crate) stored: usize,
+    /// Figures of the run that are not stored.
+    pub(crate) unknown: usize,
+    /// What is worse than it was.
+    pub(crate) worse: Vec<String>,
+}
+
+/// More than 5 %, and more than 2: a few instructions come and go with the weather.
+fn is_worse(before: u32, now: u32) -> bool {
+    let more = now.saturating_sub(before);
+    more > 2 && u64::from(more) * 20 > u64::from(before)
+}
+
+fn parse(record: &csv::StringRecord) -> Option<(String, Figure)> {
+    let text = |column: usize| record.get(column).map(str::to_owned);
+    let quantity = text(5)?;
+    let subject = Subject {
+        core: text(1)?,
+        scene: text(2)?,
+        scalar: text(3)?,
+        impact: text(4)?,
+        quantity: Quantity::ALL.into_iter().find(|known| known.name() == quantity)?,
+    };
+    let value = record.get(6)?.parse().ok()?;
+    Some((text(0)?, Figure { subject, value }))
+}

@@ -1,0 +1,59 @@
+//! The firmware's binaries, built for a board by a cargo of their own.
+
+use std::env;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use crate::boards::Board;
+use crate::process::{self, Finished};
+use crate::toolchain::{Toolchain, target_variable};
+
+/// Generous: the first build on a slow machine compiles `core` too.
+const LIMIT: Duration = Duration::from_secs(900);
+
+/// The repository's top folder.
+pub(crate) fn repository() -> &'static Path {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    package.parent().unwrap_or(package)
+}
+
+/// Builds binaries of the firmware and returns the folder they are in.
+pub(crate) fn build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<PathBuf, String> {
+    let finished = try_build(toolchain, board, binaries)?;
+    if finished.success() {
+        Ok(target_folder(toolchain, board).join(board.triple).join("release"))
+    } else {
+        Err(format!(
+            "{}: building {} failed ({}):\n{}",
+            board.core,
+            binaries.join(", "),
+            finished.ending(),
+            finished.tail(40)
+        ))
+    }
+}
+
+/// Builds binaries that are allowed to fail.
+pub(crate) fn try_build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<Finished, String> {
+    let mut cargo = toolchain.cargo(board.triple);
+    cargo
+        .current_dir(repository().join("examples/firmware"))
+        .args(["--release", "--features", "probe"])
+        .arg("--target-dir")
+        .arg(target_folder(toolchain, board));
+    for binary in binaries {
+        cargo.args(["--bin", binary]);
+    }
+    if let Some(cpu) = board.cpu {
+        let flags = format!("-C target-cpu={cpu}");
+        cargo.env(target_variable(board.triple, "RUSTFLAGS"), flags);
+    }
+    process::run(&mut cargo, LIMIT).map_err(|error| format!("cannot run cargo: {error}"))
+}
+
+/// One for each compiler and processor: targets share a folder without harm, and what
+/// is built for the host only once, but two processors of one target would not.
+fn target_folder(toolchain: &Toolchain, board: &Board) -> PathBuf {
+    let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| repository().join("target"), PathBuf::from);
+    target.join("firmware").join(toolchain.folder()).join(board.cpu.unwrap_or("generic"))
+}

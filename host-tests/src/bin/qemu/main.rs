@@ -1,0 +1,234 @@
+//! `cargo qemu`: builds the firmware of `examples/firmware` for four processor
+//! cores, runs it in QEMU, compares every class with the host's, and reports what
+//! the library costs: instructions, flash, static memory and stack.
+
+use std::io;
+use std::process::ExitCode;
+
+use clap::{Parser, ValueEnum};
+
+use answers::Protocol;
+use boards::{BOARDS, Board, REFERENCE_CORE};
+use figures::{Figure, Quantity, Stored, Subject};
+use footprint::Footprint;
+use packages::Permission;
+use toolchain::{Choice, Toolchain};
+
+mod answers;
+mod boards;
+mod emulator;
+mod figures;
+mod firmware;
+mod footprint;
+mod limits;
+mod packages;
+mod panics;
+mod process;
+mod report;
+mod toolchain;
+
+/// Runs the firmware on emulated Cortex-M0, M3, M4F and M7, and reports class and
+/// instructions of every classification, flash, static memory, stack, and whether a
+/// panicking path is left.
+///
+/// What is missing is installed where that is possible: targets by rustup, or else
+/// Debian's compiler, and QEMU.
+#[derive(Parser)]
+#[command(name = "cargo qemu", bin_name = "cargo qemu")]
+struct Arguments {
+    /// Form of the figures on standard output
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+    /// Compiler for the boards
+    #[arg(long, value_enum, default_value_t = Choice::Auto)]
+    toolchain: Choice,
+    /// Store the figures as those that later runs are compared with
+    #[arg(long)]
+    overwrite: bool,
+    /// Install nothing; say what is missing
+    #[arg(long)]
+    no_install: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Table,
+    Csv,
+}
+
+fn main() -> ExitCode {
+    let failures = match run(&Arguments::parse()) {
+        Ok(failures) => failures,
+        Err(error) => vec![error],
+    };
+    if failures.is_empty() {
+        eprintln!("all is well");
+        return ExitCode::SUCCESS;
+    }
+    eprintln!("\n{} failed:", failures.len());
+    for failure in &failures {
+        eprintln!("* {}", failure.replace('\n', "\n  "));
+    }
+    ExitCode::FAILURE
+}
+
+/// Everything that went wrong although the run could go on; `Err` if it could not.
+fn run(arguments: &Arguments) -> Result<Vec<String>, String> {
+    let permission = if arguments.no_install { Permission::LookOnly } else { Permission::Install };
+    let stored = Stored::read(&Stored::path())?;
+    let expected = answers::expected()?;
+    let (toolchain, emulator) = match tools(arguments.toolchain, permission) {
+        Ok(tools) => tools,
+        Err(missing) => return Ok(missing),
+    };
+    eprintln!("compiler: {}\nemulator: {emulator}", toolchain.compiler);
+
+    let mut failures = Vec::new();
+    let mut protocols = Vec::new();
+    let mut proved = Vec::new();
+    for board in &BOARDS {
+        match run_board(&toolchain, board) {
+            Ok(protocol) => {
+                let differences = protocol.differences(&expected);
+                failures.extend(differences.iter().map(|text| format!("{}: {text}", board.core)));
+                protocols.push((board, protocol));
+            }
+            Err(error) => failures.push(error),
+        }
+        eprintln!("looking for panicking paths on {} ...", board.core);
+        let doubts = panics::doubts(&toolchain, board);
+        proved.push((board, doubts.is_empty()));
+        failures.extend(doubts);
+    }
+    let mut figures = measured(&protocols);
+    match flash(&toolchain) {
+        Ok(sizes) => figures.extend(sizes),
+        Err(error) => failures.push(error),
+    }
+    let checked = limits::check(&figures);
+    failures.extend(limits::broken(&checked));
+
+    match arguments.format {
+        Format::Table => {
+            println!("{}", report::classes(&protocols));
+            println!("{}", report::footprint(&checked));
+            println!("{}", report::panics(&proved));
+        }
+        Format::Csv => {
+            let rows: Vec<(&str, &Figure)> = figures.iter().map(|figure| (&*toolchain.compiler, figure)).collect();
+            figures::write(&rows, io::stdout()).map_err(|error| error.to_string())?;
+        }
+    }
+
+    if !arguments.overwrite {
+        failures.extend(compare(&stored, &toolchain, &figures));
+    } else if failures.is_empty() {
+        stored.overwrite(&toolchain.compiler, &figures, &Stored::path())?;
+        eprintln!("stored the figures in {}", Stored::path().display());
+    } else {
+        eprintln!("the figures are not stored, because of what failed");
+    }
+    Ok(failures)
+}
+
+/// Compiler and emulator, or everything that is missing.
+fn tools(choice: Choice, permission: Permission) -> Result<(Toolchain, String), Vec<String>> {
+    let mut triples: Vec<&str> = BOARDS.iter().map(|board| board.triple).collect();
+    triples.dedup();
+    let toolchain = Toolchain::find(choice, &triples, permission);
+    let emulator = emulator::find(permission);
+    match (toolchain, emulator) {
+        (Ok(toolchain), Ok(emulator)) => Ok((toolchain, emulator)),
+        (toolchain, emulator) => Err([toolchain.err(), emulator.err()].into_iter().flatten().collect()),
+    }
+}
+
+fn run_board(toolchain: &Toolchain, board: &Board) -> Result<Protocol, String> {
+    eprintln!("building for {} ({}) ...", board.core, board.triple);
+    let folder = firmware::build(toolchain, board, &["classify"])?;
+    eprintln!("running on {} ({}) ...", board.core, board.machine);
+    let output = emulator::run(board, &folder.join("classify"))?;
+    Protocol::parse(&output).map_err(|error| format!("{}: {error}", board.core))
+}
+
+/// The figures that the boards printed.
+fn measured(protocols: &[(&Board, Protocol)]) -> Vec<Figure> {
+    let mut figures = Vec::new();
+    for (board, protocol) in protocols {
+        for measurement in &protocol.measurements {
+            let figure = |quantity, value| Figure {
+                subject: Subject {
+                    core: board.core.to_owned(),
+                    scene: measurement.case.scene.clone(),
+                    scalar: measurement.case.scalar.clone(),
+                    impact: measurement.case.impact.clone(),
+                    quantity,
+                },
+                value,
+            };
+            figures.push(figure(Quantity::Classify, measurement.instructions));
+            figures.push(figure(Quantity::SetUpAndClassify, measurement.with_set_up));
+        }
+        for (scene, scalar, bytes) in &protocol.stacks {
+            figures.push(Figure {
+                subject: Subject {
+                    core: board.core.to_owned(),
+                    scene: scene.clone(),
+                    scalar: scalar.clone(),
+                    impact: String::new(),
+                    quantity: Quantity::Stack,
+                },
+                value: *bytes,
+            });
+        }
+    }
+    figures
+}
+
+/// The firmware that each scene makes larger, on the core of the promises.
+const FLASH: [(&str, &str); 4] = [
+    ("normal/coefficient", "flash_normal"),
+    ("normal/work", "flash_normal_work"),
+    ("planar/coefficient", "flash_planar"),
+    ("planar/work", "flash_planar_work"),
+];
+
+fn flash(toolchain: &Toolchain) -> Result<Vec<Figure>, String> {
+    let mut figures = Vec::new();
+    for board in BOARDS.iter().filter(|board| board.core == REFERENCE_CORE) {
+        let mut binaries = vec!["flash_empty"];
+        binaries.extend(FLASH.map(|(_, binary)| binary));
+        let folder = firmware::build(toolchain, board, &binaries)?;
+        let empty = Footprint::of(&folder.join("flash_empty"))?;
+        for (scene, binary) in FLASH {
+            let added = Footprint::of(&folder.join(binary))?.minus(empty);
+            let figure = |quantity, value| Figure {
+                subject: Subject {
+                    core: board.core.to_owned(),
+                    scene: scene.to_owned(),
+                    scalar: "f32".to_owned(),
+                    impact: String::new(),
+                    quantity,
+                },
+                value,
+            };
+            figures.push(figure(Quantity::Flash, added.flash));
+            figures.push(figure(Quantity::StaticMemory, added.static_memory));
+        }
+    }
+    Ok(figures)
+}
+
+/// What became worse since the figures were stored.
+fn compare(stored: &Stored, toolchain: &Toolchain, figures: &[Figure]) -> Vec<String> {
+    let comparison = stored.compare(&toolchain.compiler, figures);
+    if comparison.stored == 0 {
+        eprintln!(
+            "no figures are stored for {}, so nothing is compared; `cargo qemu --overwrite` stores them",
+            toolchain.compiler
+        );
+    } else if comparison.unknown > 0 {
+        eprintln!("{} figures are not stored yet; `cargo qemu --overwrite` stores them", comparison.unknown);
+    }
+    comparison.worse
+}

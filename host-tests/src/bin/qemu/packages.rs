@@ -1,0 +1,44 @@
+//! Debian packages, installed where that is allowed.
+
+use std::process::Command;
+use std::time::Duration;
+
+use crate::process;
+
+/// Never at the price of a package that is there: Debian's compilers exclude each other.
+const INSTALL: &[&str] = &["install", "-y", "--no-remove", "--no-install-recommends"];
+const LIMIT: Duration = Duration::from_secs(900);
+
+/// Whether this run may change what is installed on the machine.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Permission {
+    Install,
+    LookOnly,
+}
+
+/// Installs packages with apt-get, or says why it did not.
+pub(crate) fn install(packages: &[&str], permission: Permission) -> Result<(), String> {
+    if permission == Permission::LookOnly {
+        return Err("not installed, as --no-install asks".to_owned());
+    }
+    if !process::succeeds(Command::new("apt-get").arg("--version")) {
+        return Err("not installed: this system has no apt-get".to_owned());
+    }
+    if process::first_line(Command::new("id").arg("-u")).as_deref() != Some("0") {
+        return Err("not installed: only root may".to_owned());
+    }
+    eprintln!("installing Debian packages: {} ...", packages.join(" "));
+    apt_get(&["update"])?;
+    apt_get(&[INSTALL, packages].concat())
+}
+
+fn apt_get(arguments: &[&str]) -> Result<(), String> {
+    let mut command = Command::new("apt-get");
+    command.env("DEBIAN_FRONTEND", "noninteractive").args(arguments);
+    let finished = process::run(&mut command, LIMIT).map_err(|error| format!("apt-get: {error}"))?;
+    if finished.success() {
+        Ok(())
+    } else {
+        Err(format!("`apt-get {}` failed ({}):\n{}", arguments.join(" "), finished.ending(), finished.tail(5)))
+    }
+}

@@ -1,0 +1,107 @@
+//! The tables that a run prints.
+
+use std::fmt::Write;
+use std::ops::Range;
+
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table, TableComponent};
+
+use crate::answers::{Case, Protocol};
+use crate::boards::{Board, REFERENCE_CORE};
+use crate::figures::Quantity;
+use crate::limits::{self, Checked};
+
+/// Class and instructions of every case, a column for each core.
+pub(crate) fn classes(protocols: &[(&Board, Protocol)]) -> String {
+    let mut table = new_table();
+    let mut header = vec!["scene", "scalar", "impact", "class"];
+    header.extend(protocols.iter().map(|(board, _)| board.core));
+    table.set_header(header);
+    align_right(&mut table, 4..4 + protocols.len());
+
+    let Some((_, first)) = protocols.first() else {
+        return String::new();
+    };
+    for measurement in &first.measurements {
+        let case = &measurement.case;
+        let mut row =
+            vec![case.scene.clone(), case.scalar.clone(), case.impact.clone(), measurement.verdict.class.clone()];
+        row.extend(protocols.iter().map(|(_, protocol)| cost(protocol, case)));
+        table.add_row(row);
+    }
+    format!(
+        "Classifications, and what they cost\n{table}\n\
+         Instructions of a classification + of validating the measured motion before it.\n\
+         Instructions are not cycles: a division or a square root counts 1, and there are no wait \
+         states.\n"
+    )
+}
+
+fn cost(protocol: &Protocol, case: &Case) -> String {
+    let same = |found: &&crate::answers::Measurement| found.case == *case;
+    protocol.measurements.iter().find(same).map_or_else(String::new, |found| {
+        let set_up = found.with_set_up.saturating_sub(found.instructions);
+        format!("{} + {set_up}", found.instructions)
+    })
+}
+
+/// The promises and what became of them, a column for each scene.
+pub(crate) fn footprint(checked: &[Checked]) -> String {
+    let mut scenes: Vec<&str> = Vec::new();
+    let mut quantities: Vec<Quantity> = Vec::new();
+    for Checked { subject, .. } in checked {
+        if !scenes.contains(&&*subject.scene) {
+            scenes.push(&subject.scene);
+        }
+        if !quantities.contains(&subject.quantity) {
+            quantities.push(subject.quantity);
+        }
+    }
+    let mut table = new_table();
+    table.set_header(["at most", "limit"].iter().chain(&scenes));
+    align_right(&mut table, 1..2 + scenes.len());
+    for quantity in quantities {
+        let limit = limits::of(quantity).map_or_else(|| "-".to_owned(), |limit| limit.to_string());
+        let mut row = vec![format!("{}, {}", quantity.name(), quantity.unit()), limit];
+        row.extend(scenes.iter().map(|scene| {
+            let same = |found: &&Checked| found.subject.quantity == quantity && found.subject.scene == *scene;
+            checked.iter().find(same).map_or_else(String::new, |found| found.value.to_string())
+        }));
+        table.add_row(row);
+    }
+    format!(
+        "Footprint on {REFERENCE_CORE}, {}\n{table}\n\
+         Instructions are not cycles. Flash and static memory: a firmware that validates a scene and\n\
+         motions and classifies them, less the same firmware without that.\n",
+        limits::SCALAR
+    )
+}
+
+/// The outcome of the search for panicking paths on each board.
+pub(crate) fn panics(proved: &[(&Board, bool)]) -> String {
+    let mut text = String::from("Panicking paths in the library\n");
+    for (board, proved) in proved {
+        let verdict =
+            if *proved { "none: the probe links, and does not with one path added" } else { "not proved, see below" };
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "  {:<10}  {verdict}", board.core);
+    }
+    text
+}
+
+fn new_table() -> Table {
+    let mut table = Table::new();
+    table
+        .load_preset(NOTHING)
+        .set_style(TableComponent::HeaderLines, '-')
+        .set_style(TableComponent::MiddleHeaderIntersections, '-');
+    table
+}
+
+fn align_right(table: &mut Table, columns: Range<usize>) {
+    for column in columns {
+        if let Some(column) = table.column_mut(column) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! What a scene does not use takes no room in it.
+
+use microimpact::rigid::{NoMicroforce, NoRollingDissipation};
+use microimpact::{
+    Classification, ConstantRestitution, ContactClass, Impact, NoAdhesion, NoFriction, NormalImpact, NormalMotion,
+    ObliqueMotion, PlanarMotion, RigidBody, Sphere,
+};
+
+const NUMBER: usize = size_of::<f32>();
+
+#[test]
+fn absent_terms_have_size_zero() {
+    assert_eq!(size_of::<(NoAdhesion, NoFriction, NoRollingDissipation, NoMicroforce)>(), 0);
+    assert_eq!(size_of::<RigidBody<f32, ConstantRestitution<f32>>>(), size_of::<Sphere<f32>>() + NUMBER);
+}
+
+#[test]
+fn each_term_adds_its_own_numbers() {
+    let sphere = Sphere::solid(1e-6_f32, 1000.0).unwrap();
+    let scene = RigidBody::new(sphere, ConstantRestitution::new(0.9).unwrap());
+    let bare = size_of_val(&scene);
+    assert_eq!(size_of_val(&scene.with_adhesion_coefficient(0.1).unwrap()), bare + NUMBER);
+    assert_eq!(size_of_val(&scene.with_work_of_adhesion(1e-12).unwrap()), bare + NUMBER);
+    assert_eq!(size_of_val(&scene.with_external_impulses(0.0, 0.0).unwrap()), bare + 2 * NUMBER);
+    let frictional = scene.with_friction(0.1).unwrap();
+    assert_eq!(size_of_val(&frictional), bare + NUMBER);
+    assert_eq!(size_of_val(&frictional.with_rolling_dissipation(1e-9).unwrap()), bare + 2 * NUMBER);
+}
+
+#[test]
+fn motions_and_results_have_no_more_than_they_need() {
+    assert_eq!(size_of::<NormalMotion<f32>>(), NUMBER);
+    assert_eq!(size_of::<ObliqueMotion<f32>>(), 2 * NUMBER);
+    assert_eq!(size_of::<PlanarMotion<f32>>(), 3 * NUMBER);
+    assert_eq!(size_of::<Impact<f32, ()>>(), size_of::<NormalImpact<f32>>());
+    assert!(size_of::<Classification<f32, ()>>() < size_of::<Classification<f32, ContactClass<f32>>>());
+}

@@ -1,0 +1,186 @@
+//! Every input has a range, and every value outside it is an error that names the input.
+
+use microimpact::rigid::{AdhesionCoefficient, Departure, WorkOfAdhesion, infer, infer_with_spins};
+use microimpact::{
+    ConstantRestitution, Coulomb, Fault, ImpactError, InputError, Material, NormalMotion, Parameter, PlanarMotion,
+    Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
+};
+
+type Checked = Result<(), ImpactError>;
+
+fn sphere<T: Real>() -> Sphere<T> {
+    Sphere::solid(T::constant(5e-4), T::constant(2600.0)).unwrap()
+}
+
+fn motion<T: Real>() -> PlanarMotion<T> {
+    let oblique = NormalMotion::new(T::ONE).unwrap().with_tangential(T::ONE).unwrap();
+    oblique.with_peripheral_velocity(T::ZERO).unwrap()
+}
+
+fn perfect<T: Real>() -> ConstantRestitution<T> {
+    ConstantRestitution::new(T::ONE).unwrap()
+}
+
+/// Supplies a value where the parameter is asked for; all other inputs are valid.
+fn supply<T: Real>(parameter: Parameter, value: T) -> Checked {
+    let c = T::constant;
+    let scene = RigidBody::new(sphere(), perfect());
+    let departure = |normal, tangential| Departure { normal, tangential };
+    let checked: Result<(), InputError> = match parameter {
+        Parameter::Radius => Sphere::solid(value, c(2600.0)).map(drop),
+        Parameter::Thickness => Sphere::coated(c(1.0), value, c(1000.0), c(2600.0)).map(drop),
+        Parameter::Density => Sphere::coated(c(1e-6), c(1e-7), c(1000.0), value).map(drop),
+        Parameter::GyrationRatio => Sphere::new(c(1e-6), c(1000.0), value).map(drop),
+        Parameter::YoungsModulus => Material::new(value, c(0.3)).map(drop),
+        Parameter::PoissonRatio => Material::new(c(1e9), value).map(drop),
+        Parameter::Stiffness => Stiffness::new(value).map(drop),
+        Parameter::ApproachSpeed => NormalMotion::from_velocity(-value).map(drop),
+        Parameter::TangentialVelocity => NormalMotion::new(c(1.0)).unwrap().with_tangential(value).map(drop),
+        Parameter::Spin => {
+            // The smallest sphere: with others the peripheral velocity leaves its range first.
+            let sphere = Sphere::solid(c(1e-10), c(2600.0)).unwrap();
+            let oblique = NormalMotion::new(c(1.0)).unwrap().with_tangential(c(1.0)).unwrap();
+            oblique.with_spin(&sphere, value).map(drop)
+        }
+        Parameter::PeripheralVelocity => {
+            let oblique = NormalMotion::new(c(1.0)).unwrap().with_tangential(c(1.0)).unwrap();
+            oblique.with_peripheral_velocity(value).map(drop)
+        }
+        Parameter::ReboundSpeed => {
+            // The fastest approach, so that no valid rebound exceeds it.
+            let before = NormalMotion::new(c(1e6)).unwrap().with_tangential(c(0.0)).unwrap();
+            let before = before.with_peripheral_velocity(c(0.0)).unwrap();
+            return infer(&sphere(), &perfect(), &before, &departure(value, c(0.0)), c(0.0)).map(drop);
+        }
+        Parameter::VelocityError => {
+            return infer(&sphere(), &perfect(), &motion(), &departure(c(1.0), c(1.0)), value).map(drop);
+        }
+        Parameter::Restitution => ConstantRestitution::new(value).map(drop),
+        Parameter::RestitutionSpeed => SpeedRestitution::new(value).map(drop),
+        Parameter::AdhesionCoefficient => AdhesionCoefficient::new(value).map(drop),
+        Parameter::WorkOfAdhesion => WorkOfAdhesion::new(value, &sphere()).map(drop),
+        Parameter::Friction => Coulomb::new(value).map(drop),
+        Parameter::ImpulseRatio => {
+            // Fast sliding the one way or the other, so that no valid ratio exceeds mu_0.
+            let slip = if value > T::ZERO { c(-1e7) } else { c(1e7) };
+            let motion = NormalMotion::new(c(1.0)).unwrap().with_tangential(slip).unwrap();
+            return scene.impact_with_ratio(&motion, value).map(drop);
+        }
+        Parameter::RollingArm => {
+            scene.with_friction(c(0.1)).and_then(|scene| scene.with_rolling_dissipation(value)).map(drop)
+        }
+        Parameter::ExternalImpulse => {
+            let sphere = Sphere::solid(c(1.0), c(1e6)).unwrap();
+            RigidBody::new(sphere, perfect()).with_external_impulses(value, c(0.0)).map(drop)
+        }
+        Parameter::VelocityChange => scene.with_external_impulses(value * sphere::<T>().mass(), c(0.0)).map(drop),
+        Parameter::ExternalForce => {
+            let sphere = Sphere::solid(c(1.0), c(1e6)).unwrap();
+            RigidBody::new(sphere, perfect()).with_external_force(value, c(1e-3)).map(drop)
+        }
+        Parameter::Duration => scene.with_external_force(c(0.0), value).map(drop),
+        other => panic!("{other:?} is not tested"),
+    };
+    Ok(checked?)
+}
+
+/// The value next to a bound, away from or into the range.
+fn beyond(bound: f64, outwards: bool) -> f64 {
+    let step = 1e-5 * bound.abs().max(1e-3);
+    if outwards { bound + step } else { bound - step }
+}
+
+fn assert_bounds_hold<T: Real>(not_a_number: [T; 3]) {
+    for parameter in Parameter::ALL {
+        let (smallest, largest) = parameter.range();
+        let fault = |value: T, fault| {
+            let error = supply(parameter, value).unwrap_err();
+            assert_eq!(error, ImpactError::Input(InputError { parameter, fault }), "{value:?}");
+        };
+        for value in not_a_number {
+            // The impulse itself is checked before the change of velocity that it makes.
+            if parameter != Parameter::VelocityChange {
+                fault(value, Fault::NotFinite);
+            }
+        }
+        fault(T::constant(beyond(smallest, false)), Fault::TooSmall);
+        fault(T::constant(beyond(largest, true)), Fault::TooLarge);
+        for value in [smallest, largest, (smallest + largest) / 2.0] {
+            // Rounding may carry the product of mass and velocity across the bound; a hair inside it may not.
+            let value = if parameter == Parameter::VelocityChange { value * (1.0 - 1e-5) } else { value };
+            assert_eq!(supply(parameter, T::constant(value)), Ok(()), "{parameter:?} = {value:e}");
+        }
+    }
+}
+
+#[test]
+fn bounds_hold_in_double_precision() {
+    assert_bounds_hold([f64::NAN, f64::INFINITY, f64::NEG_INFINITY]);
+}
+
+#[test]
+fn bounds_hold_in_single_precision() {
+    assert_bounds_hold([f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
+}
+
+#[test]
+fn layers_fit_into_their_sphere() {
+    let error = InputError { parameter: Parameter::Thickness, fault: Fault::ExceedsRadius };
+    assert_eq!(Sphere::hollow(1e-6, 1.1e-6, 1000.0), Err(error));
+    assert_eq!(Sphere::coated(1e-6, 1.1e-6, 1000.0, 2000.0), Err(error));
+    let full = Sphere::coated(1e-6, 1e-6, 1000.0, 2000.0).unwrap();
+    assert_eq!(full, Sphere::solid(1e-6, 2000.0).unwrap());
+}
+
+/// Two nearly rigid materials have a stiffness beyond its range.
+#[test]
+fn derived_values_are_checked_too() {
+    let rigid = Material::new(1e16, -0.999).unwrap();
+    let error = InputError { parameter: Parameter::Stiffness, fault: Fault::TooLarge };
+    assert_eq!(Stiffness::between(&rigid, &rigid), Err(error));
+    let error = InputError { parameter: Parameter::Density, fault: Fault::TooSmall };
+    assert_eq!(Sphere::hollow(1.0, 1e-9, 1.0), Err(error));
+    let error = InputError { parameter: Parameter::PeripheralVelocity, fault: Fault::TooLarge };
+    let oblique = NormalMotion::new(1.0).unwrap().with_tangential(0.0).unwrap();
+    assert_eq!(oblique.with_spin(&sphere(), 1e12), Err(error));
+}
+
+#[test]
+fn impossible_measurements() {
+    let (sphere, before) = (sphere::<f64>(), motion());
+    let law = ConstantRestitution::new(0.9).unwrap();
+    let infer = |normal, tangential| infer(&sphere, &law, &before, &Departure { normal, tangential }, 1e-3);
+    assert!(infer(0.8, 0.9).is_ok());
+    assert_eq!(infer(0.91, 0.9), Err(ImpactError::ReboundExceedsRestitution));
+    assert_eq!(infer(0.8, 1.01), Err(ImpactError::ImpulseRatioOutsideBounds));
+    assert_eq!(infer(0.8, 0.7), Err(ImpactError::ImpulseRatioOutsideBounds));
+    // Within the error of the velocities both bounds are met.
+    assert!(infer(0.8, 1.0 + 5e-4).is_ok());
+    assert!(infer(0.8, 5.0 / 7.0 - 1e-4).is_ok());
+    let after = Departure { normal: 0.8, tangential: 0.9 };
+    let spinning = infer_with_spins(&sphere, &law, &before, &after, -2.0 / sphere.radius(), 1e-3);
+    assert_eq!(spinning, Err(ImpactError::EnergyGained));
+}
+
+#[test]
+fn errors_name_the_parameter_its_range_and_unit() {
+    for parameter in Parameter::ALL {
+        let (smallest, largest) = parameter.range();
+        for fault in [Fault::NotFinite, Fault::TooSmall, Fault::TooLarge] {
+            let text = InputError { parameter, fault }.to_string();
+            assert!(text.starts_with(parameter.name()), "{text}");
+            let range = text.rsplit_once(", ").unwrap().1;
+            let mut words = range.split(' ');
+            assert_eq!(words.next().unwrap().parse(), Ok(smallest), "{text}");
+            assert_eq!(words.next(), Some("to"), "{text}");
+            assert_eq!(words.next().unwrap().parse(), Ok(largest), "{text}");
+            let unit = words.collect::<Vec<_>>().join(" ");
+            assert_eq!(if unit.is_empty() { "1" } else { &unit }, parameter.unit(), "{text}");
+        }
+    }
+    for error in
+        [ImpactError::ReboundExceedsRestitution, ImpactError::ImpulseRatioOutsideBounds, ImpactError::EnergyGained]
+    {
+        assert!(!error.to_string().is_empty());
+    }
+}
