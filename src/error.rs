@@ -67,6 +67,22 @@ pub enum Parameter {
     ExternalForce,
     /// Duration of a contact, s.
     Duration,
+    /// Strength zeta_H of the damping in the materials.
+    MaterialDamping,
+    /// Strength f0 of the adhesion ring, N/m.
+    AdhesionStrength,
+    /// Strength zeta_A of the damping of adhesion.
+    AdhesionDamping,
+    /// Strength lambda of the peeling moment, N m.
+    PeelingMoment,
+    /// Tolerance of a simulation.
+    Tolerance,
+    /// (5/3) of the equilibrium indentation over the peak indentation of Hertz's impact: adhesion against inertia.
+    AdhesionRatio,
+    /// External force over elastic force at the peak indentation, times 5/4.
+    ForceRatio,
+    /// Damping c_H U or c_A U: what the largest speed U of the undamped motion adds to a force, over that force.
+    DampingRatio,
 }
 
 impl Parameter {
@@ -77,7 +93,7 @@ impl Parameter {
     ///
     /// assert!(Parameter::ALL.iter().all(|parameter| parameter.range().0 < parameter.range().1));
     /// ```
-    pub const ALL: [Self; 24] = [
+    pub const ALL: [Self; 32] = [
         Self::Radius,
         Self::Thickness,
         Self::Density,
@@ -102,6 +118,14 @@ impl Parameter {
         Self::VelocityChange,
         Self::ExternalForce,
         Self::Duration,
+        Self::MaterialDamping,
+        Self::AdhesionStrength,
+        Self::AdhesionDamping,
+        Self::PeelingMoment,
+        Self::Tolerance,
+        Self::AdhesionRatio,
+        Self::ForceRatio,
+        Self::DampingRatio,
     ];
 
     /// Name, in the words of the field.
@@ -157,6 +181,14 @@ impl Parameter {
             Self::VelocityChange => ("velocity change by an external impulse", "m/s", (-1e7, 1e7)),
             Self::ExternalForce => ("external force", "N", (-1e6, 1e6)),
             Self::Duration => ("duration", "s", (0.0, 1.0)),
+            Self::MaterialDamping => ("material damping", "1", (0.0, 1e9)),
+            Self::AdhesionStrength => ("adhesion strength", "N/m", (0.0, 1e9)),
+            Self::AdhesionDamping => ("adhesion damping", "1", (0.0, 1e9)),
+            Self::PeelingMoment => ("peeling moment", "N m", (0.0, 1e3)),
+            Self::Tolerance => ("tolerance", "1", (1e-13, 1e-2)),
+            Self::AdhesionRatio => ("adhesion over inertia", "1", (0.0, 1e10)),
+            Self::ForceRatio => ("external force over elasticity", "1", (-1e6, 1e6)),
+            Self::DampingRatio => ("damping over elasticity", "1", (0.0, 1e9)),
         }
     }
 

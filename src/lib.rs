@@ -10,6 +10,7 @@ mod motion;
 mod real;
 pub mod rigid;
 mod scene;
+pub mod simulation;
 mod sphere;
 mod surface;
 

@@ -35,6 +35,8 @@ pub trait Real:
     const ONE: Self;
     /// Distance from one to the next larger number.
     const EPSILON: Self;
+    /// Smallest positive number that has its full accuracy.
+    const SMALLEST: Self;
 
     /// The number nearest to a constant; the closest bound where the constant lies outside the type's range.
     fn constant(value: f64) -> Self;
@@ -47,6 +49,9 @@ pub trait Real:
 
     /// `self` to the power 2/5, the exponent of Hertz's contact, for a number that is not negative.
     fn two_fifths_power(self) -> Self;
+
+    /// Exponential function.
+    fn exp(self) -> Self;
 
     /// Quotient, held at the type's largest number where it would overflow; the divisor is positive.
     fn saturating_div(self, divisor: Self) -> Self;
@@ -71,11 +76,12 @@ pub trait Real:
 }
 
 macro_rules! impl_real_for_float {
-    ($float:ident, $sqrt:path, $power:path) => {
+    ($float:ident, $sqrt:path, $power:path, $exp:path) => {
         impl Real for $float {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
             const EPSILON: Self = $float::EPSILON;
+            const SMALLEST: Self = $float::MIN_POSITIVE;
 
             #[inline]
             fn constant(value: f64) -> Self {
@@ -98,6 +104,11 @@ macro_rules! impl_real_for_float {
             }
 
             #[inline]
+            fn exp(self) -> Self {
+                $exp(self)
+            }
+
+            #[inline]
             fn saturating_div(self, divisor: Self) -> Self {
                 (self / divisor).clamp($float::MIN, $float::MAX)
             }
@@ -111,10 +122,10 @@ macro_rules! impl_real_for_float {
 }
 
 #[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
-impl_real_for_float!(f32, libm::sqrtf, libm::powf);
+impl_real_for_float!(f32, libm::sqrtf, libm::powf, libm::expf);
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
-impl_real_for_float!(f32, multiplied_root, libm::powf);
-impl_real_for_float!(f64, libm::sqrt, libm::pow);
+impl_real_for_float!(f32, multiplied_root, libm::powf, libm::expf);
+impl_real_for_float!(f64, libm::sqrt, libm::pow, libm::exp);
 
 /// Square root by multiplications alone, to one unit in the last place, of zero or a normal number.
 ///

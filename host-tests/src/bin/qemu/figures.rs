@@ -168,7 +168,7 @@ pub(crate) struct Comparison {
     pub(crate) worse: Vec<String>,
 }
 
-/// More than 5 %, and more than 2: a few instructions come and go with the weather.
+/// More than 5 %, and more than 2, below which the layout of unrelated code counts.
 fn is_worse(before: u32, now: u32) -> bool {
     let more = now.saturating_sub(before);
     more > 2 && u64::from(more) * 20 > u64::from(before)

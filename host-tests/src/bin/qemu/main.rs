@@ -228,7 +228,7 @@ fn compare(stored: &Stored, toolchain: &Toolchain, figures: &[Figure]) -> Vec<St
             toolchain.compiler
         );
     } else if comparison.unknown > 0 {
-        eprintln!("{} figures are not stored yet; `cargo qemu --overwrite` stores them", comparison.unknown);
+        eprintln!("figures not stored yet: {}; `cargo qemu --overwrite` stores them", comparison.unknown);
     }
     comparison.worse
 }

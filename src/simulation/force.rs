@@ -1,0 +1,72 @@
+//! A constant external force along the normal.
+
+use super::law::Attraction;
+use crate::{InputError, Parameter, Real};
+
+/// No external force.
+///
+/// ```
+/// assert_eq!(size_of::<microimpact::simulation::NoForce>(), 0);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct NoForce;
+
+/// A constant external force, positive out of the surface.
+///
+/// ```
+/// use microimpact::simulation::ConstantForce;
+///
+/// assert!(ConstantForce::new(-1e-9).is_ok());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConstantForce<T> {
+    pub(super) force: T,
+}
+
+impl<T: Real> ConstantForce<T> {
+    /// A force in N.
+    ///
+    /// # Errors
+    /// A value outside its range.
+    ///
+    /// ```
+    /// assert!(microimpact::simulation::ConstantForce::new(f32::INFINITY).is_err());
+    /// ```
+    #[inline]
+    pub fn new(force: T) -> Result<Self, InputError> {
+        Ok(Self { force: Parameter::ExternalForce.check(force)? })
+    }
+}
+
+/// The force into the surface in units of the motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScaledForce<T>(pub(super) T);
+
+impl<T: Real> Attraction<T> for NoForce {}
+
+impl<T: Real> Attraction<T> for ScaledForce<T> {
+    #[inline]
+    fn energy(&self, s: T) -> T {
+        self.0 * s * s
+    }
+
+    #[inline]
+    fn slope(&self, s: T) -> T {
+        T::constant(2.0) * self.0 * s
+    }
+
+    #[inline]
+    fn curvature(&self, _s: T) -> T {
+        T::constant(2.0) * self.0
+    }
+
+    #[inline]
+    fn divided(&self, p: T, s: T) -> T {
+        self.0 * (p + s)
+    }
+
+    #[inline]
+    fn force(&self, _s: T) -> T {
+        self.0
+    }
+}

@@ -1,0 +1,164 @@
+//! The normal force as a function of the contact radius (B6), dimensionless.
+//!
+//! With the contact radius s, the indentation x = s^2 and the speed y in the units of [`Scaled`](super::scaled::Scaled)
+//! the normal motion is the path y^2/2 = E - V(s), along which only the losses change the energy E. V is a polynomial:
+//! no roots, and smooth where the spheres touch.
+
+use crate::{NoAdhesion, Real};
+
+/// What the solver knows of a contact: potential and losses against the contact radius s, in units in which the peak of
+/// the undamped motion lies near s = 1.
+///
+/// A law that is given in the contact radius by its nature, such as that of Johnson, Kendall and Roberts, implements this
+/// trait as well; none of the solver depends on Hertz's relation of indentation and contact radius.
+pub trait NormalLaw<T: Real>: Copy {
+    /// Indentation x.
+    #[inline]
+    fn indentation(&self, s: T) -> T {
+        s * s
+    }
+
+    /// dx/ds.
+    #[inline]
+    fn indentation_slope(&self, s: T) -> T {
+        s + s
+    }
+
+    /// Potential energy V, zero at s = 0.
+    fn potential(&self, s: T) -> T;
+
+    /// dV/ds.
+    fn slope(&self, s: T) -> T;
+
+    /// d^2V/ds^2.
+    fn curvature(&self, s: T) -> T;
+
+    /// (V(p) - V(s))/(p - s), without the cancellation of a difference.
+    fn divided(&self, p: T, s: T) -> T;
+
+    /// Damping force of the materials for each unit of speed, on approach and rebound.
+    fn material_damping(&self, s: T) -> T;
+
+    /// Damping force of adhesion for each unit of speed, on rebound.
+    fn adhesion_damping(&self, s: T) -> T;
+
+    /// Elastic force, which friction goes by (B8).
+    fn elastic_force(&self, s: T) -> T;
+
+    /// Force of adhesion without its damping.
+    fn adhesion_force(&self, s: T) -> T;
+
+    /// Damping force of both kinds on the way in or out.
+    #[inline]
+    fn damping(&self, s: T, rebound: bool) -> T {
+        if rebound { self.material_damping(s) + self.adhesion_damping(s) } else { self.material_damping(s) }
+    }
+
+    /// Energy that damping takes for each ds and unit of speed.
+    #[inline]
+    fn loss(&self, s: T, rebound: bool) -> T {
+        self.indentation_slope(s) * self.damping(s, rebound)
+    }
+}
+
+/// A force besides the elastic one, conservative but for its damping on rebound. What it gives is taken from the
+/// potential, so that an absent term leaves no operation behind.
+pub trait Attraction<T: Real>: Copy {
+    /// Energy that the force gives a sphere on its way to s.
+    #[inline]
+    fn energy(&self, _s: T) -> T {
+        T::ZERO
+    }
+
+    /// Its derivative by s.
+    #[inline]
+    fn slope(&self, _s: T) -> T {
+        T::ZERO
+    }
+
+    /// Its second derivative by s.
+    #[inline]
+    fn curvature(&self, _s: T) -> T {
+        T::ZERO
+    }
+
+    /// (energy(p) - energy(s))/(p - s), without the cancellation of a difference.
+    #[inline]
+    fn divided(&self, _p: T, _s: T) -> T {
+        T::ZERO
+    }
+
+    /// The force itself.
+    #[inline]
+    fn force(&self, _s: T) -> T {
+        T::ZERO
+    }
+
+    /// Its damping force for each unit of speed.
+    #[inline]
+    fn damping(&self, _s: T) -> T {
+        T::ZERO
+    }
+}
+
+impl<T: Real> Attraction<T> for NoAdhesion {}
+
+/// Damping of the elastic force.
+pub trait Damping<T: Real>: Copy {
+    /// Share of the elastic force that is added for each unit of speed.
+    fn rate(&self) -> T;
+}
+
+/// Hertz's elastic force (5/4) s^3 with its damping, adhesion and an external force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HertzLaw<D, A, X> {
+    pub(super) damping: D,
+    pub(super) adhesion: A,
+    pub(super) force: X,
+}
+
+impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> NormalLaw<T> for HertzLaw<D, A, X> {
+    #[inline]
+    fn potential(&self, s: T) -> T {
+        let s2 = s * s;
+        T::constant(0.5) * s2 * s2 * s - self.adhesion.energy(s) - self.force.energy(s)
+    }
+
+    #[inline]
+    fn slope(&self, s: T) -> T {
+        let s2 = s * s;
+        T::constant(2.5) * s2 * s2 - self.adhesion.slope(s) - self.force.slope(s)
+    }
+
+    #[inline]
+    fn curvature(&self, s: T) -> T {
+        T::constant(10.0) * s * s * s - self.adhesion.curvature(s) - self.force.curvature(s)
+    }
+
+    #[inline]
+    fn divided(&self, p: T, s: T) -> T {
+        let (p2, s2, product) = (p * p, s * s, p * s);
+        let elastic = T::constant(0.5) * (p2 * p2 + s2 * s2 + product * (p2 + product + s2));
+        elastic - self.adhesion.divided(p, s) - self.force.divided(p, s)
+    }
+
+    #[inline]
+    fn material_damping(&self, s: T) -> T {
+        self.damping.rate() * self.elastic_force(s)
+    }
+
+    #[inline]
+    fn adhesion_damping(&self, s: T) -> T {
+        self.adhesion.damping(s)
+    }
+
+    #[inline]
+    fn elastic_force(&self, s: T) -> T {
+        T::constant(1.25) * s * s * s
+    }
+
+    #[inline]
+    fn adhesion_force(&self, s: T) -> T {
+        self.adhesion.force(s)
+    }
+}

@@ -1,0 +1,441 @@
+//! The contact simulation (Appendix B): forces and time during contact, solved to a tolerance.
+//!
+//! Hertz's force with hysteretic damping, ring adhesion, Coulomb friction with spin, a peeling moment and a constant
+//! external force (B6 to B10), each a type that a scene includes or not. The normal motion is solved as kinetic energy
+//! against contact radius, where it is smooth from first touch to separation, and all else follows from integrals over it.
+
+mod damping;
+mod force;
+mod law;
+mod motion;
+mod nodes;
+mod observer;
+mod outcome;
+mod ring;
+mod scaled;
+mod stretch;
+mod tangential;
+
+pub use damping::{HystereticDamping, NoDamping, ScaledDamping};
+pub use force::{ConstantForce, NoForce, ScaledForce};
+pub use law::{Attraction, Damping, HertzLaw, NormalLaw};
+pub use nodes::Nodes;
+pub use observer::{Impulses, Observer, Times, Works};
+pub use outcome::{ContactImpulses, ContactTimes, ContactWorks, NormalContact, RunReport, Status, TangentialContact};
+pub use ring::{Ring, ScaledRing};
+pub use scaled::{Scale, Scaled};
+pub use stretch::Stretch;
+pub use tangential::{NoPeeling, Peeling, ScaledPeeling, SpinDamping, TangentialMotion};
+
+use crate::{Approach, Coulomb, InputError, NoAdhesion, NoFriction, Oblique, Parameter, Real, Sphere, Stiffness};
+use motion::{NormalPath, follow};
+use stretch::Control;
+
+/// The method that solves the normal motion: collocation at `N` nodes, in as many stretches as the tolerance needs.
+///
+/// Seven nodes suit a tolerance of 1e-6, nine 1e-9, twelve 1e-12; in single precision eight.
+///
+/// ```
+/// use microimpact::simulation::Collocation;
+///
+/// assert!(Collocation::<9, f64>::new(1e-9).is_ok());
+/// assert!(Collocation::<9, f64>::new(0.0).is_err());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Collocation<const N: usize, T> {
+    tolerance: T,
+}
+
+impl<const N: usize, T: Real> Collocation<N, T> {
+    /// A method with a tolerance for e^2; a number type's rounding limits it from below.
+    ///
+    /// # Errors
+    /// A tolerance outside its range.
+    ///
+    /// ```
+    /// assert!(microimpact::simulation::Collocation::<7, f32>::new(1e-6).is_ok());
+    /// ```
+    pub fn new(tolerance: T) -> Result<Self, InputError> {
+        let tolerance = Parameter::Tolerance.check(tolerance)?;
+        Ok(Self { tolerance: tolerance.max(T::constant(8.0) * T::EPSILON) })
+    }
+}
+
+/// A sphere, the stiffness of its contact, and the physics of its impacts: `D` damping in the materials, `A` adhesion,
+/// `F` friction, `P` peeling moment, `X` external force. A term that is not named has size zero and costs nothing.
+///
+/// ```
+/// use microimpact::simulation::{Collocation, Simulation};
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
+///
+/// // Table 1 of the paper. Its program halves the damping of adhesion: 6.25 stands for the printed 12.5.
+/// let sphere = Sphere::solid(5.06e-6, 2600.0)?;
+/// let scene = Simulation::new(sphere, Stiffness::new(7.5e10)?)
+///     .with_damping(10.5)?
+///     .with_ring(250.0, 6.25)?
+///     .with_friction(0.1)?;
+/// let before = NormalMotion::new(2.8)?.with_tangential(0.0)?.with_spin(&sphere, 1.454e5)?;
+/// let impact = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &before)?;
+/// assert!((impact.normal.overall_restitution() - 0.746193).abs() < 1e-6);
+/// assert!((impact.normal.peak_indentation().unwrap() - 4.251e-8).abs() < 1e-11);
+/// assert!((impact.tangential.velocity() - 0.2102).abs() < 1e-4);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Simulation<T, D = NoDamping, A = NoAdhesion, F = NoFriction, P = NoPeeling, X = NoForce> {
+    sphere: Sphere<T>,
+    stiffness: Stiffness<T>,
+    damping: D,
+    adhesion: A,
+    friction: F,
+    peeling: P,
+    force: X,
+}
+
+/// The result of a simulation, with `G` for the tangential side: `()` or [`TangentialContact`].
+///
+/// ```
+/// use microimpact::simulation::{Collocation, Simulation};
+/// use microimpact::{NormalMotion, Outcome, Sphere, Stiffness};
+///
+/// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+/// let impact = scene.impact(&Collocation::<7, f64>::new(1e-6)?, &NormalMotion::new(1.0)?)?;
+/// assert_eq!(impact.normal.outcome(), Outcome::Rebound);
+/// assert!((impact.normal.overall_restitution() - 1.0).abs() < 1e-6);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SimulatedImpact<T, G> {
+    /// Along the normal.
+    pub normal: NormalContact<T>,
+    /// When the peak and the separation came.
+    pub times: ContactTimes<T>,
+    /// Impulses of the elastic force and of adhesion.
+    pub impulses: ContactImpulses<T>,
+    /// Works of the two kinds of damping.
+    pub works: ContactWorks<T>,
+    /// Along the surface, where friction takes part.
+    pub tangential: G,
+    /// What the run took.
+    pub run: RunReport<T>,
+}
+
+impl<T: Real> Simulation<T> {
+    /// A scene of a sphere and the stiffness of its contact, with no other physics.
+    ///
+    /// ```
+    /// use microimpact::{Sphere, Stiffness, simulation::Simulation};
+    ///
+    /// let scene = Simulation::new(Sphere::solid(1e-6_f32, 1000.0)?, Stiffness::new(1e10)?);
+    /// assert_eq!(size_of_val(&scene), size_of::<Sphere<f32>>() + size_of::<f32>());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn new(sphere: Sphere<T>, stiffness: Stiffness<T>) -> Self {
+        Self {
+            sphere,
+            stiffness,
+            damping: NoDamping,
+            adhesion: NoAdhesion,
+            friction: NoFriction,
+            peeling: NoPeeling,
+            force: NoForce,
+        }
+    }
+}
+
+/// Adding terms.
+impl<T: Real, D, A, F, P, X> Simulation<T, D, A, F, P, X> {
+    /// The same scene with hysteretic damping of strength zeta_H >= 0 in the materials.
+    ///
+    /// # Errors
+    /// A strength outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Sphere, Stiffness, simulation::Simulation};
+    ///
+    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// assert!(scene.with_damping(-1.0).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_damping(self, zeta: T) -> Result<Simulation<T, HystereticDamping<T>, A, F, P, X>, InputError> {
+        let Self { sphere, stiffness, adhesion, friction, peeling, force, .. } = self;
+        let damping = HystereticDamping::new(zeta)?;
+        Ok(Simulation { sphere, stiffness, damping, adhesion, friction, peeling, force })
+    }
+
+    /// The same scene with Coulomb friction of `coefficient` f >= 0, which goes by the elastic force alone (B8).
+    ///
+    /// # Errors
+    /// A coefficient outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Sphere, Stiffness, simulation::Simulation};
+    ///
+    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// assert!(scene.with_friction(-0.1).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_friction(self, coefficient: T) -> Result<Simulation<T, D, A, Coulomb<T>, P, X>, InputError> {
+        let Self { sphere, stiffness, damping, adhesion, peeling, force, .. } = self;
+        let friction = Coulomb::new(coefficient)?;
+        Ok(Simulation { sphere, stiffness, damping, adhesion, friction, peeling, force })
+    }
+
+    /// The same scene with a constant external force, N, positive out of the surface.
+    ///
+    /// # Errors
+    /// A force outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Sphere, Stiffness, simulation::Simulation};
+    ///
+    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// assert!(scene.with_external_force(f64::INFINITY).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_external_force(self, force: T) -> Result<Simulation<T, D, A, F, P, ConstantForce<T>>, InputError> {
+        let Self { sphere, stiffness, damping, adhesion, friction, peeling, .. } = self;
+        let force = ConstantForce::new(force)?;
+        Ok(Simulation { sphere, stiffness, damping, adhesion, friction, peeling, force })
+    }
+}
+
+impl<T: Real, D, F, X> Simulation<T, D, NoAdhesion, F, NoPeeling, X> {
+    /// The same scene with a ring force of strength f0 >= 0 (N/m) and its damping zeta_A >= 0 on rebound.
+    ///
+    /// # Errors
+    /// A value outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Sphere, Stiffness, simulation::Simulation};
+    ///
+    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// assert!(scene.with_ring(-1.0, 0.0).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_ring(self, strength: T, zeta: T) -> Result<Simulation<T, D, Ring<T>, F, NoPeeling, X>, InputError> {
+        let Self { sphere, stiffness, damping, friction, peeling, force, .. } = self;
+        let adhesion = Ring::new(strength, zeta)?;
+        Ok(Simulation { sphere, stiffness, damping, adhesion, friction, peeling, force })
+    }
+}
+
+impl<T: Real, D, X> Simulation<T, D, Ring<T>, Coulomb<T>, NoPeeling, X> {
+    /// The same scene with a peeling moment of strength lambda >= 0 (N m), which goes by the damping of the ring (B10).
+    ///
+    /// # Errors
+    /// A strength outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Sphere, Stiffness, simulation::Simulation};
+    ///
+    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?)
+    ///     .with_ring(10.0, 1.0)?
+    ///     .with_friction(0.1)?;
+    /// assert!(scene.with_peeling(-1.0).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_peeling(self, lambda: T) -> Result<Simulation<T, D, Ring<T>, Coulomb<T>, Peeling<T>, X>, InputError> {
+        let Self { sphere, stiffness, damping, adhesion, friction, force, .. } = self;
+        let peeling = Peeling::new(lambda)?;
+        Ok(Simulation { sphere, stiffness, damping, adhesion, friction, peeling, force })
+    }
+}
+
+/// A tangential side of a scene: none, or friction with or without a peeling moment.
+pub trait TangentialScene<T: Real, M, A, P> {
+    /// What is integrated along the motion.
+    type Observer: Observer<T>;
+    /// What comes out.
+    type Contact;
+
+    /// The state before contact.
+    ///
+    /// # Errors
+    /// A ratio outside its range.
+    fn start(
+        &self,
+        sphere: &Sphere<T>,
+        adhesion: &A,
+        peeling: &P,
+        motion: &M,
+        units: &Scaled<T>,
+    ) -> Result<Self::Observer, InputError>;
+
+    /// The result in SI units.
+    fn finish(observer: Self::Observer, sphere: &Sphere<T>, units: &Scaled<T>) -> Self::Contact;
+}
+
+impl<T: Real, M, A, P> TangentialScene<T, M, A, P> for NoFriction {
+    type Observer = ();
+    type Contact = ();
+
+    fn start(&self, _: &Sphere<T>, _: &A, _: &P, _: &M, _: &Scaled<T>) -> Result<(), InputError> {
+        Ok(())
+    }
+
+    fn finish((): (), _: &Sphere<T>, _: &Scaled<T>) {}
+}
+
+impl<T: Real, M: Oblique<T>, A> TangentialScene<T, M, A, NoPeeling> for Coulomb<T> {
+    type Observer = TangentialMotion<T, NoPeeling>;
+    type Contact = TangentialContact<T>;
+
+    fn start(
+        &self,
+        sphere: &Sphere<T>,
+        _adhesion: &A,
+        peeling: &NoPeeling,
+        motion: &M,
+        units: &Scaled<T>,
+    ) -> Result<Self::Observer, InputError> {
+        Ok(TangentialMotion::new(motion, units.speed, self.coefficient(), sphere.gyration_ratio(), *peeling))
+    }
+
+    fn finish(observer: Self::Observer, sphere: &Sphere<T>, units: &Scaled<T>) -> TangentialContact<T> {
+        TangentialContact::new(&observer, sphere, units)
+    }
+}
+
+impl<T: Real, M: Oblique<T>> TangentialScene<T, M, Ring<T>, Peeling<T>> for Coulomb<T> {
+    type Observer = TangentialMotion<T, ScaledPeeling<T>>;
+    type Contact = TangentialContact<T>;
+
+    fn start(
+        &self,
+        sphere: &Sphere<T>,
+        adhesion: &Ring<T>,
+        peeling: &Peeling<T>,
+        motion: &M,
+        units: &Scaled<T>,
+    ) -> Result<Self::Observer, InputError> {
+        let peeling = scaled::peeling(peeling, adhesion, sphere, units)?;
+        Ok(TangentialMotion::new(motion, units.speed, self.coefficient(), sphere.gyration_ratio(), peeling))
+    }
+
+    fn finish(observer: Self::Observer, sphere: &Sphere<T>, units: &Scaled<T>) -> TangentialContact<T> {
+        TangentialContact::new(&observer, sphere, units)
+    }
+}
+
+impl<T, D, A, F, P, X> Simulation<T, D, A, F, P, X>
+where
+    T: Real,
+    D: Scale<T, Scaled: Damping<T>>,
+    A: Scale<T, Scaled: Attraction<T>>,
+    X: Scale<T, Scaled: Attraction<T>>,
+{
+    /// The impact of a sphere that arrives with `motion`, with everything there is to know of it.
+    ///
+    /// A captured sphere is followed until it first turns back.
+    ///
+    /// # Errors
+    /// A ratio of the scene's forces outside its range, so that the motion cannot be represented.
+    ///
+    /// ```
+    /// use microimpact::simulation::{Collocation, Simulation};
+    /// use microimpact::{NormalMotion, Outcome, Sphere, Stiffness};
+    ///
+    /// // A sphere of 5 um diameter, as in figure 6, is captured at 5 m/s and rebounds at 8 m/s.
+    /// let scene = Simulation::new(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+    ///     .with_damping(10.5)?
+    ///     .with_ring(250.0, 6.25)?;
+    /// let method = Collocation::<7, f64>::new(1e-6)?;
+    /// assert_eq!(scene.impact(&method, &NormalMotion::new(5.0)?)?.normal.outcome(), Outcome::Capture);
+    /// assert_eq!(scene.impact(&method, &NormalMotion::new(8.0)?)?.normal.outcome(), Outcome::Rebound);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn impact<const N: usize, M>(
+        &self,
+        method: &Collocation<N, T>,
+        motion: &M,
+    ) -> Result<SimulatedImpact<T, F::Contact>, InputError>
+    where
+        T: Nodes<N>,
+        M: Approach<T>,
+        F: TangentialScene<T, M, A, P>,
+    {
+        let approach = motion.normal().speed();
+        let units = self.units(approach)?;
+        let tangential = self.friction.start(&self.sphere, &self.adhesion, &self.peeling, motion, &units)?;
+        let mut observer = ((Times::new(), Impulses::new()), (Works::new(), tangential));
+        let path = self.follow::<N, _>(method, &units, true, true, &mut observer)?;
+        let ((times, impulses), (works, tangential)) = observer;
+        Ok(SimulatedImpact {
+            normal: NormalContact::new(&path, approach, &self.sphere, self.stiffness, &units),
+            times: ContactTimes::new(&times, &path, &units),
+            impulses: ContactImpulses::new(&impulses, &self.sphere, &units),
+            works: ContactWorks::new(&works, &self.sphere, &units),
+            tangential: F::finish(tangential, &self.sphere, &units),
+            run: RunReport::new(&path),
+        })
+    }
+
+    /// The normal motion alone: how it ends and how fast, without times, impulses, works or anything tangential.
+    ///
+    /// # Errors
+    /// As [`impact`](Self::impact).
+    ///
+    /// ```
+    /// use microimpact::simulation::{Collocation, Simulation};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Simulation::new(Sphere::solid(4.3e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+    ///     .with_damping(10.5)?
+    ///     .with_ring(250.0, 6.25)?;
+    /// let contact = scene.normal_impact(&Collocation::<7, f64>::new(1e-6)?, &NormalMotion::new(2.8)?)?;
+    /// assert!((contact.overall_restitution() - 0.62).abs() < 0.001);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn normal_impact<const N: usize>(
+        &self,
+        method: &Collocation<N, T>,
+        motion: &impl Approach<T>,
+    ) -> Result<NormalContact<T>, InputError>
+    where
+        T: Nodes<N>,
+    {
+        let approach = motion.normal().speed();
+        let units = self.units(approach)?;
+        let path = self.follow::<N, _>(method, &units, false, false, &mut ())?;
+        Ok(NormalContact::new(&path, approach, &self.sphere, self.stiffness, &units))
+    }
+
+    /// The sphere of this scene.
+    ///
+    /// ```
+    /// use microimpact::{Sphere, Stiffness, simulation::Simulation};
+    ///
+    /// let sphere = Sphere::solid(1e-6, 1000.0)?;
+    /// assert_eq!(Simulation::new(sphere, Stiffness::new(1e10)?).sphere(), &sphere);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn sphere(&self) -> &Sphere<T> {
+        &self.sphere
+    }
+
+    fn units(&self, approach: T) -> Result<Scaled<T>, InputError> {
+        Scaled::new(&self.sphere, self.stiffness, self.adhesion.equilibrium(self.stiffness), approach)
+    }
+
+    fn follow<const N: usize, O: Observer<T>>(
+        &self,
+        method: &Collocation<N, T>,
+        units: &Scaled<T>,
+        timed: bool,
+        to_turning_point: bool,
+        observer: &mut O,
+    ) -> Result<NormalPath<T>, InputError>
+    where
+        T: Nodes<N>,
+    {
+        let law = HertzLaw {
+            damping: self.damping.scale(&self.sphere, units)?,
+            adhesion: self.adhesion.scale(&self.sphere, units)?,
+            force: self.force.scale(&self.sphere, units)?,
+        };
+        let control = Control { settled: method.tolerance, error: method.tolerance, timed };
+        Ok(follow::<T, N, _, _>(&law, units.energy, control, to_turning_point, observer))
+    }
+}

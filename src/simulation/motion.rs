@@ -1,0 +1,448 @@
+//! The whole normal motion: approach, peak, rebound, and separation or capture.
+
+use super::law::NormalLaw;
+use super::nodes::Nodes;
+use super::observer::Observer;
+use super::stretch::{Control, Course, Point, Stretch, arrive, leave, pass};
+use crate::Real;
+
+/// How the normal motion ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    /// The sphere separates.
+    Separation,
+    /// The energy is below that of a sphere that separates at rest.
+    Capture,
+    /// The number of stretches is spent.
+    Budget,
+}
+
+/// The normal motion, in units of the scene.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NormalPath<T> {
+    pub(super) end: End,
+    /// Energy at separation, or where the motion was left.
+    pub(super) energy: T,
+    /// Contact radius at the peak; zero where an over-damped sphere has none.
+    pub(super) peak: T,
+    /// Contact radius where a captured sphere first turns back; zero where it has not been followed so far, or creeps.
+    pub(super) turning: T,
+    pub(super) effort: Effort<T>,
+}
+
+/// What a motion took.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Effort<T> {
+    pub(super) stretches: u32,
+    pub(super) refused: u32,
+    pub(super) sweeps: u32,
+    /// Largest estimated error of a stretch.
+    pub(super) error: T,
+}
+
+/// Stretches that a motion may take, refused ones included.
+pub(super) const MOST_STRETCHES: u32 = 160;
+
+/// A motion in progress.
+struct Follower<'a, T, L, O> {
+    law: &'a L,
+    control: Control<T>,
+    observer: &'a mut O,
+    at: Point<T>,
+    effort: Effort<T>,
+}
+
+/// Follows the normal motion of a sphere that arrives with a kinetic energy of `energy`.
+///
+/// Where `to_turning_point`, a captured sphere is followed until it first turns back; else only until it cannot escape.
+pub(super) fn follow<T: Nodes<N>, const N: usize, L: NormalLaw<T>, O: Observer<T>>(
+    law: &L,
+    energy: T,
+    control: Control<T>,
+    to_turning_point: bool,
+    observer: &mut O,
+) -> NormalPath<T> {
+    let at = Point { s: T::ZERO, energy, speed_squared: energy + energy };
+    let effort = Effort { stretches: 0, refused: 0, sweeps: 0, error: T::ZERO };
+    let mut follower = Follower { law, control, observer, at, effort };
+    let mut path = NormalPath { end: End::Budget, energy, peak: T::ZERO, turning: T::ZERO, effort };
+    path.end = match follower.approach::<N>() {
+        Err(end) => end,
+        Ok(()) => {
+            path.peak = follower.at.s;
+            match follower.rebound::<N>(to_turning_point) {
+                Ok(turning) => {
+                    path.turning = turning;
+                    End::Capture
+                }
+                Err(end) => end,
+            }
+        }
+    };
+    path.energy = follower.at.energy;
+    path.effort = follower.effort;
+    path
+}
+
+impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
+    /// From first touch to the peak; `Err` where the motion ends without one.
+    fn approach<const N: usize>(&mut self) -> Result<(), End>
+    where
+        T: Nodes<N>,
+    {
+        let half = T::constant(0.5);
+        let beyond = self.undamped_peak();
+        let mut length = half;
+        loop {
+            if self.at.s > T::ZERO {
+                let arrival: Stretch<T, N> =
+                    arrive(self.law, &self.at, beyond, Course::APPROACH, &self.control, &mut self.effort.sweeps);
+                if self.take(&arrival, Course::APPROACH, Some(arrival.end.s))? {
+                    return Ok(());
+                }
+                if self.at.energy < T::ZERO && self.creeps(self.at.s, self.at.speed_squared.sqrt(), Course::APPROACH) {
+                    return Err(End::Capture);
+                }
+                length = self.braked_length(length, arrival.end.s);
+            } else {
+                length = self.first_length();
+            }
+            loop {
+                let stretch: Stretch<T, N> = pass(
+                    self.law,
+                    &self.at,
+                    (length, T::ZERO),
+                    Course::APPROACH,
+                    &self.control,
+                    &mut self.effort.sweeps,
+                );
+                let factor = self.length_factor(N, &stretch);
+                if self.take(&stretch, Course::APPROACH, None)? {
+                    length = (length * factor).min(T::ONE - self.at.s * half);
+                    break;
+                }
+                length = length * factor.min(T::constant(0.7));
+                if length <= T::EPSILON * T::EPSILON {
+                    return Err(if self.at.energy < T::ZERO { End::Capture } else { End::Budget });
+                }
+            }
+        }
+    }
+
+    /// A contact radius that the energy does not reach.
+    fn undamped_peak(&self) -> T {
+        let mut beyond = T::ONE;
+        for _ in 0..60 {
+            if self.law.potential(beyond) >= self.at.energy * T::constant(0.999) {
+                break;
+            }
+            beyond = beyond * T::constant(1.5);
+        }
+        beyond
+    }
+
+    /// The first stretch is short if the pull of adhesion outgrows the initial energy, or if damping takes it at once.
+    fn first_length(&self) -> T {
+        let half = T::constant(0.5);
+        let (energy, speed) = (self.at.energy, self.at.speed_squared.sqrt());
+        let mut length = half;
+        for _ in 0..60 {
+            if energy >= half * self.law.potential(half * length).abs() {
+                break;
+            }
+            length = length * T::constant(0.4);
+        }
+        for _ in 0..60 {
+            if self.law.loss(length, false) * length <= T::constant(4.0) * speed {
+                break;
+            }
+            length = length * T::constant(0.7);
+        }
+        length
+    }
+
+    /// No stretch goes beyond the undamped turning point, nor more than half way to where drag alone stops the sphere.
+    fn braked_length(&self, length: T, undamped_turning_point: T) -> T {
+        let (speed, loss) = (self.at.speed_squared.sqrt(), self.law.loss(self.at.s, false));
+        let mut length = length;
+        let reach = T::constant(0.55) * speed;
+        if loss * length > reach {
+            length = reach / loss;
+        }
+        if undamped_turning_point > self.at.s {
+            length = length.min(T::constant(0.7) * (undamped_turning_point - self.at.s));
+        }
+        length
+    }
+
+    /// From the peak to separation (`Err`) or to the turning point of a captured sphere (`Ok`, zero if not followed).
+    fn rebound<const N: usize>(&mut self, to_turning_point: bool) -> Result<T, End>
+    where
+        T: Nodes<N>,
+    {
+        let half = T::constant(0.5);
+        let peak = self.at.s;
+        let captured = self.at.energy < T::ZERO;
+        if (captured && !to_turning_point) || self.creeps(peak, T::ZERO, Course::REBOUND) {
+            return Ok(T::ZERO);
+        }
+        let depth = self.leave_peak::<N>()?;
+        let mut length = if depth < T::constant(0.4) * peak { T::constant(4.0) * depth } else { self.at.s };
+        while self.at.s > T::ZERO {
+            if self.at.energy < T::ZERO {
+                if !to_turning_point || self.creeps(self.at.s, self.at.speed_squared.sqrt(), Course::REBOUND) {
+                    return Ok(T::ZERO);
+                }
+                let guess = self.outer_turning_point();
+                let arrival: Stretch<T, N> =
+                    arrive(self.law, &self.at, guess, Course::REBOUND, &self.control, &mut self.effort.sweeps);
+                if self.take(&arrival, Course::REBOUND, Some(arrival.end.s))? {
+                    return Ok(self.at.s);
+                }
+                length = half * (self.at.s - guess);
+            } else {
+                length = self.departing_length(length);
+            }
+            loop {
+                let to_zero = length >= self.at.s;
+                let step = if to_zero { -self.at.s } else { -length };
+                let stretch: Stretch<T, N> =
+                    pass(self.law, &self.at, (step, T::ZERO), Course::REBOUND, &self.control, &mut self.effort.sweeps);
+                let factor = self.length_factor(N, &stretch);
+                if self.take(&stretch, Course::REBOUND, None)? {
+                    length = length * factor;
+                    if to_zero {
+                        self.at.s = T::ZERO;
+                    }
+                    break;
+                }
+                length = length * factor.min(T::constant(0.7));
+                if length <= T::EPSILON * T::EPSILON {
+                    return if self.at.energy < T::ZERO { Ok(T::ZERO) } else { Err(End::Budget) };
+                }
+            }
+        }
+        if self.at.energy < T::ZERO { Ok(T::ZERO) } else { Err(End::Separation) }
+    }
+
+    /// The first stretch of the rebound; its depth.
+    fn leave_peak<const N: usize>(&mut self) -> Result<T, End>
+    where
+        T: Nodes<N>,
+    {
+        let peak = self.at.s;
+        let mut depth = T::constant(0.5) * peak;
+        // What a sweep leaves of an error grows with the root of the depth.
+        let reach = T::constant(0.68) * self.law.loss(peak, true);
+        let stiffness = T::constant(0.2) * self.law.slope(peak);
+        if reach * reach * depth > stiffness {
+            depth = stiffness / (reach * reach);
+        }
+        loop {
+            let stretch: Stretch<T, N> =
+                leave(self.law, peak, depth, self.at.energy, Course::REBOUND, &self.control, &mut self.effort.sweeps);
+            let factor = self.length_factor(N, &stretch);
+            if self.take(&stretch, Course::REBOUND, Some(peak))? {
+                return Ok(depth);
+            }
+            depth = depth * factor.min(T::constant(0.7));
+            if depth <= T::EPSILON * T::EPSILON {
+                return Err(End::Budget);
+            }
+        }
+    }
+
+    /// To separation at once, unless the speed has a singularity (where V = -E) nearer than half the way.
+    fn departing_length(&self, length: T) -> T {
+        let half = T::constant(0.5);
+        let s = self.at.s;
+        let length = length.min(s);
+        if length >= T::constant(0.67) * s && self.at.energy < half * self.law.potential(half * s).abs() {
+            return T::constant(0.6) * s;
+        }
+        length
+    }
+
+    /// Where the potential equals the energy of a captured sphere, at its outermost point.
+    fn outer_turning_point(&self) -> T {
+        let (s, energy) = (self.at.s, self.at.energy);
+        let (mut below, mut above) = (T::ZERO, s);
+        for _ in 0..12 {
+            let middle = (below + above) * T::constant(0.5);
+            if self.law.potential(middle) > energy {
+                below = middle;
+            } else {
+                above = middle;
+            }
+        }
+        let mut turning = above;
+        for _ in 0..3 {
+            let slope = self.law.slope(turning);
+            if slope < T::ZERO {
+                let next = turning - (self.law.potential(turning) - energy) / slope;
+                if next > T::ZERO && next < s {
+                    turning = next;
+                }
+            }
+        }
+        turning
+    }
+
+    /// Goes on to the end of a stretch if it is accepted; `turning_point` is that of a stretch that has one.
+    #[inline]
+    fn take<const N: usize>(
+        &mut self,
+        stretch: &Stretch<T, N>,
+        course: Course,
+        turning_point: Option<T>,
+    ) -> Result<bool, End>
+    where
+        T: Nodes<N>,
+    {
+        if !stretch.accepted {
+            self.effort.refused += 1;
+        } else {
+            self.effort.stretches += 1;
+            self.effort.error = self.effort.error.max(stretch.error);
+            let roll = if O::EVENTS { self.observer.rolls_at(self.law, stretch) } else { None };
+            match roll {
+                Some(z) => self.split(stretch, course, turning_point, z),
+                None => self.observer.observe(self.law, stretch, course.rebound),
+            }
+            self.at = stretch.end;
+        }
+        if self.effort.stretches + self.effort.refused >= MOST_STRETCHES {
+            return Err(if self.at.energy < T::ZERO { End::Capture } else { End::Budget });
+        }
+        Ok(stretch.accepted)
+    }
+
+    /// Solves a stretch in two parts, before and after the sphere begins to roll at z, so that what is observed keeps
+    /// the full order.
+    #[inline(never)]
+    fn split<const N: usize>(&mut self, whole: &Stretch<T, N>, course: Course, turning_point: Option<T>, z: T)
+    where
+        T: Nodes<N>,
+    {
+        let (from, to) = (self.at, whole.end.s);
+        let two = T::constant(2.0);
+        let control = Control { error: T::ONE / T::EPSILON, timed: false, ..self.control };
+        let (law, sweeps) = (self.law, &mut self.effort.sweeps);
+        let mut z = z;
+        let mut first: Stretch<T, N>;
+        let mut late;
+        let mut tries = 0;
+        loop {
+            first = match turning_point {
+                Some(peak) if from.s == peak => {
+                    leave(law, peak, (peak - to) * z * z, from.energy, course, &control, sweeps)
+                }
+                Some(peak) => {
+                    let depth = peak - from.s;
+                    pass(law, &from, (two * depth * z, -(depth * z * z)), course, &control, sweeps)
+                }
+                None => pass(law, &from, ((to - from.s) * z, T::ZERO), course, &control, sweeps),
+            };
+            late = self.observer.lateness(law, &first) * z;
+            tries += 1;
+            let close = late.abs() <= T::constant(0.03) * self.control.error.sqrt();
+            if close || tries == 4 || z - late <= T::ZERO {
+                break;
+            }
+            z = z - late;
+        }
+        self.observer.observe(law, &first, course.rebound);
+        let end_rate = first.rate.last().copied().unwrap_or(T::ZERO);
+        self.observer.roll(-(late / z * end_rate));
+        let mut middle = first.end;
+        if course.rebound && middle.speed_squared < T::ZERO {
+            middle.energy = whole.end.energy;
+        }
+        let rest = T::ONE - z;
+        let second: Stretch<T, N> = match turning_point {
+            Some(peak) if from.s == peak => {
+                let depth = peak - to;
+                pass(law, &middle, (-(two * depth * z * rest), -(depth * rest * rest)), course, &control, sweeps)
+            }
+            Some(peak) => {
+                let back = Course { reversed: true, ..course };
+                let back = leave(law, peak, peak - middle.s, whole.end.energy, back, &control, sweeps);
+                Stretch { forward: false, ..back }
+            }
+            None => pass(law, &middle, (to - middle.s, T::ZERO), course, &control, sweeps),
+        };
+        self.observer.observe(law, &second, course.rebound);
+    }
+
+    /// By how much the next stretch may be longer, from 0.3 to 3: (allowed error/error)^(1/2N).
+    fn length_factor<const N: usize>(&self, nodes: usize, stretch: &Stretch<T, N>) -> T {
+        let (error, allowed) = (stretch.error, self.control.error);
+        if error >= T::ONE {
+            return T::constant(0.4);
+        }
+        if error <= T::ZERO {
+            return T::constant(3.0);
+        }
+        let grows = allowed > error;
+        let (ratio, step, inverse) = if grows {
+            (allowed.saturating_div(error), T::constant(1.2), T::constant(1.2))
+        } else {
+            (error.saturating_div(allowed), T::constant(0.85), T::constant(1.0 / 0.85))
+        };
+        let mut power = T::ONE;
+        for _ in 0..2 * nodes {
+            power = power * inverse;
+        }
+        let (mut ratio, mut factor) = (ratio, T::constant(0.9));
+        for _ in 0..6 {
+            if ratio <= power {
+                break;
+            }
+            ratio = ratio / power;
+            factor = factor * step;
+        }
+        factor
+    }
+
+    /// Whether a sphere at s with speed y creeps to its equilibrium without ever passing it.
+    ///
+    /// The line y = (d/2) |x_eq - x| with d^2 >= 4 k, d the least damping and k the greatest stiffness on the way, can be
+    /// crossed towards the equilibrium only.
+    #[inline(never)]
+    fn creeps(&self, s: T, y: T, course: Course) -> bool {
+        let law = self.law;
+        let Some(equilibrium) = self.equilibrium() else {
+            return false;
+        };
+        if (s < equilibrium) == course.rebound {
+            return false;
+        }
+        let damping = |s: T| law.damping(s, course.rebound);
+        let distance = law.indentation(equilibrium) - law.indentation(s);
+        let slope = law.indentation_slope(equilibrium);
+        let stiffness = law.curvature(equilibrium) / (slope * slope);
+        let secant = if distance == T::ZERO { T::ZERO } else { -(law.slope(s) / law.indentation_slope(s) / distance) };
+        let least = damping(s).min(damping(equilibrium));
+        least * least > T::constant(4.0) * stiffness.max(secant) && y < T::constant(0.5) * least * distance.abs()
+    }
+
+    /// Contact radius at which the forces balance: the minimum of the potential, by Newton's method from above.
+    fn equilibrium(&self) -> Option<T> {
+        let mut s = T::constant(2.0);
+        for _ in 0..40 {
+            let curvature = self.law.curvature(s);
+            if curvature <= T::ZERO {
+                return None;
+            }
+            let step = self.law.slope(s) / curvature;
+            s = s - step;
+            if s <= T::EPSILON {
+                return None;
+            }
+            if step.abs() <= T::EPSILON * s {
+                break;
+            }
+        }
+        Some(s)
+    }
+}

@@ -1,0 +1,168 @@
+//! The only door between SI units and the dimensionless motion.
+//!
+//! Unit of length is the peak indentation L of the undamped motion without external force, unit of speed U is such that the
+//! elastic force becomes (5/4) s^3, with the contact radius in units of sqrt(r L). Then 0 <= s <= 1 and |y| <= 1 without an
+//! external force, whatever the particle, and 2 E = 1 - p before the impact, where p < 1 is the strength of adhesion. In
+//! terms of spec 4.3 this is A = 5/4, B = (3/4) p.
+
+use core::f64::consts::PI;
+
+use super::damping::{HystereticDamping, NoDamping, ScaledDamping};
+use super::force::{ConstantForce, NoForce, ScaledForce};
+use super::ring::{Ring, ScaledRing};
+use super::tangential::{NoPeeling, Peeling, ScaledPeeling};
+use crate::{InputError, NoAdhesion, Parameter, Real, Sphere, Stiffness};
+
+/// The units of one impact, and the energy that the sphere brings.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scaled<T> {
+    /// L, m.
+    pub(super) length: T,
+    /// U, m/s.
+    pub(super) speed: T,
+    /// Strength p of adhesion.
+    pub(super) adhesion: T,
+    /// Kinetic energy before the impact, in units of m U^2.
+    pub(super) energy: T,
+    /// C U, the damping of strength zeta = 1.
+    pub(super) damping: T,
+}
+
+impl<T: Real> Scaled<T> {
+    /// Units for a sphere that arrives with `approach` (m/s) at a contact of equilibrium indentation `equilibrium` (m).
+    pub(super) fn new(
+        sphere: &Sphere<T>,
+        stiffness: Stiffness<T>,
+        equilibrium: T,
+        approach: T,
+    ) -> Result<Self, InputError> {
+        // w = v sqrt(m/(r^3 K)), where m/r^3 = 4 pi density/3: no product here leaves the range of single precision.
+        let w = approach * (T::constant(4.0 * PI / 3.0) * sphere.density() / stiffness.pascals()).sqrt();
+        let root = w.two_fifths_power();
+        // C v, with C of B4: (m/(r^3 K))^(2/5) v^(4/5).
+        let damping = root * root;
+        // delta_Hertz = (5/4)^(2/5) r w^(4/5).
+        let hertz = T::constant(1.093_362_073_943_278_1) * sphere.radius() * damping;
+        let adhesion = Parameter::AdhesionRatio.check(T::constant(5.0 / 3.0) * equilibrium / hertz)?;
+        let peak = peak_contact_radius(adhesion);
+        let inverse = T::ONE / peak;
+        let square = inverse * inverse;
+        let growth = peak * peak * peak.sqrt();
+        Ok(Self {
+            length: hertz * peak * peak,
+            speed: approach * growth,
+            adhesion: adhesion * square,
+            energy: T::constant(0.5) * square * square * inverse,
+            damping: damping * growth,
+        })
+    }
+
+    /// Unit of time L/U, s.
+    pub(super) fn time(&self) -> T {
+        self.length / self.speed
+    }
+}
+
+/// Contact radius a of the undamped peak over that of Hertz's impact: the root of a^5 - p a^3 = 1.
+fn peak_contact_radius<T: Real>(p: T) -> T {
+    // As a^2 = p + a^-3, from a value that is right to first order for small p and in the limit of large p.
+    let q = T::ONE / (T::ONE + T::constant(0.42) * p);
+    let mut a = (p + q * q.sqrt()).sqrt();
+    for _ in 0..4 {
+        let inverse = T::ONE / a;
+        let cube = inverse * inverse * inverse;
+        let step = (a * a - p - cube) / (a + a + T::constant(3.0) * cube * inverse);
+        a = a - step;
+        if step.abs() <= T::EPSILON * a {
+            break;
+        }
+    }
+    a
+}
+
+/// A term of a scene that becomes a dimensionless term of the motion.
+pub trait Scale<T: Real> {
+    /// The dimensionless term.
+    type Scaled: Copy;
+
+    /// Equilibrium indentation that the term would give the sphere, m.
+    #[inline]
+    fn equilibrium(&self, _stiffness: Stiffness<T>) -> T {
+        T::ZERO
+    }
+
+    /// The term in units of the impact of a sphere.
+    ///
+    /// # Errors
+    /// A ratio outside its range.
+    fn scale(&self, sphere: &Sphere<T>, units: &Scaled<T>) -> Result<Self::Scaled, InputError>;
+}
+
+macro_rules! absent {
+    ($term:ty) => {
+        impl<T: Real> Scale<T> for $term {
+            type Scaled = Self;
+
+            #[inline]
+            fn scale(&self, _sphere: &Sphere<T>, _units: &Scaled<T>) -> Result<Self, InputError> {
+                Ok(*self)
+            }
+        }
+    };
+}
+
+absent!(NoDamping);
+absent!(NoAdhesion);
+absent!(NoForce);
+absent!(NoPeeling);
+
+impl<T: Real> Scale<T> for HystereticDamping<T> {
+    type Scaled = ScaledDamping<T>;
+
+    #[inline]
+    fn scale(&self, _sphere: &Sphere<T>, units: &Scaled<T>) -> Result<ScaledDamping<T>, InputError> {
+        Ok(ScaledDamping(Parameter::DampingRatio.check(self.zeta * units.damping)?))
+    }
+}
+
+impl<T: Real> Scale<T> for Ring<T> {
+    type Scaled = ScaledRing<T>;
+
+    /// delta_eq = 2 pi f0/K.
+    #[inline]
+    fn equilibrium(&self, stiffness: Stiffness<T>) -> T {
+        T::constant(2.0 * PI) * self.strength / stiffness.pascals()
+    }
+
+    #[inline]
+    fn scale(&self, _sphere: &Sphere<T>, units: &Scaled<T>) -> Result<ScaledRing<T>, InputError> {
+        let damping = Parameter::DampingRatio.check(self.zeta * units.damping)?;
+        Ok(ScaledRing { strength: units.adhesion, damping })
+    }
+}
+
+impl<T: Real> Scale<T> for ConstantForce<T> {
+    type Scaled = ScaledForce<T>;
+
+    #[inline]
+    fn scale(&self, sphere: &Sphere<T>, units: &Scaled<T>) -> Result<ScaledForce<T>, InputError> {
+        let acceleration = self.force / sphere.mass();
+        let inwards = -(acceleration / units.speed * units.time());
+        Ok(ScaledForce(Parameter::ForceRatio.check(inwards)?))
+    }
+}
+
+/// A peeling moment in units of the motion; it goes with the damping c_A of a ring.
+pub(super) fn peeling<T: Real>(
+    peeling: &Peeling<T>,
+    ring: &Ring<T>,
+    sphere: &Sphere<T>,
+    units: &Scaled<T>,
+) -> Result<ScaledPeeling<T>, InputError> {
+    // lambda c_A a/(kappa m r^2) at a = sqrt(r L), for a time L/U; c_A U = zeta_A C U.
+    let inertia = sphere.gyration_ratio() * sphere.mass();
+    let decay = peeling.lambda / inertia / units.speed * (ring.zeta * units.damping / units.speed);
+    let depth = units.length / sphere.radius();
+    let rate = decay * depth * depth.sqrt();
+    Ok(ScaledPeeling(Parameter::DampingRatio.check(rate)?))
+}

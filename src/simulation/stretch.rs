@@ -1,0 +1,488 @@
+//! Stretches of the path, each solved by collocation of the speed at Radau's nodes.
+//!
+//! Along a stretch s is a polynomial of z on 0..1 and y^2 = free(z) - integral of loss(z) y dz, where `free` is the square of
+//! the speed without losses. Away from turning points y itself is smooth in z. Towards a turning point z = 0 it vanishes
+//! like z, so that s = peak - depth z^2 and y = z u with u smooth. Sweeps over all nodes at once converge superlinearly while
+//! the loss is a small part of the energy; Newton's method takes over where it is not.
+
+// Indices run over arrays of the length that their loops count to.
+#![allow(clippy::indexing_slicing, clippy::needless_range_loop)]
+
+use super::law::NormalLaw;
+use super::nodes::Nodes;
+use crate::Real;
+
+/// How exactly a stretch is solved.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Control<T> {
+    /// Change of the speeds at which the sweeps end.
+    pub(super) settled: T,
+    /// Largest error that a stretch may have.
+    pub(super) error: T,
+    /// Whether the time that the stretch takes has to have that accuracy too.
+    pub(super) timed: bool,
+}
+
+/// A point of the path.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Point<T> {
+    /// Contact radius.
+    pub(super) s: T,
+    /// Energy E.
+    pub(super) energy: T,
+    /// y^2, which close to a turning point is known better than E - V is.
+    pub(super) speed_squared: T,
+}
+
+/// Direction of the path in time and space.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Course {
+    /// Whether the sphere is on its way out, where adhesion takes energy too.
+    pub(super) rebound: bool,
+    /// Whether the path is followed against time, so that losses are gains.
+    pub(super) reversed: bool,
+}
+
+impl Course {
+    pub(super) const APPROACH: Self = Self { rebound: false, reversed: false };
+    pub(super) const REBOUND: Self = Self { rebound: true, reversed: false };
+}
+
+/// A solved stretch: values at the nodes and at the end.
+#[derive(Clone, Copy, Debug)]
+pub struct Stretch<T, const N: usize> {
+    /// Contact radius.
+    pub(super) s: [T; N],
+    /// Size of the speed.
+    pub(super) y: [T; N],
+    /// Time for each dz.
+    pub(super) rate: [T; N],
+    /// The point that the stretch leads to.
+    pub(super) end: Point<T>,
+    /// Whether it converged within the error allowed.
+    pub(super) accepted: bool,
+    /// Estimated error.
+    pub(super) error: T,
+    /// Whether z runs with time; a stretch that arrives at a turning point is written from there.
+    pub(super) forward: bool,
+}
+
+/// Sum of products, in four parts that do not wait for each other.
+#[inline]
+pub(super) fn dot<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
+    let mut sums = [T::ZERO; 4];
+    for k in 0..N {
+        sums[k % 4] = sums[k % 4] + a[k] * b[k];
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
+
+/// Integrals from zero to each node.
+#[inline]
+pub(super) fn integrals<T: Real, const N: usize>(table: &[[T; N]; N], f: &[T; N]) -> [T; N] {
+    let mut sums = [T::ZERO; N];
+    for k in 0..N {
+        for j in 0..N {
+            sums[j] = sums[j] + table[k][j] * f[k];
+        }
+    }
+    sums
+}
+
+/// The unknowns of a stretch while they are iterated.
+struct Sweeps<T, const N: usize> {
+    /// Speeds, or speeds over z.
+    speed: [T; N],
+    /// Half their reciprocals, which follow by multiplication alone.
+    half_inverse: [T; N],
+    /// Loss times speed.
+    power: [T; N],
+    /// Square of the last change.
+    change: T,
+    sweeps: u32,
+}
+
+/// Sweeps that a stretch may take.
+const MOST_SWEEPS: u32 = 20;
+
+impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
+    fn from(free: &[T; N], loss: &[T; N]) -> Self {
+        let (mut speed, mut half_inverse, mut power) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
+        for j in 0..N {
+            speed[j] = free[j].max(T::SMALLEST).sqrt();
+            half_inverse[j] = T::constant(0.5) / speed[j];
+            power[j] = loss[j] * speed[j];
+        }
+        Self { speed, half_inverse, power, change: T::constant(1e9), sweeps: 0 }
+    }
+
+    /// One sweep: Heron's step for the root at every node. `gain` is what the losses leave, as a sum.
+    #[inline]
+    fn sweep(&mut self, free: &[T; N], loss: &[T; N], lost: impl Fn(T, T) -> T, table: &[[T; N]; N]) -> T {
+        let two = T::constant(2.0);
+        let integral = integrals(table, &self.power);
+        let mut squares = [T::ZERO; 4];
+        for j in 0..N {
+            let speed = self.speed[j];
+            let step = self.half_inverse[j] * (lost(free[j], integral[j]) - speed * speed);
+            squares[j % 4] = squares[j % 4] + step * step;
+            let speed = speed + step;
+            self.speed[j] = speed;
+            self.half_inverse[j] = self.half_inverse[j] * (two - two * speed * self.half_inverse[j]);
+            self.power[j] = loss[j] * speed;
+        }
+        self.sweeps += 1;
+        (squares[0] + squares[1]) + (squares[2] + squares[3])
+    }
+
+    /// Whether the sweeps have settled after a change of this square. They converge superlinearly: the next change is
+    /// at most this one squared over the one before.
+    #[inline]
+    fn settles(&mut self, change: T, control: &Control<T>) -> Progress {
+        let enough = control.settled * control.settled;
+        if change <= enough || (self.sweeps > 1 && change * change <= enough * self.change) {
+            return Progress::Settled;
+        }
+        if change < T::constant(4.0) * self.change && self.sweeps < MOST_SWEEPS {
+            self.change = change;
+            return Progress::Converging;
+        }
+        Progress::Diverging
+    }
+
+    fn settle(&mut self, free: &[T; N], loss: &[T; N], table: &[[T; N]; N], control: &Control<T>) -> bool {
+        loop {
+            let change = self.sweep(free, loss, |free, lost| free - lost, table);
+            match self.settles(change, control) {
+                Progress::Settled => return true,
+                Progress::Diverging => return false,
+                Progress::Converging => {}
+            }
+        }
+    }
+
+    /// Estimated error: the square of what the highest polynomial of the nodes contributes, since Radau's
+    /// quadrature converges twice as fast as interpolation.
+    #[inline]
+    fn error(&self, scale: T, rate: &[T; N], control: &Control<T>) -> T {
+        let tail = |f: &[T; N]| dot(&T::TAIL, f).abs();
+        let mut share = tail(&self.power) / (dot(&T::WHOLE, &self.power).abs() + scale + T::SMALLEST);
+        if control.timed {
+            share = share.max(tail(rate) / (dot(&T::WHOLE, rate).abs() + T::SMALLEST));
+        }
+        T::constant(0.02) * share * share
+    }
+}
+
+enum Progress {
+    Settled,
+    Converging,
+    Diverging,
+}
+
+/// Away from turning points: from a point along s + first z + second z^2.
+#[inline]
+pub(super) fn pass<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
+    law: &L,
+    from: &Point<T>,
+    (first, second): (T, T),
+    course: Course,
+    control: &Control<T>,
+    sweeps: &mut u32,
+) -> Stretch<T, N> {
+    let (two, half) = (T::constant(2.0), T::constant(0.5));
+    let (mut s, mut free, mut loss, mut length) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
+    let slow = from.speed_squared < from.energy.abs();
+    let (mut possible, mut reach, mut contraction) = (true, T::ZERO, T::ZERO);
+    for j in 0..N {
+        let step = T::Z[j] * (first + second * T::Z[j]);
+        s[j] = from.s + step;
+        length[j] = (first + two * second * T::Z[j]).abs();
+        // From the speed where that is small, else from the energy: the form that does not cancel.
+        free[j] = if slow {
+            from.speed_squared - two * law.divided(s[j], from.s) * step
+        } else {
+            two * (from.energy - law.potential(s[j]))
+        };
+        loss[j] = two * length[j] * law.loss(s[j], course.rebound);
+        possible &= free[j] > T::ZERO;
+        let speed = free[j].max(T::SMALLEST).sqrt();
+        reach = reach + T::WHOLE[j] * loss[j];
+        contraction = contraction.max(half * reach / speed);
+    }
+    if course.reversed {
+        loss = loss.map(|loss| -loss);
+    }
+    let mut state = Sweeps::from(&free, &loss);
+    let mut accepted = possible;
+    let mut newton = false;
+    if possible && !(contraction < half && state.settle(&free, &loss, &T::RUNNING, control)) {
+        newton = true;
+        accepted = solve_strongly_damped(&free, &loss, &mut state, control);
+    }
+    *sweeps += state.sweeps;
+    let lost = dot(&T::WHOLE, &state.power);
+    let mut rate = [T::ZERO; N];
+    for j in 0..N {
+        accepted &= state.speed[j] > T::ZERO;
+        rate[j] = two * length[j] * law.indentation_slope(s[j]) * state.half_inverse[j];
+    }
+    let error = if possible { state.error(free[0].max(free[N - 1]), &rate, control) } else { T::ONE };
+    let last = state.speed[N - 1];
+    // Newton's method knows the speed at the end, sweeps know the energy lost; where almost all is lost the one counts,
+    // elsewhere the other.
+    let speed_squared = if newton { last * last } else { free[N - 1] - lost };
+    let energy = if newton && speed_squared < T::constant(0.1) * from.energy.abs() {
+        half * speed_squared + law.potential(s[N - 1])
+    } else {
+        from.energy - half * lost
+    };
+    let end = Point { s: s[N - 1], energy, speed_squared };
+    Stretch { s, y: state.speed, rate, end, accepted: accepted && error <= control.error, error, forward: true }
+}
+
+/// From a turning point `peak`, where the sphere rests, down to `peak` - `depth`.
+#[inline]
+pub(super) fn leave<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
+    law: &L,
+    peak: T,
+    depth: T,
+    energy: T,
+    course: Course,
+    control: &Control<T>,
+    sweeps: &mut u32,
+) -> Stretch<T, N> {
+    let (two, half) = (T::constant(2.0), T::constant(0.5));
+    let (mut s, mut free, mut loss) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
+    let (mut possible, mut strongest) = (true, T::ZERO);
+    for j in 0..N {
+        s[j] = peak - depth * T::Z[j] * T::Z[j];
+        free[j] = two * depth * law.divided(peak, s[j]);
+        loss[j] = T::constant(4.0) * depth.abs() * law.loss(s[j], course.rebound);
+        possible &= free[j] > T::ZERO;
+        strongest = strongest.max(loss[j]);
+    }
+    if course.reversed {
+        loss = loss.map(|loss| -loss);
+    }
+    let mut state = Sweeps::from(&free, &loss);
+    // A sixth of the loss over the speed is what a sweep leaves of an error.
+    let contraction = T::constant(0.34) * strongest * state.half_inverse[0];
+    let mut accepted = possible && contraction < T::constant(0.4) && state.settle(&free, &loss, &T::TURNING, control);
+    *sweeps += state.sweeps;
+    let lost = half * dot(&T::WHOLE_TURNING, &state.power);
+    let (rate, y) = from_turning_point(law, &s, &state, depth.abs(), &mut accepted);
+    let error = state.error(free[N - 1], &rate, control);
+    let speed_squared = two * (depth * law.divided(peak, s[N - 1]) - lost);
+    let end = Point { s: s[N - 1], energy: energy - lost, speed_squared };
+    Stretch { s, y, rate, end, accepted: accepted && error <= control.error, error, forward: true }
+}
+
+/// To a turning point ahead, which is found on the way; `guess` is a first value of it. z runs from there, against time.
+#[inline]
+pub(super) fn arrive<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
+    law: &L,
+    from: &Point<T>,
+    guess: T,
+    course: Course,
+    control: &Control<T>,
+    sweeps: &mut u32,
+) -> Stretch<T, N> {
+    let (two, half) = (T::constant(2.0), T::constant(0.5));
+    let inwards = guess > from.s;
+    let mut depth = undamped_distance(law, from, guess);
+    let mut turning = from.s + depth;
+    let refused = |turning: T, possible: bool| Stretch {
+        s: [turning; N],
+        y: [T::ZERO; N],
+        rate: [T::ZERO; N],
+        end: Point { s: if possible { turning } else { from.s }, energy: from.energy, speed_squared: T::ZERO },
+        accepted: false,
+        error: T::ONE,
+        forward: false,
+    };
+    if (depth > T::ZERO) != inwards || turning <= T::ZERO {
+        return refused(turning, false);
+    }
+    // What a sweep leaves of an error is known beforehand, so a strongly damped arrival costs nothing.
+    let reach =
+        T::constant(0.68) * depth.abs() * law.loss(if course.rebound { from.s } else { turning }, course.rebound);
+    let stopping = two * depth * law.divided(turning, from.s);
+    if !(stopping > T::ZERO && reach * reach < T::constant(0.3) * stopping) {
+        return refused(turning, true);
+    }
+    let (mut s, mut free, mut loss) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
+    let describe = |turning: T, depth: T, s: &mut [T; N], free: &mut [T; N], loss: &mut [T; N]| {
+        let factor = T::constant(4.0) * depth.abs();
+        let factor = if course.reversed { -factor } else { factor };
+        for j in 0..N {
+            s[j] = turning - depth * T::Z[j] * T::Z[j];
+            free[j] = two * depth * law.divided(turning, s[j]);
+            loss[j] = factor * law.loss(s[j], course.rebound);
+        }
+    };
+    describe(turning, depth, &mut s, &mut free, &mut loss);
+    if free.iter().any(|free| *free <= T::ZERO) {
+        return refused(turning, true);
+    }
+    let mut state = Sweeps::from(&free, &loss);
+    let mut accepted = false;
+    let mut lost;
+    loop {
+        // Seen from the turning point the losses of the way there are still to come.
+        let change = state.sweep(&free, &loss, |free, lost| free + lost, &T::TURNING);
+        lost = half * dot(&T::WHOLE_TURNING, &state.power);
+        let excess = law.divided(turning, from.s) * depth + lost - half * from.speed_squared;
+        let step = excess / (law.slope(turning) + T::constant(1.5) * lost / depth);
+        depth = depth - step;
+        turning = from.s + depth;
+        if (depth > T::ZERO) != inwards || turning <= T::ZERO {
+            break;
+        }
+        match state.settles(change + step * step, control) {
+            Progress::Settled => {
+                accepted = true;
+                break;
+            }
+            Progress::Diverging => break,
+            Progress::Converging => describe(turning, depth, &mut s, &mut free, &mut loss),
+        }
+    }
+    *sweeps += state.sweeps;
+    let (rate, y) = from_turning_point(law, &s, &state, depth.abs(), &mut accepted);
+    let last = state.speed[N - 1];
+    let error = state.error(last * last, &rate, control);
+    let slow = from.speed_squared < T::constant(0.1) * from.energy.abs();
+    let energy = if slow { law.potential(turning) } else { from.energy - lost };
+    let end = Point { s: turning, energy, speed_squared: T::ZERO };
+    Stretch { s, y, rate, end, accepted: accepted && error <= control.error, error, forward: false }
+}
+
+/// Distance from a point to where its kinetic energy would be spent without losses: Newton's method from beyond.
+fn undamped_distance<T: Real>(law: &impl NormalLaw<T>, from: &Point<T>, guess: T) -> T {
+    let half = T::constant(0.5);
+    let mut distance = guess - from.s;
+    let slope = law.slope(from.s);
+    if slope * distance > T::ZERO && from.speed_squared < T::constant(2.0) * slope * distance {
+        distance = half * from.speed_squared / slope;
+    }
+    for _ in 0..8 {
+        let excess = law.divided(from.s + distance, from.s) * distance - half * from.speed_squared;
+        let step = excess / law.slope(from.s + distance);
+        distance = distance - step;
+        if step.abs() < T::constant(0.02) * distance.abs() {
+            break;
+        }
+    }
+    distance
+}
+
+/// Times and speeds of a stretch that begins at a turning point.
+#[inline]
+fn from_turning_point<T: Nodes<N>, const N: usize>(
+    law: &impl NormalLaw<T>,
+    s: &[T; N],
+    state: &Sweeps<T, N>,
+    depth: T,
+    accepted: &mut bool,
+) -> ([T; N], [T; N]) {
+    let (mut rate, mut y) = ([T::ZERO; N], [T::ZERO; N]);
+    for j in 0..N {
+        *accepted &= state.speed[j] > T::ZERO;
+        rate[j] = T::constant(4.0) * depth * law.indentation_slope(s[j]) * state.half_inverse[j];
+        y[j] = state.speed[j] * T::Z[j];
+    }
+    (rate, y)
+}
+
+/// Newton's method with the dense Jacobian, for stretches that lose most of their energy.
+#[inline(never)]
+fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
+    free: &[T; N],
+    loss: &[T; N],
+    state: &mut Sweeps<T, N>,
+    control: &Control<T>,
+) -> bool {
+    let half = T::constant(0.5);
+    let speed = &mut state.speed;
+    for j in 0..N {
+        let root = free[j].max(T::SMALLEST).sqrt();
+        // As if the loss so far had acted at this node's speed.
+        speed[j] = if loss[j] > T::ZERO { root * root / (root + T::constant(0.3) * loss[j]) } else { root };
+    }
+    let enough = control.settled.max(T::constant(4.0) * T::EPSILON);
+    let mut settled = false;
+    for _ in 0..10 {
+        let (mut jacobian, mut residual) = ([[T::ZERO; N]; N], [T::ZERO; N]);
+        for j in 0..N {
+            let mut lost = T::ZERO;
+            for k in 0..N {
+                jacobian[j][k] = T::RUNNING[k][j] * loss[k];
+                lost = lost + jacobian[j][k] * speed[k];
+            }
+            jacobian[j][j] = jacobian[j][j] + speed[j] + speed[j];
+            residual[j] = free[j] - lost - speed[j] * speed[j];
+        }
+        if !eliminate(&mut jacobian, &mut residual) {
+            break;
+        }
+        // No step takes more than nine tenths of a speed.
+        let (mut share, mut largest) = (T::ONE, T::ZERO);
+        for j in 0..N {
+            let bound = T::constant(-0.9) * speed[j];
+            if residual[j] < bound {
+                share = share.min(bound / residual[j]);
+            }
+            largest = largest.max(residual[j].abs() / speed[j]);
+        }
+        for j in 0..N {
+            speed[j] = speed[j] + share * residual[j];
+        }
+        state.sweeps += 1;
+        if largest * largest <= enough {
+            settled = true;
+            break;
+        }
+        if largest >= T::constant(1e9) {
+            break;
+        }
+    }
+    for j in 0..N {
+        state.half_inverse[j] = half / speed[j];
+        state.power[j] = loss[j] * speed[j];
+    }
+    settled
+}
+
+/// Solves a system of linear equations in place, with row pivoting; `false` where it is singular.
+fn eliminate<T: Real, const N: usize>(matrix: &mut [[T; N]; N], right: &mut [T; N]) -> bool {
+    for p in 0..N {
+        let mut pivot = p;
+        for i in p + 1..N {
+            if matrix[i][p].abs() > matrix[pivot][p].abs() {
+                pivot = i;
+            }
+        }
+        matrix.swap(p, pivot);
+        right.swap(p, pivot);
+        if matrix[p][p] == T::ZERO {
+            return false;
+        }
+        let inverse = T::ONE / matrix[p][p];
+        for i in p + 1..N {
+            let factor = matrix[i][p] * inverse;
+            for k in p..N {
+                matrix[i][k] = matrix[i][k] - factor * matrix[p][k];
+            }
+            right[i] = right[i] - factor * right[p];
+        }
+    }
+    for p in (0..N).rev() {
+        let mut sum = right[p];
+        for k in p + 1..N {
+            sum = sum - matrix[p][k] * right[k];
+        }
+        right[p] = sum / matrix[p][p];
+    }
+    true
+}
