@@ -104,12 +104,12 @@ fn errors<const N: usize, T: Nodes<N>>(tolerance: f64, double: impl Fn(T) -> f64
         if !rebounds {
             continue;
         }
-        compare("contact time", impact.times.contact, "contact_time_s");
-        compare("peak time", impact.times.peak, "time_peak_s");
-        compare("impulse", Some(impact.impulses.elastic), "impulse_hertz_n_s");
-        compare("adhesion impulse", Some(impact.impulses.adhesion_rebound), "impulse_adhesion_rebound_n_s");
-        compare("material work", Some(impact.works.material), "work_material_j");
-        compare("adhesion work", Some(impact.works.adhesion), "work_adhesion_j");
+        compare("contact time", impact.outputs.times.contact, "contact_time_s");
+        compare("peak time", impact.outputs.times.peak, "time_peak_s");
+        compare("impulse", Some(impact.outputs.impulses.elastic), "impulse_hertz_n_s");
+        compare("adhesion impulse", Some(impact.outputs.impulses.adhesion_rebound), "impulse_adhesion_rebound_n_s");
+        compare("material work", Some(impact.outputs.works.material), "work_material_j");
+        compare("adhesion work", Some(impact.outputs.works.adhesion), "work_adhesion_j");
         compare("V_t", Some(impact.tangential.velocity()), "speed_tangential_out_m_s");
         compare("W", Some(impact.tangential.spin()), "spin_out_rad_s");
         compare("rotation", Some(impact.tangential.rotation()), "rotation_rad");

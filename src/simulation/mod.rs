@@ -19,16 +19,20 @@ mod tangential;
 pub use damping::{HystereticDamping, NoDamping, ScaledDamping};
 pub use force::{ConstantForce, NoForce, ScaledForce};
 pub use law::{Attraction, Damping, HertzLaw, NormalLaw};
+pub use motion::NormalPath;
 pub use nodes::Nodes;
 pub use observer::{Impulses, Observer, Times, Works};
-pub use outcome::{ContactImpulses, ContactTimes, ContactWorks, NormalContact, RunReport, Status, TangentialContact};
+pub use outcome::{
+    ContactImpulses, ContactTimes, ContactWorks, Everything, NormalContact, Output, RunReport, Status,
+    TangentialContact,
+};
 pub use ring::{Ring, ScaledRing};
 pub use scaled::{Scale, Scaled};
 pub use stretch::Stretch;
 pub use tangential::{NoPeeling, Peeling, ScaledPeeling, SpinDamping, TangentialMotion};
 
 use crate::{Approach, Coulomb, InputError, NoAdhesion, NoFriction, Oblique, Parameter, Real, Sphere, Stiffness};
-use motion::{NormalPath, follow};
+use motion::follow;
 use stretch::Control;
 
 /// The method that solves the normal motion: collocation at `N` nodes, in as many stretches as the tolerance needs.
@@ -92,7 +96,8 @@ pub struct Simulation<T, D = NoDamping, A = NoAdhesion, F = NoFriction, P = NoPe
     force: X,
 }
 
-/// The result of a simulation, with `G` for the tangential side: `()` or [`TangentialContact`].
+/// The result of a simulation, with `O` for the outputs asked for and `G` for the tangential side: `()` or
+/// [`TangentialContact`].
 ///
 /// ```
 /// use microimpact::simulation::{Collocation, Simulation};
@@ -105,17 +110,13 @@ pub struct Simulation<T, D = NoDamping, A = NoAdhesion, F = NoFriction, P = NoPe
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SimulatedImpact<T, G> {
+pub struct SimulatedImpact<T, G, O = Everything<T>> {
     /// Along the normal.
     pub normal: NormalContact<T>,
-    /// When the peak and the separation came.
-    pub times: ContactTimes<T>,
-    /// Impulses of the elastic force and of adhesion.
-    pub impulses: ContactImpulses<T>,
-    /// Works of the two kinds of damping.
-    pub works: ContactWorks<T>,
     /// Along the surface, where friction takes part.
     pub tangential: G,
+    /// What else was asked for.
+    pub outputs: O,
     /// What the run took.
     pub run: RunReport<T>,
 }
@@ -356,18 +357,48 @@ where
         M: Approach<T>,
         F: TangentialScene<T, M, A, P>,
     {
+        self.observe(method, motion)
+    }
+
+    /// The impact of a sphere that arrives with `motion`, with the outputs that the type `O` of the result names:
+    /// [`ContactTimes`], [`ContactImpulses`], [`ContactWorks`], pairs of them, or `()` for none. What is not named is not
+    /// computed.
+    ///
+    /// # Errors
+    /// As [`impact`](Self::impact).
+    ///
+    /// ```
+    /// use microimpact::simulation::{Collocation, ContactTimes, SimulatedImpact, Simulation};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
+    /// let motion = NormalMotion::new(1.0)?;
+    /// let method = Collocation::<9, f64>::new(1e-9)?;
+    /// let impact: SimulatedImpact<_, _, ContactTimes<f64>> = scene.observe(&method, &motion)?;
+    /// assert_eq!(impact.outputs, scene.impact(&method, &motion)?.outputs.times);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn observe<const N: usize, M, O>(
+        &self,
+        method: &Collocation<N, T>,
+        motion: &M,
+    ) -> Result<SimulatedImpact<T, F::Contact, O>, InputError>
+    where
+        T: Nodes<N>,
+        M: Approach<T>,
+        F: TangentialScene<T, M, A, P>,
+        O: Output<T>,
+    {
         let approach = motion.normal().speed();
         let units = self.units(approach)?;
         let tangential = self.friction.start(&self.sphere, &self.adhesion, &self.peeling, motion, &units)?;
-        let mut observer = ((Times::new(), Impulses::new()), (Works::new(), tangential));
-        let path = self.follow::<N, _>(method, &units, true, true, &mut observer)?;
-        let ((times, impulses), (works, tangential)) = observer;
+        let mut observer = (O::begin(), tangential);
+        let path = self.follow::<N, _>(method, &units, O::TIMED, true, &mut observer)?;
+        let (observer, tangential) = observer;
         Ok(SimulatedImpact {
             normal: NormalContact::new(&path, approach, &self.sphere, self.stiffness, &units),
-            times: ContactTimes::new(&times, &path, &units),
-            impulses: ContactImpulses::new(&impulses, &self.sphere, &units),
-            works: ContactWorks::new(&works, &self.sphere, &units),
             tangential: F::finish(tangential, &self.sphere, &units),
+            outputs: O::finish(observer, &path, &self.sphere, &units),
             run: RunReport::new(&path),
         })
     }
@@ -435,7 +466,8 @@ where
             adhesion: self.adhesion.scale(&self.sphere, units)?,
             force: self.force.scale(&self.sphere, units)?,
         };
-        let control = Control { settled: method.tolerance, error: method.tolerance, timed };
+        let settled = T::constant(0.1) * method.tolerance;
+        let control = Control { settled, error: method.tolerance, timed };
         Ok(follow::<T, N, _, _>(&law, units.energy, control, to_turning_point, observer))
     }
 }

@@ -19,7 +19,7 @@ pub(super) enum End {
 
 /// The normal motion, in units of the scene.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct NormalPath<T> {
+pub struct NormalPath<T> {
     pub(super) end: End,
     /// Energy at separation, or where the motion was left.
     pub(super) energy: T,

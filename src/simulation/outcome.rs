@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use super::motion::{End, MOST_STRETCHES, NormalPath};
-use super::observer::{Impulses, Times, Works};
+use super::observer::{Impulses, Observer, Times, Works};
 use super::scaled::Scaled;
 use super::tangential::{SpinDamping, TangentialMotion};
 use crate::{Outcome, Real, Sphere, Stiffness, SurfaceMotion};
@@ -180,6 +180,88 @@ impl<T: Real> NormalContact<T> {
     }
 }
 
+/// Something that a simulation can be asked for besides how it ends; chosen by its type, and absent where not named.
+///
+/// ```
+/// use microimpact::simulation::{ContactTimes, Output};
+///
+/// assert!(<(ContactTimes<f64>, ()) as Output<f64>>::TIMED);
+/// ```
+pub trait Output<T: Real>: Sized {
+    /// Whether the time that a stretch takes has to meet the tolerance too.
+    const TIMED: bool;
+    /// What is integrated along the motion.
+    type Observer: Observer<T>;
+
+    /// The state at first touch.
+    fn begin() -> Self::Observer;
+
+    /// The output in SI units.
+    fn finish(observer: Self::Observer, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self;
+}
+
+impl<T: Real> Output<T> for () {
+    const TIMED: bool = false;
+    type Observer = ();
+
+    fn begin() {}
+
+    fn finish((): (), _path: &NormalPath<T>, _sphere: &Sphere<T>, _units: &Scaled<T>) {}
+}
+
+impl<T: Real, A: Output<T>, B: Output<T>> Output<T> for (A, B) {
+    const TIMED: bool = A::TIMED || B::TIMED;
+    type Observer = (A::Observer, B::Observer);
+
+    fn begin() -> Self::Observer {
+        (A::begin(), B::begin())
+    }
+
+    fn finish((a, b): Self::Observer, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
+        (A::finish(a, path, sphere, units), B::finish(b, path, sphere, units))
+    }
+}
+
+/// All outputs of a simulation.
+///
+/// ```
+/// use microimpact::simulation::{Collocation, Everything, Simulation};
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
+///
+/// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
+/// let Everything { times, impulses, works } =
+///     scene.impact(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(1.0)?)?.outputs;
+/// assert!(times.contact.is_some() && impulses.elastic > 0.0 && works.material > 0.0);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Everything<T> {
+    /// When the peak and the separation came.
+    pub times: ContactTimes<T>,
+    /// Impulses of the elastic force and of adhesion.
+    pub impulses: ContactImpulses<T>,
+    /// Works of the two kinds of damping.
+    pub works: ContactWorks<T>,
+}
+
+impl<T: Real> Output<T> for Everything<T> {
+    const TIMED: bool = true;
+    type Observer = (Times<T>, (Impulses<T>, Works<T>));
+
+    fn begin() -> Self::Observer {
+        (Times::new(), (Impulses::new(), Works::new()))
+    }
+
+    fn finish(observer: Self::Observer, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
+        let (times, (impulses, works)) = observer;
+        Self {
+            times: Output::finish(times, path, sphere, units),
+            impulses: Output::finish(impulses, path, sphere, units),
+            works: Output::finish(works, path, sphere, units),
+        }
+    }
+}
+
 /// Times of a simulated impact, s, from first touch.
 ///
 /// ```
@@ -188,7 +270,7 @@ impl<T: Real> NormalContact<T> {
 ///
 /// let (sphere, stiffness) = (Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
 /// let motion = NormalMotion::new(1.0)?;
-/// let times = Simulation::new(sphere, stiffness).impact(&Collocation::<9, f64>::new(1e-9)?, &motion)?.times;
+/// let times = Simulation::new(sphere, stiffness).impact(&Collocation::<9, f64>::new(1e-9)?, &motion)?.outputs.times;
 /// assert!((times.contact.unwrap() / Hertz::new(&sphere, stiffness, &motion).duration - 1.0).abs() < 1e-7);
 /// assert!((times.peak.unwrap() / times.contact.unwrap() - 0.5).abs() < 1e-7);
 /// # Ok::<(), microimpact::InputError>(())
@@ -201,8 +283,15 @@ pub struct ContactTimes<T> {
     pub contact: Option<T>,
 }
 
-impl<T: Real> ContactTimes<T> {
-    pub(super) fn new(times: &Times<T>, path: &NormalPath<T>, units: &Scaled<T>) -> Self {
+impl<T: Real> Output<T> for ContactTimes<T> {
+    const TIMED: bool = true;
+    type Observer = Times<T>;
+
+    fn begin() -> Times<T> {
+        Times::new()
+    }
+
+    fn finish(times: Times<T>, path: &NormalPath<T>, _sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
         let unit = units.time();
         Self {
             peak: (path.peak > T::ZERO).then(|| times.peak * unit),
@@ -220,7 +309,7 @@ impl<T: Real> ContactTimes<T> {
 /// // Without adhesion and damping the elastic force reverses the momentum.
 /// let sphere = Sphere::solid(1e-6, 1000.0)?;
 /// let scene = Simulation::new(sphere, Stiffness::new(1e10)?);
-/// let impulses = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(1.0)?)?.impulses;
+/// let impulses = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(1.0)?)?.outputs.impulses;
 /// assert!((impulses.elastic / (2.0 * sphere.mass()) - 1.0).abs() < 1e-8);
 /// assert_eq!(impulses.adhesion_rebound, 0.0);
 /// # Ok::<(), microimpact::InputError>(())
@@ -233,8 +322,15 @@ pub struct ContactImpulses<T> {
     pub adhesion_rebound: T,
 }
 
-impl<T: Real> ContactImpulses<T> {
-    pub(super) fn new(impulses: &Impulses<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
+impl<T: Real> Output<T> for ContactImpulses<T> {
+    const TIMED: bool = true;
+    type Observer = Impulses<T>;
+
+    fn begin() -> Impulses<T> {
+        Impulses::new()
+    }
+
+    fn finish(impulses: Impulses<T>, _path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
         let unit = sphere.mass() * units.speed;
         Self { elastic: impulses.elastic * unit, adhesion_rebound: impulses.adhesion_rebound * unit }
     }
@@ -251,7 +347,7 @@ impl<T: Real> ContactImpulses<T> {
 /// let impact = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(2.8)?)?;
 /// let e = impact.normal.overall_restitution();
 /// let lost = 0.5 * sphere.mass() * 2.8 * 2.8 * (1.0 - e * e);
-/// assert!(((impact.works.material + impact.works.adhesion) / lost - 1.0).abs() < 1e-8);
+/// assert!(((impact.outputs.works.material + impact.outputs.works.adhesion) / lost - 1.0).abs() < 1e-8);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -262,8 +358,15 @@ pub struct ContactWorks<T> {
     pub adhesion: T,
 }
 
-impl<T: Real> ContactWorks<T> {
-    pub(super) fn new(works: &Works<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
+impl<T: Real> Output<T> for ContactWorks<T> {
+    const TIMED: bool = false;
+    type Observer = Works<T>;
+
+    fn begin() -> Works<T> {
+        Works::new()
+    }
+
+    fn finish(works: Works<T>, _path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
         // In this order no factor leaves the range of single precision.
         let energy = |work: T| sphere.mass() * units.speed * (units.speed * work);
         Self { material: energy(works.material), adhesion: energy(works.adhesion) }
@@ -368,7 +471,7 @@ impl<T: Real> TangentialContact<T> {
     /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_friction(0.0)?;
     /// let motion = NormalMotion::new(1.0)?.with_tangential(5.0)?.with_peripheral_velocity(2.0)?;
     /// let impact = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &motion)?;
-    /// assert!((impact.tangential.rotation() / (2e6 * impact.times.contact.unwrap()) - 1.0).abs() < 1e-12);
+    /// assert!((impact.tangential.rotation() / (2e6 * impact.outputs.times.contact.unwrap()) - 1.0).abs() < 1e-12);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn rotation(&self) -> T {
@@ -405,7 +508,7 @@ impl<T: Real> TangentialContact<T> {
     /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_friction(0.0)?;
     /// let motion = NormalMotion::new(1.0)?.with_tangential(5.0)?;
     /// let impact = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &motion)?;
-    /// assert!((impact.tangential.displacement() / (5.0 * impact.times.contact.unwrap()) - 1.0).abs() < 1e-12);
+    /// assert!((impact.tangential.displacement() / (5.0 * impact.outputs.times.contact.unwrap()) - 1.0).abs() < 1e-12);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn displacement(&self) -> T {
