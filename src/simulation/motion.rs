@@ -40,15 +40,18 @@ pub(super) struct Effort<T> {
     pub(super) error: T,
 }
 
+/// Times that a stretch may be solved anew to find where the sphere begins to roll.
+const MOST_SPLITS: u32 = 40;
+
 /// Stretches that a motion may take, refused ones included.
 pub(super) const MOST_STRETCHES: u32 = 160;
 
 /// A motion in progress.
-struct Follower<'a, T, L, O> {
-    law: &'a L,
-    control: Control<T>,
+pub(super) struct Follower<'a, T, L, O> {
+    pub(super) law: &'a L,
+    pub(super) control: Control<T>,
     observer: &'a mut O,
-    at: Point<T>,
+    pub(super) at: Point<T>,
     effort: Effort<T>,
 }
 
@@ -63,8 +66,8 @@ pub(super) fn follow<T: Nodes<N>, const N: usize, L: NormalLaw<T>, O: Observer<T
     observer: &mut O,
 ) -> NormalPath<T> {
     let at = Point { s: T::ZERO, energy, speed_squared: energy + energy };
-    let effort = Effort { stretches: 0, refused: 0, sweeps: 0, error: T::ZERO };
-    let mut follower = Follower { law, control, observer, at, effort };
+    let mut follower = Follower::from(law, control, observer, at);
+    let effort = follower.effort;
     let mut path = NormalPath { end: End::Budget, energy, peak: T::ZERO, turning: T::ZERO, effort };
     path.end = match follower.approach::<N>() {
         Err(end) => end,
@@ -84,9 +87,14 @@ pub(super) fn follow<T: Nodes<N>, const N: usize, L: NormalLaw<T>, O: Observer<T
     path
 }
 
-impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
+impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
+    pub(super) fn from(law: &'a L, control: Control<T>, observer: &'a mut O, at: Point<T>) -> Self {
+        let effort = Effort { stretches: 0, refused: 0, sweeps: 0, error: T::ZERO };
+        Self { law, control, observer, at, effort }
+    }
+
     /// From first touch to the peak; `Err` where the motion ends without one.
-    fn approach<const N: usize>(&mut self) -> Result<(), End>
+    pub(super) fn approach<const N: usize>(&mut self) -> Result<(), End>
     where
         T: Nodes<N>,
     {
@@ -130,7 +138,7 @@ impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
     }
 
     /// A contact radius that the energy does not reach.
-    fn undamped_peak(&self) -> T {
+    pub(super) fn undamped_peak(&self) -> T {
         let mut beyond = T::ONE;
         for _ in 0..60 {
             if self.law.potential(beyond) >= self.at.energy * T::constant(0.999) {
@@ -186,7 +194,7 @@ impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
         if (captured && !to_turning_point) || self.creeps(peak, T::ZERO, Course::REBOUND) {
             return Ok(T::ZERO);
         }
-        let depth = self.leave_peak::<N>()?;
+        let depth = self.leave_peak::<N>(half * peak)?;
         let mut length = if depth < T::constant(0.4) * peak { T::constant(4.0) * depth } else { self.at.s };
         while self.at.s > T::ZERO {
             if self.at.energy < T::ZERO {
@@ -225,13 +233,13 @@ impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
         if self.at.energy < T::ZERO { Ok(T::ZERO) } else { Err(End::Separation) }
     }
 
-    /// The first stretch of the rebound; its depth.
-    fn leave_peak<const N: usize>(&mut self) -> Result<T, End>
+    /// The first stretch of the rebound, no deeper than `deepest`; its depth.
+    pub(super) fn leave_peak<const N: usize>(&mut self, deepest: T) -> Result<T, End>
     where
         T: Nodes<N>,
     {
         let peak = self.at.s;
-        let mut depth = T::constant(0.5) * peak;
+        let mut depth = deepest;
         // What a sweep leaves of an error grows with the root of the depth.
         let reach = T::constant(0.68) * self.law.loss(peak, true);
         let stiffness = T::constant(0.2) * self.law.slope(peak);
@@ -290,7 +298,7 @@ impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
 
     /// Goes on to the end of a stretch if it is accepted; `turning_point` is that of a stretch that has one.
     #[inline]
-    fn take<const N: usize>(
+    pub(super) fn take<const N: usize>(
         &mut self,
         stretch: &Stretch<T, N>,
         course: Course,
@@ -328,7 +336,8 @@ impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
         let two = T::constant(2.0);
         let control = Control { error: T::ONE / T::EPSILON, timed: false, ..self.control };
         let (law, sweeps) = (self.law, &mut self.effort.sweeps);
-        let mut z = z;
+        let close = T::constant(0.03) * self.control.error.sqrt();
+        let (mut z, mut before, mut after) = (z, T::ZERO, T::ONE);
         let mut first: Stretch<T, N>;
         let mut late;
         let mut tries = 0;
@@ -343,13 +352,25 @@ impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
                 }
                 None => pass(law, &from, ((to - from.s) * z, T::ZERO), course, &control, sweeps),
             };
+            // Newton's step, held between the places known to come before and after.
             late = self.observer.lateness(law, &first) * z;
             tries += 1;
-            let close = late.abs() <= T::constant(0.03) * self.control.error.sqrt();
-            if close || tries == 4 || z - late <= T::ZERO {
+            if late.abs() <= close * z {
                 break;
             }
+            if tries == MOST_SPLITS {
+                late = T::ZERO;
+                break;
+            }
+            if late > T::ZERO {
+                after = z;
+            } else {
+                before = z;
+            }
             z = z - late;
+            if z <= before || z >= after {
+                z = T::constant(0.5) * (before + after);
+            }
         }
         self.observer.observe(law, &first, course.rebound);
         let end_rate = first.rate.last().copied().unwrap_or(T::ZERO);
@@ -375,7 +396,7 @@ impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
     }
 
     /// By how much the next stretch may be longer, from 0.3 to 3: (allowed error/error)^(1/2N).
-    fn length_factor<const N: usize>(&self, nodes: usize, stretch: &Stretch<T, N>) -> T {
+    pub(super) fn length_factor<const N: usize>(&self, nodes: usize, stretch: &Stretch<T, N>) -> T {
         let (error, allowed) = (stretch.error, self.control.error);
         if error >= T::ONE {
             return T::constant(0.4);

@@ -292,6 +292,12 @@ impl<T: Real> Output<T> for ContactTimes<T> {
     }
 
     fn finish(times: Times<T>, path: &NormalPath<T>, _sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
+        Self::new(&times, path, units)
+    }
+}
+
+impl<T: Real> ContactTimes<T> {
+    pub(super) fn new(times: &Times<T>, path: &NormalPath<T>, units: &Scaled<T>) -> Self {
         let unit = units.time();
         Self {
             peak: (path.peak > T::ZERO).then(|| times.peak * unit),
@@ -331,6 +337,12 @@ impl<T: Real> Output<T> for ContactImpulses<T> {
     }
 
     fn finish(impulses: Impulses<T>, _path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
+        Self::new(&impulses, sphere, units)
+    }
+}
+
+impl<T: Real> ContactImpulses<T> {
+    pub(super) fn new(impulses: &Impulses<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
         let unit = sphere.mass() * units.speed;
         Self { elastic: impulses.elastic * unit, adhesion_rebound: impulses.adhesion_rebound * unit }
     }
@@ -367,6 +379,12 @@ impl<T: Real> Output<T> for ContactWorks<T> {
     }
 
     fn finish(works: Works<T>, _path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
+        Self::new(&works, sphere, units)
+    }
+}
+
+impl<T: Real> ContactWorks<T> {
+    pub(super) fn new(works: &Works<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
         // In this order no factor leaves the range of single precision.
         let energy = |work: T| sphere.mass() * units.speed * (units.speed * work);
         Self { material: energy(works.material), adhesion: energy(works.adhesion) }

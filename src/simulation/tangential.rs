@@ -86,16 +86,16 @@ impl<T: Real> SpinDamping<T> for ScaledPeeling<T> {
 /// The tangential motion so far, in units of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TangentialMotion<T, P> {
-    friction: T,
-    gyration_ratio: T,
-    peeling: P,
+    pub(super) friction: T,
+    pub(super) gyration_ratio: T,
+    pub(super) peeling: P,
     pub(super) tangential: T,
     pub(super) peripheral: T,
     pub(super) displacement: T,
     /// Rotation angle times radius.
     pub(super) rotation: T,
     /// Sign of the slip, zero when rolling.
-    direction: T,
+    pub(super) direction: T,
     now: T,
     pub(super) rolls_from: Option<T>,
 }
@@ -303,7 +303,7 @@ fn root_between_nodes<T: Nodes<N>, const N: usize>(values: &[T; N], ends: (T, T)
     }
     let half = T::constant(0.5);
     let mut root = low;
-    for _ in 0..6 {
+    for _ in 0..30 {
         if at_high == at_low {
             break;
         }
