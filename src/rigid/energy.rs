@@ -54,13 +54,13 @@ pub struct EnergyLedger<T> {
     pub before: T,
     /// Kinetic energy after, J.
     pub after: T,
-    /// Lost in the materials: (1 - R^2) m v_n^2/2.
+    /// Lost in the materials; (1 - R^2) m v_n^2/2 of a rigid body.
     pub material: T,
-    /// Lost to adhesion: (R^2 - e^2) m v_n^2/2 (A33).
+    /// Lost to adhesion; (R^2 - e^2) m v_n^2/2 of a rigid body (A33).
     pub adhesion: T,
     /// Lost to friction on the slip.
     pub friction: T,
-    /// Lost to rolling dissipation.
+    /// Lost to rolling dissipation, or to the peeling moment of a simulation.
     pub rolling: T,
     /// Given to the external microforce; negative where it drives the sphere.
     pub external: T,

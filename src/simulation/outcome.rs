@@ -2,10 +2,12 @@
 
 use core::f64::consts::PI;
 
+use super::SimulatedImpact;
 use super::motion::{End, MOST_STRETCHES, NormalPath};
 use super::observer::{Impulses, Observer, Times, Works};
 use super::scaled::Scaled;
 use super::tangential::{SpinDamping, TangentialMotion};
+use crate::rigid::EnergyLedger;
 use crate::{Outcome, Real, Sphere, Stiffness, SurfaceMotion};
 
 /// The normal side of a simulated impact.
@@ -413,6 +415,8 @@ pub struct TangentialContact<T> {
     rotation: T,
     displacement: T,
     rolls_from: Option<T>,
+    /// Kinetic energy after, and what friction and peeling took, over m, m^2/s^2.
+    energies: [T; 3],
 }
 
 impl<T: Real> TangentialContact<T> {
@@ -421,6 +425,7 @@ impl<T: Real> TangentialContact<T> {
         sphere: &Sphere<T>,
         units: &Scaled<T>,
     ) -> Self {
+        let energies = [motion.energy(), motion.friction_loss, motion.peeling_loss];
         Self {
             motion: if motion.slides() { SurfaceMotion::Sliding } else { SurfaceMotion::Rolling },
             velocity: motion.tangential * units.speed,
@@ -428,6 +433,7 @@ impl<T: Real> TangentialContact<T> {
             rotation: motion.rotation * (units.length / sphere.radius()),
             displacement: motion.displacement * units.length,
             rolls_from: motion.rolls_from.map(|time| time * units.time()),
+            energies: energies.map(|energy| energy * units.speed * units.speed),
         }
     }
 
@@ -547,6 +553,47 @@ impl<T: Real> TangentialContact<T> {
     /// ```
     pub fn rolls_from(&self) -> Option<T> {
         self.rolls_from
+    }
+}
+
+impl<T: Real> SimulatedImpact<T, TangentialContact<T>> {
+    /// Where the kinetic energy went; `None` for a captured sphere, which has not yet come to rest.
+    ///
+    /// The works of damping are integrals of their own, so what the losses lack in sum shows the error of the run. The
+    /// external force is conservative and gives back what it takes.
+    ///
+    /// ```
+    /// use microimpact::simulation::{Collocation, Simulation};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let sphere = Sphere::solid(5.06e-6, 2600.0)?;
+    /// let scene = Simulation::new(sphere, Stiffness::new(7.5e10)?)
+    ///     .with_damping(10.5)?
+    ///     .with_ring(250.0, 6.25)?
+    ///     .with_friction(0.1)?;
+    /// let before = NormalMotion::new(2.8)?.with_tangential(0.0)?.with_spin(&sphere, 1.454e5)?;
+    /// let impact = scene.impact(&Collocation::<12, f64>::new(1e-12)?, &before)?;
+    /// let ledger = impact.energy(&sphere).unwrap();
+    /// assert!((ledger.lost() / (ledger.before - ledger.after) - 1.0).abs() < 1e-12);
+    /// assert!((ledger.adhesion - 4.828e-13).abs() < 1e-16); // the paper's work of adhesion
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn energy(&self, sphere: &Sphere<T>) -> Option<EnergyLedger<T>> {
+        if self.normal.outcome == Outcome::Capture {
+            return None;
+        }
+        let joules = |energy: T| sphere.mass() * energy;
+        let kinetic = |speed: T| T::constant(0.5) * speed * speed;
+        let [after, friction, peeling] = self.tangential.energies;
+        Some(EnergyLedger {
+            before: joules(kinetic(self.normal.approach) + after + friction + peeling),
+            after: joules(kinetic(self.normal.rebound_speed()) + after),
+            material: self.outputs.works.material,
+            adhesion: self.outputs.works.adhesion,
+            friction: joules(friction),
+            rolling: joules(peeling),
+            external: T::ZERO,
+        })
     }
 }
 

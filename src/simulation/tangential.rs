@@ -94,6 +94,9 @@ pub struct TangentialMotion<T, P> {
     pub(super) displacement: T,
     /// Rotation angle times radius.
     pub(super) rotation: T,
+    /// Energies that friction and the peeling moment have taken, over the mass.
+    pub(super) friction_loss: T,
+    pub(super) peeling_loss: T,
     /// Sign of the slip, zero when rolling.
     pub(super) direction: T,
     now: T,
@@ -127,6 +130,8 @@ impl<T: Real, P: SpinDamping<T>> TangentialMotion<T, P> {
             peripheral: motion.peripheral() / unit,
             displacement: T::ZERO,
             rotation: T::ZERO,
+            friction_loss: T::ZERO,
+            peeling_loss: T::ZERO,
             direction,
             now: T::ZERO,
             rolls_from: (direction == T::ZERO).then_some(T::ZERO),
@@ -135,6 +140,25 @@ impl<T: Real, P: SpinDamping<T>> TangentialMotion<T, P> {
 
     pub(super) fn slides(&self) -> bool {
         self.direction != T::ZERO
+    }
+
+    /// Kinetic energy along the surface and of the spin, over the mass.
+    pub(super) fn energy(&self) -> T {
+        let (v, u) = (self.tangential, self.peripheral);
+        T::constant(0.5) * (v * v + self.gyration_ratio * u * u)
+    }
+
+    /// Energy that the peeling moment takes over a stretch, from the peripheral velocities at the nodes.
+    fn peeled<const N: usize>(&self, stretch: &Stretch<T, N>, peripheral: &[T; N]) -> T
+    where
+        T: Nodes<N>,
+    {
+        let mut peeled = T::ZERO;
+        for j in 0..N {
+            let u = peripheral[j];
+            peeled = peeled + T::WHOLE[j] * stretch.rate[j] * stretch.s[j] * u * u;
+        }
+        self.gyration_ratio * self.peeling.rate() * peeled
     }
 
     /// Slip in its first direction.
@@ -223,8 +247,12 @@ impl<T: Real, P: SpinDamping<T>> Observer<T> for TangentialMotion<T, P> {
                 self.displacement = self.displacement + moment * slide.tangential[j];
                 self.rotation = self.rotation + moment * slide.peripheral[j];
             }
+            let energy = self.energy();
+            let peeled = if P::PRESENT { self.peeled(stretch, &slide.peripheral) } else { T::ZERO };
             self.tangential = slide.tangential_after;
             self.peripheral = slide.peripheral_after;
+            self.peeling_loss = self.peeling_loss + peeled;
+            self.friction_loss = self.friction_loss + (energy - self.energy() - peeled);
             return;
         }
         let mut way = duration * self.tangential;
@@ -236,8 +264,11 @@ impl<T: Real, P: SpinDamping<T>> Observer<T> for TangentialMotion<T, P> {
                 left = left + T::WHOLE[j] * stretch.rate[j] * (-decay[j]).exp();
             }
             way = left * self.tangential;
+            let energy = self.energy();
             self.tangential = self.tangential * (-whole_decay).exp();
             self.peripheral = self.tangential;
+            // Rolling, friction only passes the moment on.
+            self.peeling_loss = self.peeling_loss + (energy - self.energy());
         }
         self.displacement = self.displacement + way;
         self.rotation = self.rotation + way;
