@@ -99,6 +99,12 @@ pub trait Attraction<T: Real>: Copy {
     fn damping(&self, _s: T) -> T {
         T::ZERO
     }
+
+    /// Share of the force that its damping adds for each unit of speed.
+    #[inline]
+    fn damping_rate(&self) -> T {
+        T::ZERO
+    }
 }
 
 impl<T: Real> Attraction<T> for NoAdhesion {}

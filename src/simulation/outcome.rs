@@ -8,7 +8,7 @@ use super::observer::{Impulses, Observer, Times, Works};
 use super::scaled::Scaled;
 use super::tangential::{SpinDamping, TangentialMotion};
 use crate::rigid::EnergyLedger;
-use crate::{Outcome, Real, Sphere, Stiffness, SurfaceMotion};
+use crate::{Class, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
 
 /// The normal side of a simulated impact.
 ///
@@ -553,6 +553,35 @@ impl<T: Real> TangentialContact<T> {
     /// ```
     pub fn rolls_from(&self) -> Option<T> {
         self.rolls_from
+    }
+}
+
+impl<T: Real, O> SimulatedImpact<T, TangentialContact<T>, O> {
+    /// Outcome and motion along the surface in one word; of a captured sphere, where it first turns back.
+    ///
+    /// ```
+    /// use microimpact::simulation::{Collocation, Simulation};
+    /// use microimpact::{Class, NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Simulation::new(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+    ///     .with_damping(10.5)?
+    ///     .with_ring(250.0, 6.25)?
+    ///     .with_friction(0.1)?;
+    /// let class = |v_n, v_t| Ok(scene.impact(&Collocation::<7, f64>::new(1e-6)?, &NormalMotion::new(v_n)?.with_tangential(v_t)?)?.class());
+    /// assert_eq!(class(8.0, 1.0), Ok::<_, microimpact::InputError>(Class::ReboundRolling));
+    /// assert_eq!(class(8.0, 90.0), Ok(Class::ReboundSliding));
+    /// assert_eq!(class(5.0, 1.0), Ok(Class::CapturedRolling));
+    /// assert_eq!(class(5.0, 0.0), Ok(Class::CapturedResting));
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn class(&self) -> Class {
+        match (self.normal.outcome, self.tangential.motion) {
+            (Outcome::Rebound, SurfaceMotion::Sliding) => Class::ReboundSliding,
+            (Outcome::Rebound, _) => Class::ReboundRolling,
+            (Outcome::Capture, SurfaceMotion::Sliding) => Class::CapturedSliding,
+            (Outcome::Capture, _) if self.tangential.velocity == T::ZERO => Class::CapturedResting,
+            (Outcome::Capture, _) => Class::CapturedRolling,
+        }
     }
 }
 

@@ -72,4 +72,9 @@ impl<T: Real> Attraction<T> for ScaledRing<T> {
     fn damping(&self, s: T) -> T {
         self.damping * self.force(s)
     }
+
+    #[inline]
+    fn damping_rate(&self) -> T {
+        self.damping
+    }
 }

@@ -63,6 +63,53 @@ impl<T: Real> Scaled<T> {
     }
 }
 
+/// The dimensionless groups of an impact: what its normal motion depends on.
+///
+/// With the peak indentation L of the undamped motion for a unit of length and its largest speed U for one of speed, the
+/// elastic force is A s^3 and adhesion B s at the contact radius s, both over m U^2/L; h = c_H U and g = c_A U.
+///
+/// ```
+/// use microimpact::simulation::Simulation;
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
+///
+/// let scene = Simulation::new(Sphere::solid(5.06e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+///     .with_damping(10.5)?
+///     .with_ring(250.0, 6.25)?;
+/// let groups = scene.groups(&NormalMotion::new(2.8)?)?;
+/// assert!((groups.elasticity - 4.04664580819485_f64).abs() < 1e-13);
+/// assert!((groups.adhesion - 1.93338183537566).abs() < 1e-13);
+/// assert!((groups.material_damping - 0.05421470475834531).abs() < 1e-15);
+/// assert!((groups.adhesion_damping - 0.03227065759425316).abs() < 1e-15);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Groups<T> {
+    /// A, from 5/4 without adhesion to 6.72.
+    pub elasticity: T,
+    /// B, from 0 to 4.04.
+    pub adhesion: T,
+    /// h.
+    pub material_damping: T,
+    /// g.
+    pub adhesion_damping: T,
+}
+
+impl<T: Real> Scaled<T> {
+    /// The groups of an impact whose damping rates, in these units, are as given.
+    pub(super) fn groups(&self, material_damping: T, adhesion_damping: T) -> Groups<T> {
+        // The undamped motion is fastest at s^2 = (3/5) p, where V = -(1/5) (3/5)^(3/2) p^(5/2).
+        let p = self.adhesion;
+        let fastest = self.energy + self.energy + T::constant(0.4 * 0.464_758_001_544_890_1) * p * p * p.sqrt();
+        let speed = fastest.sqrt();
+        Groups {
+            elasticity: T::constant(1.25) / fastest,
+            adhesion: T::constant(0.75) * p / fastest,
+            material_damping: material_damping * speed,
+            adhesion_damping: adhesion_damping * speed,
+        }
+    }
+}
+
 /// Contact radius a of the undamped peak over that of Hertz's impact: the root of a^5 - p a^3 = 1.
 fn peak_contact_radius<T: Real>(p: T) -> T {
     // As a^2 = p + a^-3, from a value that is right to first order for small p and in the limit of large p.
