@@ -3,6 +3,9 @@
 //! Commas, semicolons or tabs separate cells; a byte-order mark, quotes, CRLF line ends and, between semicolons
 //! or tabs, decimal commas are understood and written back the way they came.
 
+pub mod command;
+
+use std::error::Error;
 use std::fmt::{Display, LowerExp};
 use std::io::{self, BufRead, Read, Write};
 use std::str::FromStr;
@@ -94,7 +97,7 @@ impl<R: Read> Sheet<R> {
 
     /// A writer for this table with computed columns behind its own. A column of the table that has the name of a
     /// computed one is kept under the name `input_...`.
-    pub fn writer<W: Write>(&self, mut sink: W, computed: &[&str]) -> Result<SheetWriter<W>, String> {
+    pub fn writer<W: Write>(&self, mut sink: W, computed: &[String]) -> Result<SheetWriter<W>, String> {
         if self.dialect.byte_order_mark {
             sink.write_all(BYTE_ORDER_MARK).map_err(|error| error.to_string())?;
         }
@@ -106,7 +109,7 @@ impl<R: Read> Sheet<R> {
             .from_writer(sink);
         let mut header = ByteRecord::new();
         for (cell, name) in self.header.iter().zip(&self.names) {
-            if computed.contains(&name.as_str()) {
+            if computed.contains(name) {
                 header.push_field(format!("input_{name}").as_bytes());
             } else {
                 header.push_field(cell.strip_prefix(BYTE_ORDER_MARK).unwrap_or(cell));
@@ -142,6 +145,16 @@ impl Row<'_> {
         number.parse().map(Some).map_err(|_| format!("{column}: \"{text}\" is not a number"))
     }
 
+    /// The number in a cell that must not be empty.
+    pub fn required<T: Scalar>(&self, column: &str) -> Result<T, String> {
+        self.number(column)?.ok_or_else(|| format!("{column}: missing"))
+    }
+
+    /// The number in a cell, zero where it is empty.
+    pub fn or_zero<T: Scalar>(&self, column: &str) -> Result<T, String> {
+        Ok(self.number(column)?.unwrap_or(T::ZERO))
+    }
+
     /// What is wrong with the row as such.
     pub fn check(&self) -> Result<(), String> {
         let surplus: Vec<_> = self.cells.iter().skip(self.names.len()).map(String::from_utf8_lossy).collect();
@@ -160,6 +173,11 @@ impl Row<'_> {
         let text = if plain { value.to_string() } else { format!("{value:e}") };
         if self.decimal_comma { text.replace('.', ",") } else { text }
     }
+}
+
+/// An error of the library as the text of a cell.
+pub fn reason(error: impl Error) -> String {
+    error.to_string()
 }
 
 /// A number with its decimal comma, if it has just that, turned into a point.

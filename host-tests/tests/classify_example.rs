@@ -189,6 +189,80 @@ fn reference_cases_are_accepted() {
     }
 }
 
+/// The simulation's columns have the names of the reference and its values.
+#[test]
+fn reference_cases_by_the_simulation() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/cases.csv");
+    let given = Written::read(&std::fs::read(path).unwrap(), b',');
+    let output = run(&[path, "--format", "csv", "--model", "simulation", "--tolerance", "1e-13"], b"");
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let written = Written::read(&output.stdout, b',');
+    for row in 0..given.rows.len() {
+        let name = given.text(row, "name");
+        assert_eq!(written.text(row, "outcome"), given.text(row, "outcome"), "{name}");
+        let columns: &[&str] = if given.text(row, "outcome") == "rebound" {
+            assert_eq!(written.text(row, "motion"), given.text(row, "motion"), "{name}");
+            &[
+                "restitution",
+                "max_indentation_m",
+                "time_peak_s",
+                "contact_time_s",
+                "time_roll_s",
+                "impulse_hertz_n_s",
+                "impulse_adhesion_rebound_n_s",
+                "work_material_j",
+                "work_adhesion_j",
+                "speed_tangential_out_m_s",
+                "spin_out_rad_s",
+                "rotation_rad",
+                "displacement_tangential_m",
+            ]
+        } else {
+            &["restitution", "max_indentation_m", "turning_indentation_m"]
+        };
+        for column in columns.iter().chain(&["group_a", "group_b", "group_h", "group_g"]) {
+            let exact = given.number(row, column);
+            if exact.is_nan() {
+                assert_eq!(written.text(row, column), "", "{name}, {column}");
+                continue;
+            }
+            let (found, close) = (written.number(row, column), name.contains("e-06"));
+            let allowed = exact.abs() * if close { 1e-8 } else { 1e-10 };
+            assert!((found - exact).abs() <= allowed, "{name}, {column}: {found} against {exact}");
+        }
+    }
+}
+
+#[test]
+fn both_models_side_by_side() {
+    let header = "radius_m,density_kg_m3,stiffness_pa,adhesion_n_m,zeta_h,zeta_a,friction,restitution,adhesion_coefficient,speed_normal_m_s,speed_tangential_m_s,spin_rad_s\n";
+    let rows = [
+        "5.06e-6,2600,7.5e10,250,10.5,6.25,0.1,0.978,0.237,2.8,0,145400\n",
+        "5.06e-6,2600,7.5e10,250,10.5,6.25,0.1,,,2.8,0,145400\n",
+        "5.06e-6,2600,,250,10.5,6.25,0.1,0.978,0.237,2.8,0,145400\n",
+        "5.06e-6,2600,,250,10.5,6.25,0.1,0.978,0.237,-2.8,0,145400\n",
+    ];
+    let table = header.to_owned() + &rows.concat();
+    let output = run(&["-", "--format", "csv", "--model", "both"], table.as_bytes());
+    assert_eq!(output.status.code(), Some(1));
+    let written = Written::read(&output.stdout, b',');
+    assert_eq!((written.text(0, "outcome"), written.text(0, "rigid_body_motion")), ("rebound", "rolling"));
+    assert!((written.number(0, "restitution") - 0.746193).abs() < 1e-6);
+    assert!((written.number(0, "rigid_body_overall_restitution") - 0.746214).abs() < 1e-6);
+    assert_eq!(written.text(0, "input_restitution"), "0.978");
+    assert_eq!(written.text(1, "outcome"), "rebound");
+    assert!(written.text(1, "error").starts_with("rigid body: restitution: missing"));
+    assert_eq!(written.text(2, "rigid_body_outcome"), "rebound");
+    assert!(written.text(2, "error").starts_with("simulation: stiffness_pa: missing"));
+    assert!(written.text(3, "error").starts_with("approach speed is below"));
+
+    for model in ["simulation", "both"] {
+        let output = run(&["--model", model], b"");
+        assert_eq!(output.status.code(), Some(0));
+        assert!(String::from_utf8_lossy(&output.stdout).contains("rebound rolling"));
+    }
+}
+
 #[test]
 fn single_precision() {
     let table = HEADER.to_owned() + TABLE_1;
@@ -208,6 +282,7 @@ fn unusable_input_is_said_and_exits_with_2() {
         (["-", "--format", "csv"], "", "empty"),
         (["-", "--format", "csv"], "radius_m,RADIUS_M\n1,2\n", "twice"),
         (["-", "--format", "pdf"], "", "pdf"),
+        (["-", "--tolerance", "0"], "radius_m\n", "tolerance"),
     ] {
         let output = run(&arguments, input.as_bytes());
         assert_eq!(output.status.code(), Some(2));

@@ -1,0 +1,182 @@
+//! Rows by the contact simulation.
+
+use comfy_table::Cell;
+use microimpact::simulation::{Collocation, Groups, Nodes, SimulatedImpact, Simulation, Status, TangentialContact};
+use microimpact::{InputError, PlanarMotion, Sphere, Stiffness, SurfaceMotion};
+
+use crate::sheet::command::Work;
+use crate::sheet::{Row, Scalar, reason};
+use crate::{motion_name, outcome_name, sphere_and_motion};
+
+/// A number type with tables for every number of nodes that a tolerance may need.
+pub trait AllNodes: Nodes<7> + Nodes<9> + Nodes<12> + Nodes<14> {}
+
+impl<T: Nodes<7> + Nodes<9> + Nodes<12> + Nodes<14>> AllNodes for T {}
+
+/// The simulation to a tolerance, in numbers of type `T`.
+pub struct SimulationModel<T> {
+    tolerance: T,
+}
+
+type Simulated<T> = SimulatedImpact<T, TangentialContact<T>>;
+
+impl<T: Scalar + AllNodes> SimulationModel<T> {
+    pub fn new(tolerance: f64) -> Result<Self, InputError> {
+        let tolerance = T::constant(tolerance);
+        Collocation::<7, T>::new(tolerance)?;
+        Ok(Self { tolerance })
+    }
+
+    /// Builds the scene of a row and simulates its impact.
+    pub fn compute(&self, row: &Row<'_>) -> Result<Simulated<T>, String> {
+        Ok(self.compute_with_groups(row)?.0)
+    }
+
+    fn compute_with_groups(&self, row: &Row<'_>) -> Result<(Simulated<T>, Groups<T>), String> {
+        let (sphere, before) = sphere_and_motion(row)?;
+        let (impact, groups) = if self.tolerance >= T::constant(3e-7) {
+            self.compute_by::<7>(row, sphere, &before)
+        } else if self.tolerance >= T::constant(3e-10) {
+            self.compute_by::<9>(row, sphere, &before)
+        } else if self.tolerance >= T::constant(3e-13) {
+            self.compute_by::<12>(row, sphere, &before)
+        } else {
+            self.compute_by::<14>(row, sphere, &before)
+        }?;
+        match impact.run.status {
+            Status::Solved => Ok((impact, groups)),
+            Status::BudgetSpent => Err("the simulation has spent its budget of stretches".into()),
+        }
+    }
+
+    fn compute_by<const N: usize>(
+        &self,
+        row: &Row<'_>,
+        sphere: Sphere<T>,
+        before: &PlanarMotion<T>,
+    ) -> Result<(Simulated<T>, Groups<T>), String>
+    where
+        T: Nodes<N>,
+    {
+        let method = Collocation::<N, T>::new(self.tolerance).map_err(reason)?;
+        let stiffness = Stiffness::new(row.required("stiffness_pa")?).map_err(reason)?;
+        let (zeta_h, zeta_a) = (row.or_zero("zeta_h")?, row.or_zero("zeta_a")?);
+        let (strength, friction) = (row.or_zero("adhesion_n_m")?, row.or_zero("friction")?);
+        let peeling = row.or_zero::<T>("peeling_n_m")?;
+        let scene = Simulation::new(sphere, stiffness)
+            .with_damping(zeta_h)
+            .and_then(|scene| scene.with_ring(strength, zeta_a))
+            .and_then(|scene| scene.with_friction(friction))
+            .map_err(reason)?;
+        let impact = if peeling == T::ZERO {
+            scene.impact(&method, before)
+        } else {
+            scene.with_peeling(peeling).and_then(|scene| scene.impact(&method, before))
+        };
+        Ok((impact.map_err(reason)?, scene.groups(before).map_err(reason)?))
+    }
+}
+
+impl<T: Scalar + AllNodes> Work for SimulationModel<T> {
+    fn columns(&self) -> Vec<String> {
+        [
+            "outcome",
+            "motion",
+            "restitution",
+            "max_indentation_m",
+            "turning_indentation_m",
+            "time_peak_s",
+            "contact_time_s",
+            "time_roll_s",
+            "impulse_hertz_n_s",
+            "impulse_adhesion_rebound_n_s",
+            "work_material_j",
+            "work_adhesion_j",
+            "speed_tangential_out_m_s",
+            "spin_out_rad_s",
+            "rotation_rad",
+            "displacement_tangential_m",
+            "group_a",
+            "group_b",
+            "group_h",
+            "group_g",
+        ]
+        .map(String::from)
+        .into()
+    }
+
+    fn cells(&self, row: &Row<'_>) -> (Vec<String>, Result<(), String>) {
+        let (impact, groups) = match self.compute_with_groups(row) {
+            Ok(computed) => computed,
+            Err(reason) => return (Vec::new(), Err(reason)),
+        };
+        let SimulatedImpact { normal, tangential, outputs, .. } = &impact;
+        let optional = |value: Option<T>| value.map(|value| row.cell(value)).unwrap_or_default();
+        let cells = vec![
+            outcome_name(normal.outcome()).into(),
+            motion_name(tangential.motion()).into(),
+            row.cell(normal.overall_restitution()),
+            optional(normal.peak_indentation()),
+            optional(normal.turning_indentation()),
+            optional(outputs.times.peak),
+            optional(outputs.times.contact),
+            row.cell(tangential.rolls_from().unwrap_or(-T::ONE)),
+            row.cell(outputs.impulses.elastic),
+            row.cell(outputs.impulses.adhesion_rebound),
+            row.cell(outputs.works.material),
+            row.cell(outputs.works.adhesion),
+            row.cell(tangential.velocity()),
+            row.cell(tangential.spin()),
+            row.cell(tangential.rotation()),
+            row.cell(tangential.displacement()),
+            row.cell(groups.elasticity),
+            row.cell(groups.adhesion),
+            row.cell(groups.material_damping),
+            row.cell(groups.adhesion_damping),
+        ];
+        (cells, Ok(()))
+    }
+
+    fn heads(&self) -> Vec<&'static str> {
+        vec![
+            "impact",
+            "class",
+            "e",
+            "V_n\nm/s",
+            "V_t\nm/s",
+            "spin\nrad/s",
+            "peak\nnm",
+            "contact\nns",
+            "slips for\nns",
+            "energy\nlost %",
+        ]
+    }
+
+    fn words(&self) -> usize {
+        2
+    }
+
+    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<Cell>, String> {
+        let (sphere, _) = sphere_and_motion(row)?;
+        let impact = self.compute(row)?;
+        let SimulatedImpact { normal, tangential, outputs, .. } = &impact;
+        let nano = |value: Option<T>| value.map_or("-".into(), |value| format!("{:.2}", value * T::constant(1e9)));
+        let lost = impact.energy(&sphere).map(|ledger| T::constant(100.0) * ledger.lost() / ledger.before);
+        let cells = [
+            name,
+            impact.class().to_string(),
+            format!("{:.4}", normal.overall_restitution()),
+            format!("{:.3}", normal.rebound_speed()),
+            format!("{:.3}", tangential.velocity() + T::ZERO),
+            format!("{:.2e}", tangential.spin() + T::ZERO),
+            nano(normal.peak_indentation()),
+            nano(outputs.times.contact),
+            match tangential.motion() {
+                SurfaceMotion::Sliding => "always".into(),
+                _ => nano(tangential.rolls_from()),
+            },
+            lost.map_or("-".into(), |lost| format!("{lost:.1}")),
+        ];
+        Ok(cells.into_iter().map(Cell::new).collect())
+    }
+}

@@ -1,0 +1,139 @@
+//! What the commands that work on tables have in common: where a table comes from, what is made of it, and how it ends.
+
+use std::error::Error;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Write};
+use std::path::Path;
+use std::process::ExitCode;
+
+use clap::ValueEnum;
+use comfy_table::{Cell, CellAlignment, ContentArrangement, Table, presets};
+
+use super::{Row, Sheet};
+
+/// How a result is written.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum Format {
+    /// To read.
+    Table,
+    /// The whole result, for a spreadsheet.
+    Csv,
+}
+
+/// The number type to compute in.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum ScalarType {
+    F32,
+    F64,
+}
+
+/// What is made of each row of a table.
+pub trait Work {
+    /// Columns that are computed, in the order they are written; the column `error` follows them.
+    fn columns(&self) -> Vec<String>;
+
+    /// The computed cells of a row. Where there is an error, cells that could be computed all the same may be filled.
+    fn cells(&self, row: &Row<'_>) -> (Vec<String>, Result<(), String>);
+
+    /// Column heads of the readable table.
+    fn heads(&self) -> Vec<&'static str>;
+
+    /// How many of its columns, from the left, hold words.
+    fn words(&self) -> usize;
+
+    /// A line of the readable table.
+    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<Cell>, String>;
+}
+
+/// Works on all rows of a file, of standard input where it is `-`, or of a bundled table; the number of bad rows.
+pub fn run(file: Option<&Path>, bundled: &str, format: Format, work: &impl Work) -> Result<usize, Box<dyn Error>> {
+    let source: Box<dyn BufRead> = match file {
+        None => Box::new(bundled.as_bytes()),
+        Some(path) if path.as_os_str() == "-" => Box::new(io::stdin().lock()),
+        Some(path) => {
+            Box::new(BufReader::new(File::open(path).map_err(|error| format!("{}: {error}", path.display()))?))
+        }
+    };
+    let sheet = Sheet::open(source)?;
+    let sink = io::stdout().lock();
+    match format {
+        Format::Csv => write_csv(sheet, sink, work),
+        Format::Table => write_table(sheet, sink, work),
+    }
+}
+
+/// The exit status of a command: 0, or 1 if a row was bad, or 2 if nothing could be done.
+pub fn exit_code(command: &str, result: Result<usize, Box<dyn Error>>) -> ExitCode {
+    match result {
+        Ok(0) => ExitCode::SUCCESS,
+        Ok(bad_rows) => {
+            eprintln!("{command}: {bad_rows} bad rows; the column `error` says why");
+            ExitCode::from(1)
+        }
+        Err(error) if is_broken_pipe(error.as_ref()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{command}: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Whether the reader of our output has gone away, as `head` does.
+fn is_broken_pipe(error: &(dyn Error + 'static)) -> bool {
+    let io_error = match error.downcast_ref::<csv::Error>().map(csv::Error::kind) {
+        Some(csv::ErrorKind::Io(error)) => Some(error),
+        _ => error.downcast_ref::<io::Error>(),
+    };
+    io_error.is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+}
+
+fn write_csv(
+    mut sheet: Sheet<Box<dyn BufRead + '_>>,
+    sink: impl Write,
+    work: &impl Work,
+) -> Result<usize, Box<dyn Error>> {
+    let mut columns = work.columns();
+    let computed = columns.len();
+    columns.push("error".into());
+    let mut writer = sheet.writer(io::BufWriter::new(sink), &columns)?;
+    let mut bad_rows = 0;
+    while let Some(row) = sheet.next_row()? {
+        let (mut cells, result) = match row.check() {
+            Ok(()) => work.cells(&row),
+            Err(reason) => (Vec::new(), Err(reason)),
+        };
+        cells.resize(computed, String::new());
+        bad_rows += usize::from(result.is_err());
+        cells.push(result.err().unwrap_or_default());
+        writer.write(&row, &cells)?;
+    }
+    writer.finish()?;
+    Ok(bad_rows)
+}
+
+fn write_table(
+    mut sheet: Sheet<Box<dyn BufRead + '_>>,
+    mut sink: impl Write,
+    work: &impl Work,
+) -> Result<usize, Box<dyn Error>> {
+    let mut table = Table::new();
+    table.load_preset(presets::UTF8_FULL_CONDENSED).set_content_arrangement(ContentArrangement::Dynamic);
+    table.set_header(work.heads());
+    for column in table.column_iter_mut().skip(work.words()) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    let (mut number, mut bad_rows) = (0, 0);
+    while let Some(row) = sheet.next_row()? {
+        number += 1;
+        let name = row.text("name").unwrap_or_else(|| format!("row {number}"));
+        match row.check().and_then(|()| work.line(&row, name.clone())) {
+            Ok(line) => table.add_row(line),
+            Err(reason) => {
+                bad_rows += 1;
+                table.add_row(vec![name, format!("bad row: {reason}")])
+            }
+        };
+    }
+    writeln!(sink, "{table}")?;
+    Ok(bad_rows)
+}
