@@ -77,6 +77,8 @@ pub enum Parameter {
     PeelingMoment,
     /// Tolerance of a simulation.
     Tolerance,
+    /// Sweeps of a method of fixed cost for each phase.
+    Sweeps,
     /// (5/3) of the equilibrium indentation over the peak indentation of Hertz's impact: adhesion against inertia.
     AdhesionRatio,
     /// External force over elastic force at the peak indentation, times 5/4.
@@ -93,7 +95,7 @@ impl Parameter {
     ///
     /// assert!(Parameter::ALL.iter().all(|parameter| parameter.range().0 < parameter.range().1));
     /// ```
-    pub const ALL: [Self; 32] = [
+    pub const ALL: [Self; 33] = [
         Self::Radius,
         Self::Thickness,
         Self::Density,
@@ -123,6 +125,7 @@ impl Parameter {
         Self::AdhesionDamping,
         Self::PeelingMoment,
         Self::Tolerance,
+        Self::Sweeps,
         Self::AdhesionRatio,
         Self::ForceRatio,
         Self::DampingRatio,
@@ -186,6 +189,7 @@ impl Parameter {
             Self::AdhesionDamping => ("adhesion damping", "1", (0.0, 1e9)),
             Self::PeelingMoment => ("peeling moment", "N m", (0.0, 1e3)),
             Self::Tolerance => ("tolerance", "1", (1e-13, 1e-2)),
+            Self::Sweeps => ("number of sweeps", "1", (1.0, 40.0)),
             Self::AdhesionRatio => ("adhesion over inertia", "1", (0.0, 1e10)),
             Self::ForceRatio => ("external force over elasticity", "1", (-1e6, 1e6)),
             Self::DampingRatio => ("damping over elasticity", "1", (0.0, 1e9)),

@@ -1,18 +1,38 @@
-//! Link arguments of the firmware, in one place, and the memory map they need.
+//! Link arguments of the firmware, in one place, and the memory maps they need.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
+
+/// The panic probes are linked and never run, so no board has to hold them.
+const PROBES: &str = "probe";
+const PROBE_MAP: &str = "\
+MEMORY
+{
+  FLASH : ORIGIN = 0x00000000, LENGTH = 16M
+  RAM   : ORIGIN = 0x20000000, LENGTH = 16K
+}
+";
 
 fn main() {
     let manifest = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
     let map = manifest.join("../../memory.x");
-
-    // link.x includes memory.x by its name alone: the linker looks for it here.
-    copy(&map, &out.join("memory.x"));
-    println!("cargo:rustc-link-search={}", out.display());
-    println!("cargo:rerun-if-changed={}", map.display());
+    let binaries = manifest.join("src/bin");
     println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rerun-if-changed={}", map.display());
+    println!("cargo:rerun-if-changed={}", binaries.display());
+
+    // link.x includes memory.x by its name alone: the linker looks for it in a folder that depends on the binary.
+    let board_map = fs::read_to_string(&map).expect("the memory map can be read");
+    let board = folder(&out, "board", &board_map);
+    let probe = folder(&out, "probe", PROBE_MAP);
+    for file in fs::read_dir(&binaries).expect("the binaries can be listed").flatten() {
+        if let Some(name) = file.path().file_stem().and_then(OsStr::to_str) {
+            let folder = if name.starts_with(PROBES) { &probe } else { &board };
+            println!("cargo:rustc-link-arg-bin={name}=-L{}", folder.display());
+        }
+    }
 
     // --nmagic: sections follow each other without page alignment, so that
     // bytes in the file are bytes in flash.
@@ -20,8 +40,10 @@ fn main() {
     println!("cargo:rustc-link-arg-bins=-Tlink.x");
 }
 
-fn copy(from: &Path, to: &Path) {
-    if let Err(error) = fs::copy(from, to) {
-        panic!("cannot copy {} to {}: {error}", from.display(), to.display());
-    }
+/// A new folder with a memory map in it.
+fn folder(parent: &Path, name: &str, map: &str) -> PathBuf {
+    let folder = parent.join(name);
+    fs::create_dir_all(&folder).expect("a folder can be made in OUT_DIR");
+    fs::write(folder.join("memory.x"), map).expect("a file can be written to OUT_DIR");
+    folder
 }

@@ -1,9 +1,10 @@
 //! What a scene does not use takes no room in it.
 
 use microimpact::rigid::{NoMicroforce, NoRollingDissipation};
+use microimpact::simulation::{ContactWorks, SimulatedImpact, Simulation};
 use microimpact::{
     Classification, ConstantRestitution, ContactClass, Impact, NoAdhesion, NoFriction, NormalImpact, NormalMotion,
-    ObliqueMotion, PlanarMotion, RigidBody, Sphere,
+    ObliqueMotion, PlanarMotion, RigidBody, Sphere, Stiffness,
 };
 
 const NUMBER: usize = size_of::<f32>();
@@ -25,6 +26,26 @@ fn each_term_adds_its_own_numbers() {
     let frictional = scene.with_friction(0.1).unwrap();
     assert_eq!(size_of_val(&frictional), bare + NUMBER);
     assert_eq!(size_of_val(&frictional.with_rolling_dissipation(1e-9).unwrap()), bare + 2 * NUMBER);
+}
+
+/// The same of a simulation, and the outputs that it is not asked for are absent from its result.
+#[test]
+fn absent_terms_of_a_simulation() {
+    let sphere = Sphere::solid(1e-6_f32, 1000.0).unwrap();
+    let scene = Simulation::new(sphere, Stiffness::new(1e10).unwrap());
+    let bare = size_of::<Sphere<f32>>() + NUMBER;
+    assert_eq!(size_of_val(&scene), bare);
+    assert_eq!(size_of_val(&scene.with_damping(1.0).unwrap()), bare + NUMBER);
+    assert_eq!(size_of_val(&scene.with_external_force(1.0).unwrap()), bare + NUMBER);
+    let held = scene.with_ring(1.0, 1.0).unwrap();
+    assert_eq!(size_of_val(&held), bare + 2 * NUMBER);
+    let frictional = held.with_friction(0.1).unwrap();
+    assert_eq!(size_of_val(&frictional), bare + 3 * NUMBER);
+    assert_eq!(size_of_val(&frictional.with_peeling(1.0).unwrap()), bare + 4 * NUMBER);
+    assert_eq!(
+        size_of::<SimulatedImpact<f32, (), ContactWorks<f32>>>(),
+        size_of::<SimulatedImpact<f32, (), ()>>() + 2 * NUMBER
+    );
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Every input has a range, and every value outside it is an error that names the input.
 
 use microimpact::rigid::{AdhesionCoefficient, Departure, WorkOfAdhesion, infer, infer_with_spins};
+use microimpact::simulation::{Collocation, FixedCost, Simulation};
 use microimpact::{
     ConstantRestitution, Coulomb, Fault, ImpactError, InputError, Material, NormalMotion, Parameter, PlanarMotion,
     Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
@@ -10,6 +11,10 @@ type Checked = Result<(), ImpactError>;
 
 fn sphere<T: Real>() -> Sphere<T> {
     Sphere::solid(T::constant(5e-4), T::constant(2600.0)).unwrap()
+}
+
+fn stiffness<T: Real>() -> Stiffness<T> {
+    Stiffness::new(T::constant(1e9)).unwrap()
 }
 
 fn motion<T: Real>() -> PlanarMotion<T> {
@@ -79,6 +84,15 @@ fn supply<T: Real>(parameter: Parameter, value: T) -> Checked {
             RigidBody::new(sphere, perfect()).with_external_force(value, c(1e-3)).map(drop)
         }
         Parameter::Duration => scene.with_external_force(c(0.0), value).map(drop),
+        Parameter::MaterialDamping => Simulation::new(sphere(), stiffness()).with_damping(value).map(drop),
+        Parameter::AdhesionStrength => Simulation::new(sphere(), stiffness()).with_ring(value, c(1.0)).map(drop),
+        Parameter::AdhesionDamping => Simulation::new(sphere(), stiffness()).with_ring(c(1.0), value).map(drop),
+        Parameter::PeelingMoment => Simulation::new(sphere(), stiffness())
+            .with_ring(c(1.0), c(1.0))
+            .and_then(|scene| scene.with_friction(c(0.1)))
+            .and_then(|scene| scene.with_peeling(value))
+            .map(drop),
+        Parameter::Tolerance => Collocation::<7, T>::new(value).map(drop),
         other => panic!("{other:?} is not tested"),
     };
     Ok(checked?)
@@ -90,8 +104,12 @@ fn beyond(bound: f64, outwards: bool) -> f64 {
     if outwards { bound + step } else { bound - step }
 }
 
+/// Parameters that follow from others, or are counted: tested one by one below.
+const DERIVED: [Parameter; 4] =
+    [Parameter::AdhesionRatio, Parameter::ForceRatio, Parameter::DampingRatio, Parameter::Sweeps];
+
 fn assert_bounds_hold<T: Real>(not_a_number: [T; 3]) {
-    for parameter in Parameter::ALL {
+    for parameter in Parameter::ALL.into_iter().filter(|parameter| !DERIVED.contains(parameter)) {
         let (smallest, largest) = parameter.range();
         let fault = |value: T, fault| {
             let error = supply(parameter, value).unwrap_err();
@@ -121,6 +139,37 @@ fn bounds_hold_in_double_precision() {
 #[test]
 fn bounds_hold_in_single_precision() {
     assert_bounds_hold([f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
+}
+
+/// The ratios of a scene's forces have ranges too: outside them the motion could not be represented.
+#[test]
+fn ratios_of_forces() {
+    let fault = |parameter, fault| Some(InputError { parameter, fault });
+    let method = FixedCost::<5>::new(3).unwrap();
+    let soft = Stiffness::new(1e3).unwrap();
+    let sphere = Sphere::solid(1e-6, 1000.0).unwrap();
+    let motion = |speed: f64| NormalMotion::new(speed).unwrap();
+    let scene = Simulation::new(sphere, soft);
+    assert_eq!(
+        scene.with_damping(1e9).unwrap().normal_impact(&method, &motion(10.0)).err(),
+        fault(Parameter::DampingRatio, Fault::TooLarge)
+    );
+    assert_eq!(
+        scene.with_ring(1e-3, 1e9).unwrap().normal_impact(&method, &motion(10.0)).err(),
+        fault(Parameter::DampingRatio, Fault::TooLarge)
+    );
+    assert_eq!(
+        scene.with_ring(1e9, 0.0).unwrap().normal_impact(&method, &motion(1e-6)).err(),
+        fault(Parameter::AdhesionRatio, Fault::TooLarge)
+    );
+    for (force, expected) in [(-1.0, Fault::TooLarge), (1.0, Fault::TooSmall)] {
+        let pressed = scene.with_external_force(force).unwrap();
+        assert_eq!(pressed.normal_impact(&method, &motion(1e-6)).err(), fault(Parameter::ForceRatio, expected));
+    }
+    assert!(scene.with_damping(1e3).unwrap().normal_impact(&method, &motion(1.0)).is_ok());
+    for (sweeps, expected) in [(0, Fault::TooSmall), (41, Fault::TooLarge)] {
+        assert_eq!(FixedCost::<5>::new(sweeps).err(), fault(Parameter::Sweeps, expected));
+    }
 }
 
 #[test]

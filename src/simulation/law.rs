@@ -59,6 +59,12 @@ pub trait NormalLaw<T: Real>: Copy {
     fn loss(&self, s: T, rebound: bool) -> T {
         self.indentation_slope(s) * self.damping(s, rebound)
     }
+
+    /// The same over s^2, for s > 0; a law that loses less than that close to s = 0 has it grow there.
+    #[inline]
+    fn loss_over_square(&self, s: T, rebound: bool) -> T {
+        self.loss(s, rebound) / (s * s)
+    }
 }
 
 /// A force besides the elastic one, conservative but for its damping on rebound. What it gives is taken from the
@@ -97,6 +103,12 @@ pub trait Attraction<T: Real>: Copy {
     /// Its damping force for each unit of speed.
     #[inline]
     fn damping(&self, _s: T) -> T {
+        T::ZERO
+    }
+
+    /// The same over the contact radius.
+    #[inline]
+    fn damping_over_radius(&self, _s: T) -> T {
         T::ZERO
     }
 
@@ -156,6 +168,12 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> NormalLaw<T> fo
     #[inline]
     fn adhesion_damping(&self, s: T) -> T {
         self.adhesion.damping(s)
+    }
+
+    #[inline]
+    fn loss_over_square(&self, s: T, rebound: bool) -> T {
+        let material = T::constant(2.5) * self.damping.rate() * s * s;
+        if rebound { material + T::constant(2.0) * self.adhesion.damping_over_radius(s) } else { material }
     }
 
     #[inline]

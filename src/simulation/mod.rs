@@ -4,30 +4,35 @@
 //! external force (B6 to B10), each a type that a scene includes or not. The normal motion is solved as kinetic energy
 //! against contact radius, where it is smooth from first touch to separation, and all else follows from integrals over it.
 
+mod critical;
 mod damping;
+mod fixed_cost;
 mod force;
 mod law;
 mod motion;
 mod nodes;
 mod observer;
 mod outcome;
+mod paper;
 mod ring;
 mod scaled;
 mod stretch;
 mod tangential;
 
 pub use damping::{HystereticDamping, NoDamping, ScaledDamping};
+pub use fixed_cost::FixedCost;
 pub use force::{ConstantForce, NoForce, ScaledForce};
 pub use law::{Attraction, Damping, HertzLaw, NormalLaw};
 pub use motion::NormalPath;
-pub use nodes::Nodes;
+pub use nodes::{Nodes, PhaseNodes};
 pub use observer::{Impulses, Observer, Times, Works};
 pub use outcome::{
     ContactImpulses, ContactTimes, ContactWorks, Everything, NormalContact, Output, RunReport, Status,
     TangentialContact,
 };
+pub use paper::{RungeKuttaGill, StepReport, SteppedImpact};
 pub use ring::{Ring, ScaledRing};
-pub use scaled::{Scale, Scaled};
+pub use scaled::{Groups, Scale, Scaled};
 pub use stretch::Stretch;
 pub use tangential::{NoPeeling, Peeling, ScaledPeeling, SpinDamping, TangentialMotion};
 
@@ -62,6 +67,35 @@ impl<const N: usize, T: Real> Collocation<N, T> {
     pub fn new(tolerance: T) -> Result<Self, InputError> {
         let tolerance = Parameter::Tolerance.check(tolerance)?;
         Ok(Self { tolerance: tolerance.max(T::constant(8.0) * T::EPSILON) })
+    }
+
+    fn control(&self, timed: bool) -> Control<T> {
+        Control { settled: T::constant(0.1) * self.tolerance, error: self.tolerance, timed }
+    }
+}
+
+/// A method that follows the normal motion to its end.
+///
+/// ```
+/// use microimpact::simulation::{Collocation, FixedCost, NormalMethod, Simulation};
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
+///
+/// fn restitution(method: &impl NormalMethod<f64>) -> Result<f64, microimpact::InputError> {
+///     let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
+///     Ok(scene.normal_impact(method, &NormalMotion::new(1.0)?)?.overall_restitution())
+/// }
+/// let (exact, quick) = (restitution(&Collocation::<9, f64>::new(1e-9)?)?, restitution(&FixedCost::<6>::new(4)?)?);
+/// assert!((exact - quick).abs() < 1e-6);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+pub trait NormalMethod<T: Real> {
+    /// The motion under a law of a sphere that arrives with a kinetic energy.
+    fn normal_motion<L: NormalLaw<T>>(&self, law: &L, energy: T) -> NormalPath<T>;
+}
+
+impl<T: Nodes<N>, const N: usize> NormalMethod<T> for Collocation<N, T> {
+    fn normal_motion<L: NormalLaw<T>>(&self, law: &L, energy: T) -> NormalPath<T> {
+        follow::<T, N, _, _>(law, energy, self.control(false), false, &mut ())
     }
 }
 
@@ -393,7 +427,8 @@ where
         let units = self.units(approach)?;
         let tangential = self.friction.start(&self.sphere, &self.adhesion, &self.peeling, motion, &units)?;
         let mut observer = (O::begin(), tangential);
-        let path = self.follow::<N, _>(method, &units, O::TIMED, true, &mut observer)?;
+        let path =
+            follow::<T, N, _, _>(&self.law(&units)?, units.energy, method.control(O::TIMED), true, &mut observer);
         let (observer, tangential) = observer;
         Ok(SimulatedImpact {
             normal: NormalContact::new(&path, approach, &self.sphere, self.stiffness, &units),
@@ -403,7 +438,7 @@ where
         })
     }
 
-    /// The normal motion alone: how it ends and how fast, without times, impulses, works or anything tangential.
+    /// The normal motion alone, by any method: how it ends and how fast, without times, impulses, works or anything tangential.
     ///
     /// # Errors
     /// As [`impact`](Self::impact).
@@ -419,18 +454,35 @@ where
     /// assert!((contact.overall_restitution() - 0.62).abs() < 0.001);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn normal_impact<const N: usize>(
+    pub fn normal_impact(
         &self,
-        method: &Collocation<N, T>,
+        method: &impl NormalMethod<T>,
         motion: &impl Approach<T>,
-    ) -> Result<NormalContact<T>, InputError>
-    where
-        T: Nodes<N>,
-    {
+    ) -> Result<NormalContact<T>, InputError> {
         let approach = motion.normal().speed();
         let units = self.units(approach)?;
-        let path = self.follow::<N, _>(method, &units, false, false, &mut ())?;
+        let path = method.normal_motion(&self.law(&units)?, units.energy);
         Ok(NormalContact::new(&path, approach, &self.sphere, self.stiffness, &units))
+    }
+
+    /// The dimensionless groups of the impact of a sphere that arrives with `motion`; the external force is not among them.
+    ///
+    /// # Errors
+    /// As [`impact`](Self::impact).
+    ///
+    /// ```
+    /// use microimpact::simulation::Simulation;
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// assert_eq!(scene.groups(&NormalMotion::new(1.0)?)?.adhesion, 0.0);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn groups(&self, motion: &impl Approach<T>) -> Result<Groups<T>, InputError> {
+        let units = self.units(motion.normal().speed())?;
+        let material = self.damping.scale(&self.sphere, &units)?.rate();
+        let adhesion = self.adhesion.scale(&self.sphere, &units)?.damping_rate();
+        Ok(units.groups(material, adhesion))
     }
 
     /// The sphere of this scene.
@@ -450,24 +502,11 @@ where
         Scaled::new(&self.sphere, self.stiffness, self.adhesion.equilibrium(self.stiffness), approach)
     }
 
-    fn follow<const N: usize, O: Observer<T>>(
-        &self,
-        method: &Collocation<N, T>,
-        units: &Scaled<T>,
-        timed: bool,
-        to_turning_point: bool,
-        observer: &mut O,
-    ) -> Result<NormalPath<T>, InputError>
-    where
-        T: Nodes<N>,
-    {
-        let law = HertzLaw {
+    fn law(&self, units: &Scaled<T>) -> Result<HertzLaw<D::Scaled, A::Scaled, X::Scaled>, InputError> {
+        Ok(HertzLaw {
             damping: self.damping.scale(&self.sphere, units)?,
             adhesion: self.adhesion.scale(&self.sphere, units)?,
             force: self.force.scale(&self.sphere, units)?,
-        };
-        let settled = T::constant(0.1) * method.tolerance;
-        let control = Control { settled, error: method.tolerance, timed };
-        Ok(follow::<T, N, _, _>(&law, units.energy, control, to_turning_point, observer))
+        })
     }
 }

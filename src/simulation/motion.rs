@@ -432,6 +432,12 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     #[inline(never)]
     fn creeps(&self, s: T, y: T, course: Course) -> bool {
         let law = self.law;
+        // On the way out the equilibrium lies nearer than first touch, so the secant below is at least this steep.
+        let strength = law.damping(s, course.rebound);
+        let steepest = T::constant(4.0) * law.slope(s);
+        if course.rebound && strength * strength * law.indentation(s) * law.indentation_slope(s) <= steepest {
+            return false;
+        }
         let Some(equilibrium) = self.equilibrium() else {
             return false;
         };

@@ -1,4 +1,5 @@
-//! Radau's nodes on 0..1 and the integrals that collocation needs, computed by the compiler for any number of nodes.
+//! Nodes on 0..1 and the integrals that collocation needs, computed by the compiler: Radau's for a stretch, for any number
+//! of nodes, and Gauss's for a whole phase of the motion.
 
 // Indices run over arrays of the length that their loops count to.
 #![allow(clippy::indexing_slicing)]
@@ -201,4 +202,116 @@ const fn tail<const N: usize>(z: &[f64; N]) -> [f64; N] {
         k += 1;
     }
     tail
+}
+
+/// A number type with the tables for `N` nodes over a whole phase, from the peak z = 0 to the contact radius zero, z = 1.
+///
+/// They are those of Gauss for the weight z^2 (1 - z^2)^2 of losses that grow at least with the square of the contact radius
+/// s = a (1 - z^2). The weight is part of the integrals.
+pub trait PhaseNodes<const N: usize>: Real {
+    /// 1 - z^2 at the nodes: the contact radius over its peak.
+    const M: [Self; N];
+    /// Integral of the weighted f from 0 to node j, over the square of that node: sum over k of `RUNNING[k][j]` f(k).
+    const RUNNING: [[Self; N]; N];
+    /// Integral of the weighted f from 0 to 1.
+    const WHOLE: [Self; N];
+}
+
+macro_rules! impl_phase_nodes {
+    ($($n:literal: $z:expr),*) => {
+        $(
+            impl Phase<$n> {
+                const Z: [f64; $n] = $z;
+            }
+
+            impl_phase_nodes!(f32, $n);
+            impl_phase_nodes!(f64, $n);
+        )*
+    };
+    ($float:ident, $n:literal) => {
+        impl PhaseNodes<$n> for $float {
+            const M: [Self; $n] = {
+                const N: usize = $n;
+                narrowed!($float, Phase::<N>::contact_radii(&Phase::<N>::Z))
+            };
+            const RUNNING: [[Self; $n]; $n] = {
+                const N: usize = $n;
+                narrowed_square!($float, Phase::<N>::integrals(&Phase::<N>::Z))
+            };
+            const WHOLE: [Self; $n] = {
+                const N: usize = $n;
+                narrowed!($float, Phase::<N>::whole(&Phase::<N>::Z))
+            };
+        }
+    };
+}
+
+struct Phase<const N: usize>;
+
+impl<const N: usize> Phase<N> {
+    const fn contact_radii(z: &[f64; N]) -> [f64; N] {
+        let mut m = [0.0; N];
+        let mut j = 0;
+        while j < N {
+            m[j] = 1.0 - z[j] * z[j];
+            j += 1;
+        }
+        m
+    }
+
+    /// Weighted integral of Lagrange's polynomial k from 0 to `end`, exact with Radau's 16 nodes.
+    const fn integral(z: &[f64; N], k: usize, end: f64) -> f64 {
+        let (mut sum, mut q) = (0.0, 0);
+        while q < 16 {
+            let x = end * Table::<16>::Z[q];
+            let m = 1.0 - x * x;
+            sum += Table::<16>::WEIGHTS[q] * x * x * m * m * lagrange(z, k, x);
+            q += 1;
+        }
+        end * sum
+    }
+
+    const fn integrals(z: &[f64; N]) -> [[f64; N]; N] {
+        let mut table = [[0.0; N]; N];
+        let mut k = 0;
+        while k < N {
+            let mut j = 0;
+            while j < N {
+                table[k][j] = Self::integral(z, k, z[j]) / (z[j] * z[j]);
+                j += 1;
+            }
+            k += 1;
+        }
+        table
+    }
+
+    const fn whole(z: &[f64; N]) -> [f64; N] {
+        let mut whole = [0.0; N];
+        let mut k = 0;
+        while k < N {
+            whole[k] = Self::integral(z, k, 1.0);
+            k += 1;
+        }
+        whole
+    }
+}
+
+impl_phase_nodes! {
+    4: [0.168_848_643_306_250_23, 0.400_478_437_938_044_4, 0.648_109_617_548_724_5, 0.858_882_474_005_624],
+    5: [
+        0.126_557_189_417_750_3, 0.310_043_870_426_936_04, 0.522_411_788_307_857, 0.727_305_133_842_193_1,
+        0.892_545_619_488_074_3
+    ],
+    6: [
+        0.098_160_669_059_215_35, 0.245_742_548_552_825_94, 0.425_618_808_246_569_9, 0.612_676_900_154_884_7,
+        0.782_853_661_600_094_8, 0.915_451_689_718_810_6
+    ],
+    7: [
+        0.078_252_305_111_601_93, 0.198_877_908_670_727_03, 0.351_242_977_929_878_6, 0.517_744_883_928_144,
+        0.680_563_644_311_726_4, 0.823_197_376_456_624, 0.931_744_552_722_608
+    ],
+    8: [
+        0.063_790_269_425_280_9, 0.163_890_160_193_141_99, 0.293_617_787_423_141_04, 0.440_415_820_055_981_7,
+        0.591_028_743_025_116_5, 0.732_568_378_965_366_8, 0.853_364_086_043_577_4, 0.943_746_098_565_475_6
+    ]
 }

@@ -26,6 +26,7 @@ use crate::{Class, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalContact<T> {
+    status: Status,
     outcome: Outcome,
     approach: T,
     restitution_squared: T,
@@ -50,6 +51,7 @@ impl<T: Real> NormalContact<T> {
         };
         let indentation = |s: T| (s > T::ZERO).then(|| units.length * s * s);
         Self {
+            status: Status::of(path),
             outcome,
             approach,
             restitution_squared,
@@ -58,6 +60,22 @@ impl<T: Real> NormalContact<T> {
             radius: sphere.radius(),
             stiffness: stiffness.pascals(),
         }
+    }
+
+    /// Whether the method has come to a solution.
+    ///
+    /// ```
+    /// use microimpact::simulation::{FixedCost, Simulation, Status};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1e4)?;
+    /// let contact = scene.normal_impact(&FixedCost::<5>::new(3)?, &NormalMotion::new(1.0)?)?;
+    /// assert_eq!(contact.status(), Status::BudgetSpent); // too strongly damped for a method of fixed cost
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn status(&self) -> Status {
+        self.status
     }
 
     /// Rebound or capture.
@@ -645,6 +663,12 @@ pub enum Status {
     BudgetSpent,
 }
 
+impl Status {
+    fn of<T>(path: &NormalPath<T>) -> Self {
+        if path.end == End::Budget { Self::BudgetSpent } else { Self::Solved }
+    }
+}
+
 /// What a run took.
 ///
 /// ```
@@ -681,7 +705,7 @@ impl<T: Real> RunReport<T> {
 
     pub(super) fn new(path: &NormalPath<T>) -> Self {
         Self {
-            status: if path.end == End::Budget { Status::BudgetSpent } else { Status::Solved },
+            status: Status::of(path),
             stretches: path.effort.stretches,
             refused: path.effort.refused,
             sweeps: path.effort.sweeps,

@@ -74,6 +74,11 @@ impl<T: Real> Attraction<T> for ScaledRing<T> {
     }
 
     #[inline]
+    fn damping_over_radius(&self, _s: T) -> T {
+        T::constant(0.75) * self.damping * self.strength
+    }
+
+    #[inline]
     fn damping_rate(&self) -> T {
         self.damping
     }

@@ -193,7 +193,7 @@ pub(super) fn pass<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
     let (two, half) = (T::constant(2.0), T::constant(0.5));
     let (mut s, mut free, mut loss, mut length) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
     let slow = from.speed_squared < from.energy.abs();
-    let (mut possible, mut reach, mut contraction) = (true, T::ZERO, T::ZERO);
+    let (mut possible, mut contracting, mut reach) = (true, true, T::ZERO);
     for j in 0..N {
         let step = T::Z[j] * (first + second * T::Z[j]);
         s[j] = from.s + step;
@@ -206,9 +206,9 @@ pub(super) fn pass<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
         };
         loss[j] = two * length[j] * law.loss(s[j], course.rebound);
         possible &= free[j] > T::ZERO;
-        let speed = free[j].max(T::SMALLEST).sqrt();
+        // Half of what the losses have taken so far, over the speed, is what a sweep leaves of an error.
         reach = reach + T::WHOLE[j] * loss[j];
-        contraction = contraction.max(half * reach / speed);
+        contracting &= reach * reach < free[j];
     }
     if course.reversed {
         loss = loss.map(|loss| -loss);
@@ -216,7 +216,7 @@ pub(super) fn pass<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
     let mut state = Sweeps::from(&free, &loss);
     let mut accepted = possible;
     let mut newton = false;
-    if possible && !(contraction < half && state.settle(&free, &loss, &T::RUNNING, control)) {
+    if possible && !(contracting && state.settle(&free, &loss, &T::RUNNING, control)) {
         newton = true;
         accepted = solve_strongly_damped(&free, &loss, &mut state, control);
     }

@@ -1,4 +1,4 @@
-//! The impacts that the firmware classifies: plain numbers in SI units.
+//! The impacts that the firmware classifies and simulates: plain numbers in SI units.
 
 /// A motion before the impact.
 #[derive(Debug, Clone, Copy)]
@@ -39,4 +39,16 @@ pub static IMPACTS: [Impact; 9] = [
     Impact::new("rests", 0.5, 0.0, 0.0),
     Impact::new("rolls-on", 1.75, 0.2, 0.0),
     Impact::new("slides-on", 1.0, 5.0, 0.0),
+];
+
+/// Impacts for the contact simulation, few because each takes long where numbers are computed in software: every
+/// way in which a simulated impact can end, some of them by the way of a refused stretch.
+pub static CONTACTS: [Impact; 6] = [
+    Impact::new("straight", 2.8, 0.0, 0.0),
+    Impact::new("just-rebounds", 1.5, 0.0, 0.0),
+    Impact::new("rests", 0.5, 0.0, 0.0),
+    // Brach & Dunn (1995), Table 1.
+    Impact::new("table-1", 2.8, 0.0, 1.46e5),
+    Impact::new("oblique", 2.8, 20.0, 0.0),
+    Impact::new("slides-on", 0.5, 20.0, 0.0),
 ];

@@ -1,5 +1,5 @@
-//! The scenes in which the impacts are classified: normal impacts only, or friction
-//! and spin, each with adhesion given in either way, in f32 and in f64.
+//! The scenes in which the impacts are classified as rigid bodies: normal impacts only, or
+//! friction and spin, each with adhesion given in either way, in f32 and in f64.
 
 use core::fmt::LowerExp;
 use core::hint::black_box;
@@ -10,15 +10,16 @@ use microimpact::{
     SpeedRestitution, Sphere,
 };
 
+use super::contacts::visit_contacts;
 use super::impacts::{IMPACTS, Impact};
 
 // The sphere of Brach & Dunn (1995), Table 1.
-const RADIUS_M: f64 = 5.06e-6;
-const DENSITY_KG_M3: f64 = 2600.0;
+pub(super) const RADIUS_M: f64 = 5.06e-6;
+pub(super) const DENSITY_KG_M3: f64 = 2600.0;
+pub(super) const FRICTION: f64 = 0.1;
 const RESTITUTION_SPEED_M_S: f64 = 130.0;
 const ADHESION_COEFFICIENT: f64 = 0.237;
 const WORK_OF_ADHESION_J: f64 = 2.22e-12;
-const FRICTION: f64 = 0.1;
 
 /// A number type of the comparison.
 pub trait Number: Real + LowerExp {
@@ -64,6 +65,8 @@ pub struct Answer<T> {
     pub speed_margin: Option<T>,
     /// Friction over the impulse ratio that ends sliding, where there is one.
     pub friction_margin: Option<T>,
+    /// Overall restitution, where it has been simulated.
+    pub restitution: Option<T>,
 }
 
 /// A scene, and the steps of its use.
@@ -178,7 +181,7 @@ fn bare_scene<T: Number>() -> Option<RigidBody<T, SpeedRestitution<T>>> {
 
 /// A number that the compiler does not know, as if it were read from a configuration:
 /// without this it would do the work of the scene beforehand and measure nothing.
-fn given<T: Number>(number: f64) -> T {
+pub(super) fn given<T: Number>(number: f64) -> T {
     black_box(T::constant(number))
 }
 
@@ -191,6 +194,7 @@ impl<T> From<Classification<T, ()>> for Answer<T> {
             },
             speed_margin: verdict.speed_over_critical,
             friction_margin: None,
+            restitution: None,
         }
     }
 }
@@ -207,6 +211,7 @@ impl<T> From<Classification<T, ContactClass<T>>> for Answer<T> {
             },
             speed_margin: verdict.speed_over_critical,
             friction_margin: verdict.contact.friction_over_limit,
+            restitution: None,
         }
     }
 }
@@ -221,6 +226,7 @@ pub trait Visitor {
 pub fn visit_scenes(visitor: &mut impl Visitor) {
     visit_scenes_of::<f32>(visitor);
     visit_scenes_of::<f64>(visitor);
+    visit_contacts(visitor);
 }
 
 fn visit_scenes_of<T: Number>(visitor: &mut impl Visitor) {

@@ -186,11 +186,14 @@ fn measured(protocols: &[(&Board, Protocol)]) -> Vec<Figure> {
 }
 
 /// The firmware that each scene makes larger, on the core of the promises.
-const FLASH: [(&str, &str); 4] = [
+const FLASH: [(&str, &str); 7] = [
     ("normal/coefficient", "flash_normal"),
     ("normal/work", "flash_normal_work"),
     ("planar/coefficient", "flash_planar"),
     ("planar/work", "flash_planar_work"),
+    ("simulation/fixed-1e-6", "flash_contact_fixed"),
+    ("simulation/normal", "flash_contact_normal"),
+    ("simulation/oblique", "flash_contact_oblique"),
 ];
 
 fn flash(toolchain: &Toolchain) -> Result<Vec<Figure>, String> {

@@ -45,8 +45,21 @@ fn cost(protocol: &Protocol, case: &Case) -> String {
     })
 }
 
-/// The promises and what became of them, a column for each scene.
+/// The promises and what became of them, then the simulation, for which there are none; a column for each scene.
 pub(crate) fn footprint(checked: &[Checked]) -> String {
+    let (simulated, rigid): (Vec<_>, Vec<_>) =
+        checked.iter().partition(|checked| limits::is_simulated(&checked.subject.scene));
+    format!(
+        "Footprint on {REFERENCE_CORE}, {}\n{}\n\n{}\n\
+         Instructions are not cycles. Flash and static memory: a firmware that validates a scene and\n\
+         motions and classifies them, less the same firmware without that.\n",
+        limits::SCALAR,
+        footprint_table(&rigid),
+        footprint_table(&simulated),
+    )
+}
+
+fn footprint_table(checked: &[&Checked]) -> Table {
     let mut scenes: Vec<&str> = Vec::new();
     let mut quantities: Vec<Quantity> = Vec::new();
     for Checked { subject, .. } in checked {
@@ -61,20 +74,16 @@ pub(crate) fn footprint(checked: &[Checked]) -> String {
     table.set_header(["at most", "limit"].iter().chain(&scenes));
     align_right(&mut table, 1..2 + scenes.len());
     for quantity in quantities {
-        let limit = limits::of(quantity).map_or_else(|| "-".to_owned(), |limit| limit.to_string());
+        let limit = scenes.first().and_then(|scene| limits::of(scene, quantity));
+        let limit = limit.map_or_else(|| "-".to_owned(), |limit| limit.to_string());
         let mut row = vec![format!("{}, {}", quantity.name(), quantity.unit()), limit];
         row.extend(scenes.iter().map(|scene| {
-            let same = |found: &&Checked| found.subject.quantity == quantity && found.subject.scene == *scene;
+            let same = |found: &&&Checked| found.subject.quantity == quantity && found.subject.scene == *scene;
             checked.iter().find(same).map_or_else(String::new, |found| found.value.to_string())
         }));
         table.add_row(row);
     }
-    format!(
-        "Footprint on {REFERENCE_CORE}, {}\n{table}\n\
-         Instructions are not cycles. Flash and static memory: a firmware that validates a scene and\n\
-         motions and classifies them, less the same firmware without that.\n",
-        limits::SCALAR
-    )
+    table
 }
 
 /// The outcome of the search for panicking paths on each board.

@@ -1,5 +1,5 @@
 //! Classifies every impact in every scene and prints one line for each, with
-//! class, margins and cost: `word key=value key=value ...`.
+//! class, margins, restitution and cost: `word key=value key=value ...`.
 //!
 //! Counts are instructions, not cycles: a division or a square root counts 1, and
 //! there are no wait states. Runs in QEMU, with `-icount shift=8`.
@@ -14,9 +14,12 @@ use core::panic::PanicInfo;
 use cortex_m_rt::{ExceptionFrame, entry, exception};
 use cortex_m_semihosting::debug::{self, EXIT_FAILURE, EXIT_SUCCESS};
 use cortex_m_semihosting::hprintln;
-use microimpact_firmware::counter::Counter;
 use microimpact_firmware::scenes::{Answer, Measured, Number, Scene, Visitor, visit_scenes};
-use microimpact_firmware::stack;
+
+use counter::Counter;
+
+mod counter;
+mod stack;
 
 #[entry]
 fn main() -> ! {
@@ -49,13 +52,14 @@ impl Visitor for Measurement {
             let answer: Answer<T> = scene.classify(&motion).into();
             hprintln!(
                 "impact scene={} scalar={} impact={} class={} speed_margin={} friction_margin={} \
-                 instructions={} with_set_up={}",
+                 restitution={} instructions={} with_set_up={}",
                 S::NAME,
                 T::NAME,
                 impact.name,
                 answer.class,
-                Margin(answer.speed_margin),
-                Margin(answer.friction_margin),
+                Digits(answer.speed_margin),
+                Digits(answer.friction_margin),
+                Digits(answer.restitution),
                 self.counter.count(classification),
                 self.counter.count(with_set_up),
             );
@@ -83,13 +87,13 @@ fn set_up_and_classify<T: Number, S: Scene<T>>(scene: &S, measured: &Measured<T>
     }
 }
 
-/// A margin with all its digits, so that the host can compare the last bit.
-struct Margin<T>(Option<T>);
+/// A number with all its digits, so that the host can compare the last bit.
+struct Digits<T>(Option<T>);
 
-impl<T: LowerExp> Display for Margin<T> {
+impl<T: LowerExp> Display for Digits<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
-            Some(margin) => margin.fmt(f),
+            Some(number) => number.fmt(f),
             None => f.write_str("none"),
         }
     }

@@ -5,14 +5,14 @@ use core::arch::asm;
 /// What unused stack is painted with.
 const PAINT: u32 = 0xa5c3_5a3c;
 /// Bytes of stack that are painted; work that reaches further cannot be measured.
-pub const REACH: u32 = 2048;
+const REACH: u32 = 8192;
 const WORD: u32 = 4;
 
 /// Bytes of stack from the caller's to the deepest word that `work` writes, its
 /// variables and results included; `None` if that is more than [`REACH`].
 ///
 /// Interrupts must stay silent meanwhile: their frames would be counted too.
-pub fn used(work: impl FnOnce()) -> Option<u32> {
+pub(crate) fn used(work: impl FnOnce()) -> Option<u32> {
     let top = paint();
     apart(work);
     let untouched = (top - REACH..top)

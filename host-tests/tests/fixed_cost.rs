@@ -1,0 +1,89 @@
+//! The method of fixed cost: its error over the paper's and random scenes, and its honesty where it does not serve.
+
+use microimpact::simulation::{Collocation, FixedCost, NormalContact, NormalMethod, Simulation, Status};
+use microimpact::{NormalMotion, Outcome, Real, Sphere, Stiffness};
+
+const CASES: &str = include_str!("../data/cases.csv");
+
+/// A captured sphere of the random family, too strongly damped for so few sweeps.
+const TOO_DAMPED: &str = "r002";
+
+/// Largest error of e in some families, all of whose outcomes have to be right.
+fn largest_error<T: Real>(families: &[&str], method: &impl NormalMethod<T>, double: impl Fn(T) -> f64) -> f64 {
+    let mut reader = csv::Reader::from_reader(CASES.as_bytes());
+    let names = reader.headers().unwrap().clone();
+    let column = |name: &str| names.iter().position(|column| column == name).unwrap();
+    let mut largest = 0.0_f64;
+    for row in reader.records().map(Result::unwrap).filter(|row| families.contains(&&row[0])) {
+        let number = |name: &str| row[column(name)].parse::<f64>().unwrap();
+        let scalar = |name: &str| T::constant(number(name));
+        let sphere = Sphere::solid(scalar("radius_m"), scalar("density_kg_m3")).unwrap();
+        let scene = Simulation::new(sphere, Stiffness::new(scalar("stiffness_pa")).unwrap())
+            .with_damping(scalar("zeta_h"))
+            .and_then(|scene| scene.with_ring(scalar("adhesion_n_m"), scalar("zeta_a")))
+            .unwrap();
+        let contact: NormalContact<T> =
+            scene.normal_impact(method, &NormalMotion::new(scalar("speed_normal_m_s")).unwrap()).unwrap();
+        if &row[1] == TOO_DAMPED {
+            assert_eq!(contact.status(), Status::BudgetSpent);
+            continue;
+        }
+        assert_eq!(contact.status(), Status::Solved, "{}", &row[1]);
+        assert_eq!(contact.outcome() == Outcome::Rebound, &row[column("outcome")] == "rebound", "{}", &row[1]);
+        largest = largest.max((double(contact.overall_restitution()) - number("restitution")).abs());
+    }
+    largest
+}
+
+const SCENES: [&str; 3] = ["paper", "figure6", "random"];
+
+#[test]
+fn five_nodes_and_three_sweeps() {
+    let error = largest_error(&SCENES, &FixedCost::<5>::new(3).unwrap(), f64::from as fn(f32) -> f64);
+    assert!(error < 1e-5, "{error:.1e}");
+}
+
+#[test]
+fn seven_nodes_and_four_sweeps() {
+    let error = largest_error(&SCENES, &FixedCost::<7>::new(4).unwrap(), f64::from as fn(f32) -> f64);
+    assert!(error < 1e-6, "{error:.1e}");
+}
+
+#[test]
+fn more_nodes_and_sweeps_converge() {
+    let error = |method: &dyn Fn() -> f64| method();
+    let errors = [
+        error(&|| largest_error(&["paper"], &FixedCost::<4>::new(8).unwrap(), |e: f64| e)),
+        error(&|| largest_error(&["paper"], &FixedCost::<6>::new(10).unwrap(), |e: f64| e)),
+        error(&|| largest_error(&["paper"], &FixedCost::<8>::new(12).unwrap(), |e: f64| e)),
+    ];
+    assert!(errors[1] < 0.2 * errors[0] && errors[2] < 0.2 * errors[1], "{errors:?}");
+    assert!(errors[2] < 1e-7, "{errors:?}");
+}
+
+/// Where damping is too strong for it, the method says so instead of giving a wrong number.
+#[test]
+fn strong_damping_is_reported() {
+    let sphere = Sphere::solid(5.06e-6, 2600.0).unwrap();
+    let motion = NormalMotion::new(2.8).unwrap();
+    let exact = Collocation::<12, f64>::new(1e-12).unwrap();
+    let quick = FixedCost::<6>::new(6).unwrap();
+    let mut unsolved = 0;
+    for step in 0..200 {
+        let zeta = 10f64.powf(f64::from(step) / 25.0);
+        let scene = Simulation::new(sphere, Stiffness::new(7.5e10).unwrap()).with_damping(zeta).unwrap();
+        let contact = scene.normal_impact(&quick, &motion).unwrap();
+        if contact.status() != Status::Solved {
+            unsolved += 1;
+            continue;
+        }
+        let e = scene.normal_impact(&exact, &motion).unwrap().overall_restitution();
+        assert_eq!(contact.outcome(), Outcome::Rebound, "{zeta}");
+        assert!(
+            (contact.overall_restitution() - e).abs() < 0.02,
+            "{zeta}: {} against {e}",
+            contact.overall_restitution()
+        );
+    }
+    assert!(unsolved > 50);
+}

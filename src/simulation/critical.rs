@@ -1,0 +1,363 @@
+//! The critical speed: the approach from which a sphere would just come to rest where it separates.
+//!
+//! The path that separates at rest is followed against time, from there to the bottom of the potential; the impact of a
+//! trial speed is followed with time, to the same place. Which of the two is faster there tells rebound from capture, and
+//! the difference of their energies by how much. Both are short, regular, and well conditioned in their direction
+//! however strong the damping is, and at the critical speed neither comes near the slow end where the path of a single
+//! run, with no speed and no force, is at its worst.
+
+use super::law::NormalLaw;
+use super::motion::Follower;
+use super::scaled::{Scale, Scaled};
+use super::stretch::{Control, Course, Point, Stretch, pass};
+use super::{Attraction, Collocation, Damping, Nodes, Simulation};
+use crate::{CriticalSpeed, InputError, Parameter, Real};
+
+/// Trials that go by the energies of those before; later ones halve the bracket.
+const MOST_GUIDED_TRIALS: u32 = 24;
+
+impl<T, D, A, F, P, X> Simulation<T, D, A, F, P, X>
+where
+    T: Real,
+    D: Scale<T, Scaled: Damping<T>>,
+    A: Scale<T, Scaled: Attraction<T>>,
+    X: Scale<T, Scaled: Attraction<T>>,
+{
+    /// Trial speeds that [`critical_speed`](Self::critical_speed) takes at most; each follows two paths of at most 160
+    /// stretches. Most scenes take four to eight, of some four stretches.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::simulation::Simulation::<f32>::MOST_TRIALS, 88);
+    /// ```
+    // Halving the logarithm of the range down to rounding takes 56.
+    pub const MOST_TRIALS: u32 = MOST_GUIDED_TRIALS + 64;
+
+    /// The approach speed, m/s, that separates capture from rebound (B6), with a relative error of the tolerance of
+    /// `method`, unless damping is so strong that the speed is more than ten times that with which adhesion alone pulls.
+    ///
+    /// A sphere that separates at rest must have arrived with what damping took; that grows with the damping, and the
+    /// damping falls with the speed (B4), so there is one such speed at most. A force out of the surface is a barrier to
+    /// slow spheres, which then turn back before adhesion holds them: the critical speed is the largest that attaches.
+    ///
+    /// Where nothing holds a sphere, or nothing takes energy from it, or every speed of the range of
+    /// [`Parameter::ApproachSpeed`] rebounds, the answer is [`CriticalSpeed::AlwaysRebounds`]; where the largest of them
+    /// is captured, [`CriticalSpeed::NeverRebounds`].
+    ///
+    /// # Errors
+    /// A ratio of the scene's forces outside its range at the critical speed.
+    ///
+    /// ```
+    /// use microimpact::simulation::{Collocation, Simulation};
+    /// use microimpact::{CriticalSpeed, Sphere, Stiffness};
+    ///
+    /// // A sphere of 5 um diameter, as in figure 6.
+    /// let scene = Simulation::new(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?).with_damping(10.5)?;
+    /// let method = Collocation::<9, f64>::new(1e-9)?;
+    /// assert_eq!(scene.critical_speed(&method)?, CriticalSpeed::AlwaysRebounds);
+    /// let CriticalSpeed::At(speed) = scene.with_ring(250.0, 6.25)?.critical_speed(&method)? else { panic!() };
+    /// assert!((speed - 5.159_566_762).abs() < 1e-8);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn critical_speed<const N: usize>(&self, method: &Collocation<N, T>) -> Result<CriticalSpeed<T>, InputError>
+    where
+        T: Nodes<N>,
+    {
+        let first = self.speed_of_adhesion();
+        let mut search = Search::from(first);
+        for trial in 0..Self::MOST_TRIALS {
+            let outcome = self.try_speed(method, search.speed);
+            if let Some(result) = search.note(outcome, first, trial < MOST_GUIDED_TRIALS, method.tolerance) {
+                return result;
+            }
+        }
+        search.result()
+    }
+
+    /// The speed at which Hertz's peak indentation is 5/3 of the equilibrium one, or 1 m/s; within the range of speeds.
+    fn speed_of_adhesion(&self) -> T {
+        let depth = self.adhesion.equilibrium(self.stiffness) / self.sphere.radius();
+        if depth <= T::ZERO {
+            return T::ONE;
+        }
+        let (slowest, fastest) = speed_range();
+        // The units of `Scaled`, solved for the speed.
+        let depth = T::constant(1.524_345) * depth;
+        let rate = T::constant(4.188_79) * self.sphere.density() / self.stiffness.pascals();
+        (depth * depth.sqrt().sqrt() / rate.sqrt()).max(slowest).min(fastest)
+    }
+
+    /// What becomes of a sphere with this approach speed.
+    fn try_speed<const N: usize>(&self, method: &Collocation<N, T>, speed: T) -> Result<Trial<T>, InputError>
+    where
+        T: Nodes<N>,
+    {
+        let (half, two) = (T::constant(0.5), T::constant(2.0));
+        let mut units = self.units(speed)?;
+        let mut law = self.law(&units)?;
+        let settled = (T::constant(0.1) * method.tolerance).max(T::constant(4.0) * T::EPSILON);
+        let mut control = Control { settled, error: method.tolerance, timed: false };
+        let arrival = |energy: T| Point { s: T::ZERO, energy, speed_squared: energy + energy };
+        let beyond = Follower::from(&law, control, &mut (), arrival(units.energy)).undamped_peak();
+        if beyond > T::ONE {
+            // A force into the surface takes the sphere deeper; speeds stay of the order of one in the units of that.
+            units = units.enlarged(beyond);
+            law = self.law(&units)?;
+        }
+        let Some((brink, bottom)) = well(&law).filter(|(_, bottom)| law.damping(*bottom, true) > T::ZERO) else {
+            return Ok(Trial::Free);
+        };
+
+        let rest = law.potential(brink);
+        let depth = rest - law.potential(bottom);
+        // Losses count in proportion to themselves, which at the critical speed make up all of the energy of the impact;
+        // the error of a stretch is in proportion to what moves in the well, and a square.
+        let share = (units.energy / (units.energy + depth)).max(T::constant(1e-12));
+        control.error = (control.error * share * share).max(unattainable());
+        // Where the well is shallow, speeds are small in it.
+        let scale = (two * depth).sqrt().min(T::ONE);
+        let finer = Control { settled: control.settled * scale, ..control };
+        let at_rest = Point { s: brink, energy: rest, speed_squared: T::ZERO };
+        let departure = Follower::from(&law, finer, &mut (), at_rest).ascend::<N>(bottom);
+        let impact = Follower::from(&law, control, &mut (), arrival(units.energy)).descend::<N>(bottom);
+        let (Some(departure), Some(impact)) = (departure, impact) else {
+            return Ok(Trial::Tried { rebounds: false, excess: None });
+        };
+        let kinetic = half * departure.speed_squared;
+        // Of what is left of the motion, the speed knows more where that is little, and the energy where it is much.
+        let surplus = if kinetic < T::constant(0.1) * units.energy {
+            half * (impact.speed_squared - departure.speed_squared)
+        } else {
+            impact.energy - departure.energy
+        };
+        // Over the energy of the impact; what the two paths lose is the rest of it.
+        let share = surplus / units.energy;
+        // Far above the critical speed the loss may be less than can be told from none.
+        let root = (T::ONE - share).max(T::EPSILON).sqrt();
+        let excess = Some(share / (root * (T::ONE + root)) + surplus / (two * kinetic));
+        Ok(Trial::Tried { rebounds: surplus > T::ZERO, excess })
+    }
+}
+
+/// Below this the estimated error of a stretch is one of rounding.
+fn unattainable<T: Real>() -> T {
+    T::constant(64.0) * T::EPSILON * T::EPSILON
+}
+
+/// The outcome of a trial.
+#[derive(Clone, Copy, Debug)]
+enum Trial<T> {
+    /// Nothing holds the sphere or nothing takes energy from it.
+    Free,
+    /// `excess` is zero at the critical speed. Where damping is weak it is v/u - 1, with u the speed whose energy is what
+    /// both paths lose: close to the critical one, as losses hardly depend on the speed, so that the excess is almost linear.
+    /// Where damping is strong it is what the squares of the speeds at the bottom differ by. `None` where a path ends early.
+    Tried { rebounds: bool, excess: Option<T> },
+}
+
+/// A search for the root of the excess in a bracket of speeds.
+struct Search<T> {
+    /// The trial.
+    speed: T,
+    /// The largest speed known to be captured and the smallest known to rebound; ends of the range before there are any.
+    bracket: (T, T),
+    /// Whether those ends have been tried.
+    tried: (bool, bool),
+    /// Why the ends of the bracket could not be tried.
+    errors: (Option<InputError>, Option<InputError>),
+    /// Speed and excess of the last trial that had one.
+    last: Option<(T, T)>,
+}
+
+fn speed_range<T: Real>() -> (T, T) {
+    let (slowest, fastest) = Parameter::ApproachSpeed.range();
+    (T::constant(slowest), T::constant(fastest))
+}
+
+impl<T: Real> Search<T> {
+    fn from(speed: T) -> Self {
+        Self { speed, bracket: speed_range(), tried: (false, false), errors: (None, None), last: None }
+    }
+
+    /// Takes in the outcome of the trial; the result, or the next trial.
+    fn note(
+        &mut self,
+        outcome: Result<Trial<T>, InputError>,
+        first: T,
+        guided: bool,
+        tolerance: T,
+    ) -> Option<Result<CriticalSpeed<T>, InputError>> {
+        let (slowest, fastest) = speed_range::<T>();
+        let speed = self.speed;
+        let (rebounds, excess, error) = match outcome {
+            Ok(Trial::Free) => return Some(Ok(CriticalSpeed::AlwaysRebounds)),
+            Ok(Trial::Tried { rebounds, excess }) => (rebounds, excess, None),
+            // Forces outgrow the elastic one at low speeds; damping does so at high ones as well.
+            Err(error) => (error.parameter == Parameter::DampingRatio && speed > first, None, Some(error)),
+        };
+        if rebounds {
+            if speed <= slowest {
+                return Some(error.map_or(Ok(CriticalSpeed::AlwaysRebounds), Err));
+            }
+            (self.bracket.1, self.tried.1, self.errors.1) = (speed, true, error);
+        } else {
+            if speed >= fastest {
+                return Some(error.map_or(Ok(CriticalSpeed::NeverRebounds), Err));
+            }
+            (self.bracket.0, self.tried.0, self.errors.0) = (speed, true, error);
+        }
+        let (low, high) = self.bracket;
+        if high <= low * (T::ONE + T::constant(4.0) * T::EPSILON) {
+            return Some(self.result());
+        }
+        let (mut next, mut error) = (T::ZERO, T::ONE);
+        if let Some(excess) = excess.filter(|_| guided) {
+            if excess > T::constant(-0.99) {
+                next = speed / (T::ONE + excess);
+            }
+            if let Some((before, other)) = self.last.filter(|(_, other)| *other != excess) {
+                let secant = speed - excess * ((speed - before) / (excess - other));
+                if secant > low && secant < high {
+                    next = secant;
+                    // The error of a secant is the product of those of its two points, times a number of order one.
+                    error = ((next - speed) / next * ((next - before) / next)).abs();
+                }
+            }
+            self.last = Some((speed, excess));
+        }
+        if error <= T::constant(0.1) * tolerance {
+            return Some(Ok(CriticalSpeed::At(next)));
+        }
+        self.speed = if next > low && next < high {
+            next
+        } else if speed == low && high >= fastest && !self.tried.1 {
+            fastest
+        } else if speed == high && low <= slowest && !self.tried.0 {
+            slowest
+        } else {
+            (low * high).sqrt()
+        };
+        None
+    }
+
+    fn result(&self) -> Result<CriticalSpeed<T>, InputError> {
+        let (low, high) = self.bracket;
+        let (slowest, fastest) = speed_range();
+        match self.errors.0.or(self.errors.1) {
+            Some(error) => Err(error),
+            None if high >= fastest => Ok(CriticalSpeed::NeverRebounds),
+            None if low <= slowest => Ok(CriticalSpeed::AlwaysRebounds),
+            None => Ok(CriticalSpeed::At((low * high).sqrt())),
+        }
+    }
+}
+
+/// Contact radii of the brink that holds a sphere, zero without an external force, and of the minimum of the potential.
+fn well<T: Real>(law: &impl NormalLaw<T>) -> Option<(T, T)> {
+    // Newton's method from above; where the force grows with a power it takes a fixed share off each time.
+    let mut bottom = T::ONE;
+    for _ in 0..250 {
+        let curvature = law.curvature(bottom);
+        if curvature <= T::ZERO {
+            return None;
+        }
+        let step = law.slope(bottom) / curvature;
+        bottom = bottom - step;
+        if bottom <= T::EPSILON * T::EPSILON {
+            return None;
+        }
+        if step.abs() <= T::constant(1e-5) * bottom {
+            break;
+        }
+    }
+    let mut brink = T::ZERO;
+    if law.slope(T::EPSILON * bottom) > T::ZERO {
+        let mut inner = bottom;
+        for _ in 0..60 {
+            let middle = (brink + inner) * T::constant(0.5);
+            if law.slope(middle) > T::ZERO {
+                brink = middle;
+            } else {
+                inner = middle;
+            }
+        }
+    }
+    (law.potential(brink) > law.potential(bottom)).then_some((brink, bottom))
+}
+
+impl<T: Real> Scaled<T> {
+    /// The same impact in units of a contact radius that is larger by this factor.
+    fn enlarged(&self, factor: T) -> Self {
+        let area = factor * factor;
+        let growth = area * factor.sqrt();
+        Self {
+            length: self.length * area,
+            speed: self.speed * growth,
+            adhesion: self.adhesion / area,
+            energy: self.energy / growth / growth,
+            damping: self.damping * growth,
+        }
+    }
+}
+
+impl<T: Real, L: NormalLaw<T>> Follower<'_, T, L, ()> {
+    /// From first touch over the peak down to the contact radius `to`; `None` where the sphere does not get there.
+    fn descend<const N: usize>(mut self, to: T) -> Option<Point<T>>
+    where
+        T: Nodes<N>,
+    {
+        self.approach::<N>().ok()?;
+        let peak = self.at.s;
+        if peak <= to {
+            return None;
+        }
+        self.leave_peak::<N>(peak - to).ok()?;
+        let Control { settled, error, .. } = self.control;
+        let mut length = self.at.s - to;
+        while self.at.s > to {
+            // Strong damping leaves a speed that is small against what the potential drives; it counts by itself.
+            let square = self.at.speed_squared;
+            let driven = (self.law.potential(self.at.s) - self.law.potential(to)).max(T::ZERO);
+            let share = square / (square + driven);
+            self.control.settled = settled * square.sqrt().min(T::ONE);
+            // There errors are no longer squares.
+            let stiff = if share < T::constant(0.2) { T::constant(1e-4) } else { T::ONE };
+            let strict = error * stiff * (share * share).max(T::constant(1e-4));
+            self.control.error = strict.max(unattainable());
+            (_, length) = self.step::<N>(-length.min(self.at.s - to), false, Course::REBOUND)?;
+        }
+        Some(self.at)
+    }
+
+    /// From rest up to the contact radius `to`, against time; `None` where it gains more energy than any impact has.
+    fn ascend<const N: usize>(mut self, to: T) -> Option<Point<T>>
+    where
+        T: Nodes<N>,
+    {
+        let (mut resting, mut length) = (true, to - self.at.s);
+        while self.at.s < to {
+            let course = Course { rebound: true, reversed: true };
+            let taken;
+            (taken, length) = self.step::<N>(length.min(to - self.at.s), resting, course)?;
+            resting &= !taken;
+            if self.at.speed_squared > T::constant(4.0) {
+                return None;
+            }
+        }
+        Some(self.at)
+    }
+
+    /// Tries a stretch of signed length `step`, `from_rest` where the speed begins as a power of it: whether it was
+    /// taken, and how long the next should be. `None` where it is of no use to go on.
+    fn step<const N: usize>(&mut self, step: T, from_rest: bool, course: Course) -> Option<(bool, T)>
+    where
+        T: Nodes<N>,
+    {
+        let polynomial = if from_rest { (T::ZERO, step) } else { (step, T::ZERO) };
+        let mut sweeps = 0;
+        let stretch: Stretch<T, N> = pass(self.law, &self.at, polynomial, course, &self.control, &mut sweeps);
+        let factor = self.length_factor(N, &stretch);
+        let taken = self.take(&stretch, course, None).ok()?;
+        let length = step.abs() * if taken { factor } else { factor.min(T::constant(0.7)) };
+        (length > T::EPSILON * T::EPSILON).then_some((taken, length))
+    }
+}
