@@ -34,15 +34,29 @@ fn measured() -> HashMap<(String, String), u32> {
     largest
 }
 
-#[test]
-fn footprint_table_is_current() {
+/// The same of the simulation.
+const SIMULATED: [(&str, &str); 4] = [
+    ("`FixedCost<5>`, 3 sweeps, error of e 1e-5", "simulation/fixed-1e-5"),
+    ("`FixedCost<7>`, 4 sweeps, error of e 1e-6", "simulation/fixed-1e-6"),
+    ("`Collocation<7>`, tolerance 1e-6", "simulation/normal"),
+    ("the same with friction and spin", "simulation/oblique"),
+];
+
+const SIMULATED_QUANTITIES: [&str; 2] = ["classify", "stack"];
+
+fn assert_rows_are_current(scenes: &[(&str, &str)], quantities: &[&str]) {
     let measured = measured();
-    for (name, scene) in SCENES {
-        let figures: Vec<String> =
-            QUANTITIES.iter().map(|quantity| measured[&(scene.into(), (*quantity).into())].to_string()).collect();
-        let row = format!("| {name} | {} |", figures.join(" | "));
+    for (name, scene) in scenes {
+        let figure = |quantity: &&str| measured[&((*scene).into(), (*quantity).into())].to_string();
+        let row = format!("| {name} | {} |", quantities.iter().map(figure).collect::<Vec<_>>().join(" | "));
         assert!(README.contains(&row), "README.md lacks the row\n{row}");
     }
+}
+
+#[test]
+fn footprint_tables_are_current() {
+    assert_rows_are_current(&SCENES, &QUANTITIES);
+    assert_rows_are_current(&SIMULATED, &SIMULATED_QUANTITIES);
 }
 
 #[test]
@@ -63,5 +77,24 @@ fn stated_accuracy_is_the_tested_one() {
     ] {
         assert!(file.contains(tolerance), "{tolerance}");
         assert!(README.split_whitespace().collect::<Vec<_>>().join(" ").contains(statement), "{statement}");
+    }
+}
+
+/// The rows of the simulation's accuracy are the bounds of its tests: nodes and tolerance, e^2, indentation, all else.
+#[test]
+fn accuracy_of_the_simulation_is_the_tested_one() {
+    let tests = include_str!("simulation_reference.rs");
+    for (setting, run) in [
+        ("14, 1e-13", "errors::<14, f64>(1e-13"),
+        ("12, 1e-12", "errors::<12, f64>(1e-12"),
+        ("9, 1e-9", "errors::<9, f64>(1e-9"),
+        ("7, 1e-6", "errors::<7, f64>(1e-6"),
+        ("8, 1e-6, `f32`", "errors::<8, f32>(1e-6"),
+    ] {
+        let test = tests.split("#[test]").find(|test| test.contains(run)).unwrap();
+        let bound = |name: &str| test.split_once(name).unwrap().1.split_once(',').unwrap().0.trim().to_owned();
+        let row =
+            format!("| {setting} | {} | {} | {} |", bound("restitution:"), bound("indentation:"), bound("others:"));
+        assert!(README.contains(&row), "README.md lacks the row\n{row}");
     }
 }

@@ -1,36 +1,25 @@
 //! The method of fixed cost: its error over the paper's and random scenes, and its honesty where it does not serve.
 
-use microimpact::simulation::{Collocation, FixedCost, NormalContact, NormalMethod, Simulation, Status};
+use host_tests::cases;
+use microimpact::simulation::{Collocation, FixedCost, NormalMethod, Simulation, Status};
 use microimpact::{NormalMotion, Outcome, Real, Sphere, Stiffness};
-
-const CASES: &str = include_str!("../data/cases.csv");
 
 /// A captured sphere of the random family, too strongly damped for so few sweeps.
 const TOO_DAMPED: &str = "r002";
 
 /// Largest error of e in some families, all of whose outcomes have to be right.
 fn largest_error<T: Real>(families: &[&str], method: &impl NormalMethod<T>, double: impl Fn(T) -> f64) -> f64 {
-    let mut reader = csv::Reader::from_reader(CASES.as_bytes());
-    let names = reader.headers().unwrap().clone();
-    let column = |name: &str| names.iter().position(|column| column == name).unwrap();
     let mut largest = 0.0_f64;
-    for row in reader.records().map(Result::unwrap).filter(|row| families.contains(&&row[0])) {
-        let number = |name: &str| row[column(name)].parse::<f64>().unwrap();
-        let scalar = |name: &str| T::constant(number(name));
-        let sphere = Sphere::solid(scalar("radius_m"), scalar("density_kg_m3")).unwrap();
-        let scene = Simulation::new(sphere, Stiffness::new(scalar("stiffness_pa")).unwrap())
-            .with_damping(scalar("zeta_h"))
-            .and_then(|scene| scene.with_ring(scalar("adhesion_n_m"), scalar("zeta_a")))
-            .unwrap();
-        let contact: NormalContact<T> =
-            scene.normal_impact(method, &NormalMotion::new(scalar("speed_normal_m_s")).unwrap()).unwrap();
-        if &row[1] == TOO_DAMPED {
+    for case in cases().iter().filter(|case| families.contains(&case.text("family"))) {
+        let name = case.text("name");
+        let contact = case.scene::<T>().unwrap().normal_impact(method, &case.motion::<T>().unwrap()).unwrap();
+        if name == TOO_DAMPED {
             assert_eq!(contact.status(), Status::BudgetSpent);
             continue;
         }
-        assert_eq!(contact.status(), Status::Solved, "{}", &row[1]);
-        assert_eq!(contact.outcome() == Outcome::Rebound, &row[column("outcome")] == "rebound", "{}", &row[1]);
-        largest = largest.max((double(contact.overall_restitution()) - number("restitution")).abs());
+        assert_eq!(contact.status(), Status::Solved, "{name}");
+        assert_eq!(contact.outcome() == Outcome::Rebound, case.text("outcome") == "rebound", "{name}");
+        largest = largest.max((double(contact.overall_restitution()) - case.number("restitution")).abs());
     }
     largest
 }

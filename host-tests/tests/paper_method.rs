@@ -1,51 +1,17 @@
 //! The paper's own method: how fast it converges, and the numbers that the paper prints, from it and from collocation.
 
+use host_tests::{Case, cases};
 use microimpact::simulation::{
     Collocation, Nodes, RungeKuttaGill, SimulatedImpact, Simulation, Status, SteppedImpact, TangentialContact,
 };
 use microimpact::{InputError, NormalMotion, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
 
-const CASES: &str = include_str!("../data/cases.csv");
-
-/// A row of the reference.
-struct Case {
-    names: csv::StringRecord,
-    cells: csv::StringRecord,
-}
-
-impl Case {
-    fn text(&self, column: &str) -> &str {
-        let index = self.names.iter().position(|name| name == column).unwrap();
-        &self.cells[index]
+fn step_through<T: Real>(case: &Case, steps: u32) -> Result<SteppedImpact<T, TangentialContact<T>>, InputError> {
+    let (scene, motion, method) = (case.scene()?, case.motion()?, RungeKuttaGill::new(steps));
+    match case.peeling() {
+        Some(lambda) => scene.with_peeling(lambda)?.stepped_impact(&method, &motion),
+        None => scene.stepped_impact(&method, &motion),
     }
-
-    fn number(&self, column: &str) -> f64 {
-        self.text(column).parse().unwrap()
-    }
-
-    fn step_through<T: Real>(&self, steps: u32) -> Result<SteppedImpact<T, TangentialContact<T>>, InputError> {
-        let number = |column: &str| T::constant(self.number(column));
-        let sphere = Sphere::solid(number("radius_m"), number("density_kg_m3"))?;
-        let motion = NormalMotion::new(number("speed_normal_m_s"))?
-            .with_tangential(number("speed_tangential_m_s"))?
-            .with_spin(&sphere, number("spin_rad_s"))?;
-        let method = RungeKuttaGill::new(steps);
-        let scene = Simulation::new(sphere, Stiffness::new(number("stiffness_pa"))?)
-            .with_damping(number("zeta_h"))?
-            .with_ring(number("adhesion_n_m"), number("zeta_a"))?
-            .with_friction(number("friction"))?;
-        if self.number("peeling_n_m") > 0.0 {
-            scene.with_peeling(number("peeling_n_m"))?.stepped_impact(&method, &motion)
-        } else {
-            scene.stepped_impact(&method, &motion)
-        }
-    }
-}
-
-fn cases() -> Vec<Case> {
-    let mut reader = csv::Reader::from_reader(CASES.as_bytes());
-    let names = reader.headers().unwrap().clone();
-    reader.records().map(|cells| Case { names: names.clone(), cells: cells.unwrap() }).collect()
 }
 
 fn case(name: &str) -> Case {
@@ -58,7 +24,7 @@ fn errors(case: &Case, from: u32, to: u32) -> Vec<(f64, f64)> {
     let mut steps = f64::from(from);
     let mut errors = Vec::new();
     while steps <= f64::from(to) {
-        let impact = case.step_through::<f64>(steps as u32).unwrap();
+        let impact = step_through::<f64>(case, steps as u32).unwrap();
         errors.push((steps, (impact.normal.overall_restitution() - exact).abs()));
         steps *= 2f64.sqrt().sqrt();
     }
@@ -100,7 +66,7 @@ fn thousands_of_steps_for_six_digits() {
 fn converges_to_the_reference() {
     for case in cases().iter().filter(|case| ["paper", "figure6", "random", "peeling"].contains(&case.text("family"))) {
         let name = case.text("name");
-        let impact = case.step_through::<f64>(20_000).unwrap();
+        let impact = step_through::<f64>(case, 20_000).unwrap();
         assert_eq!(impact.run.status, Status::Solved, "{name}");
         assert_eq!(impact.normal.outcome() == Outcome::Rebound, case.text("outcome") == "rebound", "{name}");
         let compare = |value: f64, column: &str, allowed: f64| {
@@ -141,7 +107,7 @@ fn single_precision_loses_what_small_steps_gain() {
     let case = case("table1");
     let exact = case.number("restitution");
     let error = |steps| {
-        let impact = case.step_through::<f32>(steps).unwrap();
+        let impact = step_through::<f32>(&case, steps).unwrap();
         (f64::from(impact.normal.overall_restitution()) - exact).abs()
     };
     assert!(error(256) < 1e-4);
@@ -153,7 +119,7 @@ fn single_precision_loses_what_small_steps_gain() {
 fn every_run_ends_in_numbers() {
     for case in cases() {
         for steps in [4, 50, 500] {
-            let impact = case.step_through::<f64>(steps).unwrap();
+            let impact = step_through::<f64>(&case, steps).unwrap();
             assert!(impact.run.steps <= steps * RungeKuttaGill::LONGEST_RUN + 1);
             assert!(impact.normal.overall_restitution().is_finite(), "{}", case.text("name"));
         }

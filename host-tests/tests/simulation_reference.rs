@@ -2,61 +2,28 @@
 
 use std::collections::BTreeMap;
 
-use microimpact::simulation::{Collocation, Nodes, SimulatedImpact, Simulation, Status, TangentialContact};
-use microimpact::{InputError, NormalMotion, Outcome, Sphere, Stiffness, SurfaceMotion};
+use host_tests::{Case, cases};
+use microimpact::simulation::{Collocation, Nodes, SimulatedImpact, Status, TangentialContact};
+use microimpact::{InputError, Outcome, SurfaceMotion};
 
-const CASES: &str = include_str!("../data/cases.csv");
-
-/// A row of the reference.
-struct Case {
-    names: csv::StringRecord,
-    cells: csv::StringRecord,
-}
-
-impl Case {
-    fn text(&self, column: &str) -> &str {
-        let index = self.names.iter().position(|name| name == column).unwrap();
-        &self.cells[index]
-    }
-
-    fn number(&self, column: &str) -> f64 {
-        self.text(column).parse().unwrap()
-    }
-
-    /// Family, with the near-critical cases divided by their distance from the critical speed.
-    fn family(&self) -> String {
-        match self.text("name").split_once("_vc") {
-            Some((_, distance)) => format!("critical {distance}"),
-            None => self.text("family").to_owned(),
-        }
-    }
-
-    fn simulate<const N: usize, T: Nodes<N>>(
-        &self,
-        tolerance: f64,
-    ) -> Result<SimulatedImpact<T, TangentialContact<T>>, InputError> {
-        let number = |column: &str| T::constant(self.number(column));
-        let sphere = Sphere::solid(number("radius_m"), number("density_kg_m3"))?;
-        let motion = NormalMotion::new(number("speed_normal_m_s"))?
-            .with_tangential(number("speed_tangential_m_s"))?
-            .with_spin(&sphere, number("spin_rad_s"))?;
-        let method = Collocation::<N, T>::new(T::constant(tolerance))?;
-        let scene = Simulation::new(sphere, Stiffness::new(number("stiffness_pa"))?)
-            .with_damping(number("zeta_h"))?
-            .with_ring(number("adhesion_n_m"), number("zeta_a"))?
-            .with_friction(number("friction"))?;
-        if self.number("peeling_n_m") > 0.0 {
-            scene.with_peeling(number("peeling_n_m"))?.impact(&method, &motion)
-        } else {
-            scene.impact(&method, &motion)
-        }
+/// Family, with the near-critical cases divided by their distance from the critical speed.
+fn family(case: &Case) -> String {
+    match case.text("name").split_once("_vc") {
+        Some((_, distance)) => format!("critical {distance}"),
+        None => case.text("family").to_owned(),
     }
 }
 
-fn cases() -> Vec<Case> {
-    let mut reader = csv::Reader::from_reader(CASES.as_bytes());
-    let names = reader.headers().unwrap().clone();
-    reader.records().map(|cells| Case { names: names.clone(), cells: cells.unwrap() }).collect()
+fn simulate<const N: usize, T: Nodes<N>>(
+    case: &Case,
+    tolerance: f64,
+) -> Result<SimulatedImpact<T, TangentialContact<T>>, InputError> {
+    let (scene, motion) = (case.scene()?, case.motion()?);
+    let method = Collocation::<N, T>::new(T::constant(tolerance))?;
+    match case.peeling() {
+        Some(lambda) => scene.with_peeling(lambda)?.impact(&method, &motion),
+        None => scene.impact(&method, &motion),
+    }
 }
 
 /// Largest errors by family and output; e^2 absolute, all else relative.
@@ -66,7 +33,7 @@ fn errors<const N: usize, T: Nodes<N>>(tolerance: f64, double: impl Fn(T) -> f64
     let (mut errors, mut wrong) = (Errors::new(), Vec::new());
     for case in cases() {
         let name = case.text("name").to_owned();
-        let impact = match case.simulate::<N, T>(tolerance) {
+        let impact = match simulate::<N, T>(&case, tolerance) {
             Ok(impact) => impact,
             Err(error) => {
                 wrong.push(format!("{name}: {error}"));
@@ -84,7 +51,7 @@ fn errors<const N: usize, T: Nodes<N>>(tolerance: f64, double: impl Fn(T) -> f64
             wrong.push(format!("{name}: {:?}", impact.tangential.motion()));
         }
         let mut note = |output: &'static str, error: f64| {
-            let largest = errors.entry((case.family(), output)).or_insert(0.0);
+            let largest = errors.entry((family(&case), output)).or_insert(0.0);
             if error.is_nan() || error > *largest {
                 *largest = error;
             }

@@ -101,9 +101,10 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
             }
         }
         for j in 0..N {
-            // A captured sphere turns before s = 0: the floor lets the loss exceed the energy all the same.
-            let speed = half * (self.speed[j] + square[j].max(T::ZERO) / self.speed[j]);
-            self.speed[j] = speed.max(T::constant(1e-3));
+            // A captured sphere turns before s = 0: the floors let the loss exceed the energy all the same.
+            let square = if rebound { square[j].max(T::ZERO) } else { square[j] };
+            let speed = half * (self.speed[j] + square / self.speed[j]);
+            self.speed[j] = if rebound { speed.max(T::constant(1e-3)) } else { speed };
         }
     }
 }
@@ -125,11 +126,11 @@ impl<T: PhaseNodes<N>, const N: usize> NormalMethod<T> for FixedCost<N> {
             let lost = phase.lost();
             let excess = law.potential(phase.peak) + lost - energy;
             phase.peak = phase.peak - excess / (law.slope(phase.peak) + five * lost / phase.peak);
-            phase.describe(law, false);
             if sweeps == self.sweeps {
                 break (lost - before).abs();
             }
             before = lost;
+            phase.describe(law, false);
             phase.sweep(false);
             sweeps += 1;
         };

@@ -457,14 +457,13 @@ fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
 /// Solves a system of linear equations in place, with row pivoting; `false` where it is singular.
 fn eliminate<T: Real, const N: usize>(matrix: &mut [[T; N]; N], right: &mut [T; N]) -> bool {
     for p in 0..N {
-        let mut pivot = p;
+        // Exchanged on the way rather than in the end: every index is one of a loop, so none has to be checked.
         for i in p + 1..N {
-            if matrix[i][p].abs() > matrix[pivot][p].abs() {
-                pivot = i;
+            if matrix[i][p].abs() > matrix[p][p].abs() {
+                matrix.swap(p, i);
+                right.swap(p, i);
             }
         }
-        matrix.swap(p, pivot);
-        right.swap(p, pivot);
         if matrix[p][p] == T::ZERO {
             return false;
         }
