@@ -78,7 +78,7 @@ impl<T: Real> NormalContact<T> {
         self.status
     }
 
-    /// Rebound or capture.
+    /// Rebound or capture; not to be relied on unless the [`status`](Self::status) is that of a solution.
     ///
     /// ```
     /// use microimpact::simulation::{Collocation, Simulation};
