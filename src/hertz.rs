@@ -48,8 +48,9 @@ impl<T: Real> Hertz<T> {
         let speed = motion.normal().speed();
         // delta_max = (5 m v^2/(4 sqrt(r) K))^(2/5) in units of r, where m/r^3 = 4 pi density/3: neither the
         // mass of a nanometre sphere nor its energy appears, which single precision could not hold.
-        let compression = T::constant(5.0 * PI / 3.0) * sphere.density() / stiffness.pascals() * speed * speed;
-        let depth = compression.two_fifths_power();
+        let compression = speed * (T::constant(5.0 * PI / 3.0) * sphere.density() / stiffness.pascals()).sqrt();
+        let power = compression.two_fifths_power();
+        let depth = power * power;
         let root = depth.sqrt();
         Self {
             indentation: radius * depth,

@@ -62,11 +62,12 @@ impl<T: Scalar + AllNodes> SimulationModel<T> {
         let stiffness = Stiffness::new(row.required("stiffness_pa")?).map_err(reason)?;
         let (zeta_h, zeta_a) = (row.or_zero("zeta_h")?, row.or_zero("zeta_a")?);
         let (strength, friction) = (row.or_zero("adhesion_n_m")?, row.or_zero("friction")?);
-        let peeling = row.or_zero::<T>("peeling_n_m")?;
+        let (peeling, force) = (row.or_zero::<T>("peeling_n_m")?, row.or_zero("external_force_n")?);
         let scene = Simulation::new(sphere, stiffness)
             .with_damping(zeta_h)
             .and_then(|scene| scene.with_ring(strength, zeta_a))
             .and_then(|scene| scene.with_friction(friction))
+            .and_then(|scene| scene.with_external_force(force))
             .map_err(reason)?;
         let impact = if peeling == T::ZERO {
             scene.impact(&method, before)

@@ -28,11 +28,12 @@ use sheet::{Row, Scalar, reason};
 ///   adhesion_coefficient (rho) or work_of_adhesion_j (none),
 ///   impulse_ratio (mu, instead of friction), rolling_arm_m (mu_m a_c; none).
 /// Of the simulation besides:
-///   stiffness_pa (K), adhesion_n_m (f0; 0), zeta_h (0), zeta_a (0), peeling_n_m (lambda; 0).
+///   stiffness_pa (K), adhesion_n_m (f0; 0), zeta_h (0), zeta_a (0), peeling_n_m (lambda; 0),
+///   external_force_n (positive out of the surface; 0).
 /// All other columns pass through; one that is named like a computed column is kept as input_NAME.
 ///
 /// Computed by the simulation: restitution is the overall one; time_roll_s is 0 for a sphere that never slid and -1 for one
-/// that never stopped; what does not exist is left empty. With both models the columns of the rigid body begin with
+/// that never stopped; what does not exist is left empty; a captured sphere at rest rolls. With both models the columns of the rigid body begin with
 /// rigid_body_.
 ///
 /// Exit status: 0, or 1 if a row was bad (its reason stands in the column `error`), or 2 if nothing could be read.

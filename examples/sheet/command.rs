@@ -67,7 +67,7 @@ pub fn exit_code(command: &str, result: Result<usize, Box<dyn Error>>) -> ExitCo
     match result {
         Ok(0) => ExitCode::SUCCESS,
         Ok(bad_rows) => {
-            eprintln!("{command}: {bad_rows} bad rows; the column `error` says why");
+            eprintln!("{command}: {bad_rows} bad rows, each with its reason");
             ExitCode::from(1)
         }
         Err(error) if is_broken_pipe(error.as_ref()) => ExitCode::SUCCESS,

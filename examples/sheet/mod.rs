@@ -110,7 +110,11 @@ impl<R: Read> Sheet<R> {
         let mut header = ByteRecord::new();
         for (cell, name) in self.header.iter().zip(&self.names) {
             if computed.contains(name) {
-                header.push_field(format!("input_{name}").as_bytes());
+                let mut kept = format!("input_{name}");
+                while self.names.contains(&kept) || computed.contains(&kept) {
+                    kept.insert_str(0, "input_");
+                }
+                header.push_field(kept.as_bytes());
             } else {
                 header.push_field(cell.strip_prefix(BYTE_ORDER_MARK).unwrap_or(cell));
             }
@@ -141,6 +145,9 @@ impl Row<'_> {
         let Some(text) = self.text(column) else {
             return Ok(None);
         };
+        if self.decimal_comma && text.contains('.') {
+            return Err(format!("{column}: \"{text}\" is ambiguous beside numbers with decimal commas"));
+        }
         let number = if self.decimal_comma { decimal_point(text.as_bytes()) } else { text.clone() };
         number.parse().map(Some).map_err(|_| format!("{column}: \"{text}\" is not a number"))
     }

@@ -163,6 +163,26 @@ fn spreadsheet_dialects() {
 }
 
 #[test]
+fn ambiguous_decimal_points_are_refused() {
+    let table = "radius_m;density_kg_m3;restitution;speed_normal_m_s\n5,06e-6;2.600;0,5;2,5\n";
+    let output = run(&["-", "--format", "csv"], table.as_bytes());
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("density_kg_m3: \"\"2.600\"\" is ambiguous"));
+}
+
+/// A result can be classified again and again.
+#[test]
+fn output_is_input() {
+    let mut table = HEADER.to_owned() + TABLE_1;
+    for _ in 0..4 {
+        let output = run(&["-", "--format", "csv"], table.as_bytes());
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        table = String::from_utf8(output.stdout).unwrap();
+    }
+    assert!(table.contains("input_input_input_outcome"));
+}
+
+#[test]
 fn unknown_columns_pass_through() {
     let table =
         "outcome,radius_m,density_kg_m3,restitution,speed_normal_m_s,remark\nseen,1e-6,1000,0.5,2,\"kept, as is\"\n";

@@ -60,6 +60,19 @@ fn footprint_tables_are_current() {
 }
 
 #[test]
+fn flash_of_the_simulation_is_current() {
+    let words = README.split_whitespace().collect::<Vec<_>>().join(" ");
+    for (name, scene) in [
+        ("`FixedCost<7>` takes", "simulation/fixed-1e-6"),
+        ("`Collocation<7>`", "simulation/normal"),
+        ("with friction and spin", "simulation/oblique"),
+    ] {
+        let statement = format!("{name} {}", measured()[&(scene.into(), "flash".into())]);
+        assert!(words.contains(&statement), "README.md lacks: {statement}");
+    }
+}
+
+#[test]
 fn static_memory_is_none() {
     assert!(README.contains("No static memory."));
     for (_, scene) in SCENES {

@@ -1,7 +1,11 @@
 //! The contact simulation against results that are known exactly, and over twelve decades of every input.
 
-use microimpact::simulation::{Collocation, RunReport, SimulatedImpact, Simulation, Status, TangentialContact};
-use microimpact::{InputError, NormalMotion, Outcome, PlanarMotion, Real, Sphere, Stiffness, SurfaceMotion};
+use microimpact::simulation::{
+    Collocation, FixedCost, RunReport, SimulatedImpact, Simulation, Status, TangentialContact,
+};
+use microimpact::{
+    CriticalSpeed, InputError, NormalMotion, Outcome, PlanarMotion, Real, Sphere, Stiffness, SurfaceMotion,
+};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
@@ -157,6 +161,31 @@ fn constant_force_is_conservative() {
     }
 }
 
+/// A force out of the surface raises a barrier before separation: what cannot pass it is captured, and no method may
+/// call that a rebound.
+#[test]
+fn force_out_of_the_surface_is_a_barrier() {
+    let sphere = Sphere::solid(5e-6, 2600.0).unwrap();
+    let scene = Simulation::new(sphere, stiffness()).with_damping(10.5).unwrap().with_ring(250.0, 6.25).unwrap();
+    for force in [1e-4, 1.5e-4] {
+        let scene = scene.with_external_force(force).unwrap();
+        let CriticalSpeed::At(critical) = scene.critical_speed(&method()).unwrap() else {
+            panic!("{force}: no critical speed");
+        };
+        for (share, outcome) in [(0.98, Outcome::Capture), (0.8, Outcome::Capture), (1.02, Outcome::Rebound)] {
+            let motion = NormalMotion::new(share * critical).unwrap();
+            let exact = scene.normal_impact(&method(), &motion).unwrap();
+            assert_eq!((exact.status(), exact.outcome()), (Status::Solved, outcome), "{force}, {share}");
+            let quick = scene.normal_impact(&FixedCost::<8>::new(12).unwrap(), &motion).unwrap();
+            assert!(quick.status() != Status::Solved || quick.outcome() == outcome, "{force}, {share}: {quick:?}");
+        }
+        // Slower spheres turn back in front of the barrier.
+        let reflected = scene.normal_impact(&method(), &NormalMotion::new(0.01).unwrap()).unwrap();
+        assert_eq!((reflected.status(), reflected.outcome()), (Status::Solved, Outcome::Rebound));
+        assert!(reflected.overall_restitution() > 0.99, "{force}: {reflected:?}");
+    }
+}
+
 fn planar<T: Real>(speed: T, tangential: T, peripheral: T) -> PlanarMotion<T> {
     let oblique = NormalMotion::new(speed).unwrap().with_tangential(tangential).unwrap();
     oblique.with_peripheral_velocity(peripheral).unwrap()
@@ -246,7 +275,7 @@ fn is_solved<T: Real>(
     impact.run.status == Status::Solved
 }
 
-/// A million scenes over twelve decades of most inputs end in a result of finite numbers within the budget, or in a
+/// Half a million scenes over twelve decades of most inputs, in both precisions, end in a result of finite numbers within the budget, or in a
 /// named error; what is solved in both precisions agrees.
 #[test]
 fn every_scene_ends() {
@@ -266,5 +295,5 @@ fn every_scene_ends() {
     }
     println!("{solved} solved, {spent} with the budget spent, of {}", 2 * SCENES);
     assert!(solved > SCENES);
-    assert!(spent < SCENES / 10_000);
+    assert_eq!(spent, 0);
 }

@@ -57,8 +57,9 @@ pub fn infer_assuming_rolling<T: Real>(
 
 /// Coefficients of an impact whose spin before it was measured as well.
 ///
-/// `velocity_error` (m/s) is the standard error of the velocities: a slip below it counts as rolling, and a
-/// violation of a bound below it is forgiven.
+/// `velocity_error` (m/s) is the standard error of the velocities along the surface: a slip below it counts as rolling, and an
+/// impulse ratio that violates its bounds by less is taken as it is, so that mu may lie a little outside 0 to mu_0 and the
+/// work of friction a little below zero. The bound on the rebound, e <= R, has no such tolerance.
 ///
 /// # Errors
 /// A value outside its range, a rebound faster than R allows, or an impulse ratio outside 0 to mu_0.

@@ -6,11 +6,12 @@
 //! however strong the damping is, and at the critical speed neither comes near the slow end where the path of a single
 //! run, with no speed and no force, is at its worst.
 
-use super::law::NormalLaw;
+use super::law::{Attraction, Damping, NormalLaw, well};
 use super::motion::Follower;
+use super::nodes::Nodes;
 use super::scaled::{Scale, Scaled};
 use super::stretch::{Control, Course, Point, Stretch, pass};
-use super::{Attraction, Collocation, Damping, Nodes, Simulation};
+use super::{Collocation, Simulation};
 use crate::{CriticalSpeed, InputError, Parameter, Real};
 
 /// Trials that go by the energies of those before; later ones halve the bracket.
@@ -249,39 +250,6 @@ impl<T: Real> Search<T> {
             None => Ok(CriticalSpeed::At((low * high).sqrt())),
         }
     }
-}
-
-/// Contact radii of the brink that holds a sphere, zero without an external force, and of the minimum of the potential.
-fn well<T: Real>(law: &impl NormalLaw<T>) -> Option<(T, T)> {
-    // Newton's method from above; where the force grows with a power it takes a fixed share off each time.
-    let mut bottom = T::ONE;
-    for _ in 0..250 {
-        let curvature = law.curvature(bottom);
-        if curvature <= T::ZERO {
-            return None;
-        }
-        let step = law.slope(bottom) / curvature;
-        bottom = bottom - step;
-        if bottom <= T::EPSILON * T::EPSILON {
-            return None;
-        }
-        if step.abs() <= T::constant(1e-5) * bottom {
-            break;
-        }
-    }
-    let mut brink = T::ZERO;
-    if law.slope(T::EPSILON * bottom) > T::ZERO {
-        let mut inner = bottom;
-        for _ in 0..60 {
-            let middle = (brink + inner) * T::constant(0.5);
-            if law.slope(middle) > T::ZERO {
-                brink = middle;
-            } else {
-                inner = middle;
-            }
-        }
-    }
-    (law.potential(brink) > law.potential(bottom)).then_some((brink, bottom))
 }
 
 impl<T: Real> Scaled<T> {

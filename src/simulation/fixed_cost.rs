@@ -8,9 +8,8 @@
 
 #[cfg(doc)]
 use super::Collocation;
-use super::NormalMethod;
-use super::law::NormalLaw;
-use super::motion::{Effort, End, NormalPath};
+use super::law::{NormalLaw, brink};
+use super::motion::{Effort, End, NormalMethod, NormalPath};
 use super::nodes::PhaseNodes;
 use crate::{InputError, Parameter};
 
@@ -150,9 +149,11 @@ impl<T: PhaseNodes<N>, const N: usize> NormalMethod<T> for FixedCost<N> {
         let mild = phase.loss[0] <= T::constant(STRONGEST) * phase.speed[0] && left <= T::constant(1.0001) * energy;
         let settled =
             unsettled <= T::constant(SETTLED) * energy || (left < T::ZERO && unsettled < T::constant(-0.25) * left);
-        let end = match mild && settled {
+        // A sphere that comes slower than a barrier is high never meets the peak computed here.
+        let (_, escape) = brink(law);
+        let end = match mild && settled && energy > escape {
             false => End::Budget,
-            true if left > T::ZERO => End::Separation,
+            true if left > escape => End::Separation,
             true => End::Capture,
         };
         let error = unsettled.saturating_div(energy);

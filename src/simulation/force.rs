@@ -42,9 +42,13 @@ impl<T: Real> ConstantForce<T> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScaledForce<T>(pub(super) T);
 
-impl<T: Real> Attraction<T> for NoForce {}
+impl<T: Real> Attraction<T> for NoForce {
+    const PRESENT: bool = false;
+}
 
 impl<T: Real> Attraction<T> for ScaledForce<T> {
+    const PRESENT: bool = true;
+
     #[inline]
     fn energy(&self, s: T) -> T {
         self.0 * s * s

@@ -11,7 +11,47 @@ use crate::{NoAdhesion, Real};
 ///
 /// A law that is given in the contact radius by its nature, such as that of Johnson, Kendall and Roberts, implements this
 /// trait as well; none of the solver depends on Hertz's relation of indentation and contact radius.
+///
+/// ```
+/// use microimpact::simulation::NormalLaw;
+///
+/// /// A linear spring with viscous damping: V = s^4/2 at the indentation x = s^2.
+/// #[derive(Clone, Copy)]
+/// struct Spring;
+///
+/// impl NormalLaw<f64> for Spring {
+///     fn potential(&self, s: f64) -> f64 {
+///         s.powi(4) / 2.0
+///     }
+///     fn slope(&self, s: f64) -> f64 {
+///         2.0 * s.powi(3)
+///     }
+///     fn curvature(&self, s: f64) -> f64 {
+///         6.0 * s * s
+///     }
+///     fn divided(&self, p: f64, s: f64) -> f64 {
+///         (p + s) * (p * p + s * s) / 2.0
+///     }
+///     fn material_damping(&self, _s: f64) -> f64 {
+///         0.1
+///     }
+///     fn adhesion_damping(&self, _s: f64) -> f64 {
+///         0.0
+///     }
+///     fn elastic_force(&self, s: f64) -> f64 {
+///         s * s
+///     }
+///     fn adhesion_force(&self, _s: f64) -> f64 {
+///         0.0
+///     }
+/// }
+/// assert_eq!(Spring.divided(1.0, 0.5) * 0.5, Spring.potential(1.0) - Spring.potential(0.5));
+/// assert_eq!(Spring.loss(0.5, false), 0.1);
+/// ```
 pub trait NormalLaw<T: Real>: Copy {
+    /// Whether the potential may rise where the contact begins, as under a force out of the surface.
+    const MAY_REPEL: bool = true;
+
     /// Indentation x.
     #[inline]
     fn indentation(&self, s: T) -> T {
@@ -69,7 +109,16 @@ pub trait NormalLaw<T: Real>: Copy {
 
 /// A force besides the elastic one, conservative but for its damping on rebound. What it gives is taken from the
 /// potential, so that an absent term leaves no operation behind.
+///
+/// ```
+/// use microimpact::{NoAdhesion, simulation::Attraction};
+///
+/// assert_eq!(Attraction::<f32>::energy(&NoAdhesion, 0.5), 0.0);
+/// ```
 pub trait Attraction<T: Real>: Copy {
+    /// Whether there is such a force at all.
+    const PRESENT: bool;
+
     /// Energy that the force gives a sphere on its way to s.
     #[inline]
     fn energy(&self, _s: T) -> T {
@@ -119,9 +168,17 @@ pub trait Attraction<T: Real>: Copy {
     }
 }
 
-impl<T: Real> Attraction<T> for NoAdhesion {}
+impl<T: Real> Attraction<T> for NoAdhesion {
+    const PRESENT: bool = false;
+}
 
 /// Damping of the elastic force.
+///
+/// ```
+/// use microimpact::simulation::{Damping, NoDamping};
+///
+/// assert_eq!(Damping::<f32>::rate(&NoDamping), 0.0);
+/// ```
 pub trait Damping<T: Real>: Copy {
     /// Share of the elastic force that is added for each unit of speed.
     fn rate(&self) -> T;
@@ -136,6 +193,8 @@ pub struct HertzLaw<D, A, X> {
 }
 
 impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> NormalLaw<T> for HertzLaw<D, A, X> {
+    const MAY_REPEL: bool = X::PRESENT;
+
     #[inline]
     fn potential(&self, s: T) -> T {
         let s2 = s * s;
@@ -185,4 +244,47 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> NormalLaw<T> fo
     fn adhesion_force(&self, s: T) -> T {
         self.adhesion.force(s)
     }
+}
+
+/// Contact radii of the brink that holds a sphere, zero without an external force, and of the minimum of the potential.
+pub(super) fn well<T: Real>(law: &impl NormalLaw<T>) -> Option<(T, T)> {
+    // Newton's method from above; where the force grows with a power it takes a fixed share off each time.
+    let mut bottom = T::ONE;
+    for _ in 0..250 {
+        let curvature = law.curvature(bottom);
+        if curvature <= T::ZERO {
+            return None;
+        }
+        let step = law.slope(bottom) / curvature;
+        bottom = bottom - step;
+        if bottom <= T::EPSILON * T::EPSILON {
+            return None;
+        }
+        if step.abs() <= T::constant(1e-5) * bottom {
+            break;
+        }
+    }
+    let mut brink = T::ZERO;
+    if law.slope(T::EPSILON * bottom) > T::ZERO {
+        let mut inner = bottom;
+        for _ in 0..60 {
+            let middle = (brink + inner) * T::constant(0.5);
+            if law.slope(middle) > T::ZERO {
+                brink = middle;
+            } else {
+                inner = middle;
+            }
+        }
+    }
+    (law.potential(brink) > law.potential(bottom)).then_some((brink, bottom))
+}
+
+/// Contact radius and height of the barrier that holds a sphere; both zero where there is none but separation itself.
+#[inline]
+pub(super) fn brink<T: Real, L: NormalLaw<T>>(law: &L) -> (T, T) {
+    if !L::MAY_REPEL {
+        return (T::ZERO, T::ZERO);
+    }
+    let brink = well(law).map_or(T::ZERO, |(brink, _)| brink);
+    (brink, law.potential(brink).max(T::ZERO))
 }

@@ -19,25 +19,25 @@ mod scaled;
 mod stretch;
 mod tangential;
 
-pub use damping::{HystereticDamping, NoDamping, ScaledDamping};
+pub use damping::{HystereticDamping, NoDamping};
 pub use fixed_cost::FixedCost;
-pub use force::{ConstantForce, NoForce, ScaledForce};
-pub use law::{Attraction, Damping, HertzLaw, NormalLaw};
-pub use motion::NormalPath;
+pub use force::{ConstantForce, NoForce};
+pub use law::{Attraction, Damping, NormalLaw};
+pub use motion::NormalMethod;
 pub use nodes::{Nodes, PhaseNodes};
-pub use observer::{Impulses, Observer, Times, Works};
 pub use outcome::{
     ContactImpulses, ContactTimes, ContactWorks, Everything, NormalContact, Output, RunReport, Status,
     TangentialContact,
 };
 pub use paper::{RungeKuttaGill, StepReport, SteppedImpact};
-pub use ring::{Ring, ScaledRing};
-pub use scaled::{Groups, Scale, Scaled};
-pub use stretch::Stretch;
-pub use tangential::{NoPeeling, Peeling, ScaledPeeling, SpinDamping, TangentialMotion};
+pub use ring::Ring;
+pub use scaled::{Groups, Scale};
+pub use tangential::{NoPeeling, Peeling, TangentialScene};
 
-use crate::{Approach, Coulomb, InputError, NoAdhesion, NoFriction, Oblique, Parameter, Real, Sphere, Stiffness};
-use motion::follow;
+use crate::{Approach, Coulomb, InputError, NoAdhesion, NoFriction, Parameter, Real, Sphere, Stiffness};
+use law::HertzLaw;
+use motion::{NormalPath, follow};
+use scaled::Scaled;
 use stretch::Control;
 
 /// The method that solves the normal motion: collocation at `N` nodes, in as many stretches as the tolerance needs.
@@ -72,25 +72,6 @@ impl<const N: usize, T: Real> Collocation<N, T> {
     fn control(&self, timed: bool) -> Control<T> {
         Control { settled: T::constant(0.1) * self.tolerance, error: self.tolerance, timed }
     }
-}
-
-/// A method that follows the normal motion to its end.
-///
-/// ```
-/// use microimpact::simulation::{Collocation, FixedCost, NormalMethod, Simulation};
-/// use microimpact::{NormalMotion, Sphere, Stiffness};
-///
-/// fn restitution(method: &impl NormalMethod<f64>) -> Result<f64, microimpact::InputError> {
-///     let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
-///     Ok(scene.normal_impact(method, &NormalMotion::new(1.0)?)?.overall_restitution())
-/// }
-/// let (exact, quick) = (restitution(&Collocation::<9, f64>::new(1e-9)?)?, restitution(&FixedCost::<6>::new(4)?)?);
-/// assert!((exact - quick).abs() < 1e-6);
-/// # Ok::<(), microimpact::InputError>(())
-/// ```
-pub trait NormalMethod<T: Real> {
-    /// The motion under a law of a sphere that arrives with a kinetic energy.
-    fn normal_motion<L: NormalLaw<T>>(&self, law: &L, energy: T) -> NormalPath<T>;
 }
 
 impl<T: Nodes<N>, const N: usize> NormalMethod<T> for Collocation<N, T> {
@@ -275,82 +256,6 @@ impl<T: Real, D, X> Simulation<T, D, Ring<T>, Coulomb<T>, NoPeeling, X> {
         let Self { sphere, stiffness, damping, adhesion, friction, force, .. } = self;
         let peeling = Peeling::new(lambda)?;
         Ok(Simulation { sphere, stiffness, damping, adhesion, friction, peeling, force })
-    }
-}
-
-/// A tangential side of a scene: none, or friction with or without a peeling moment.
-pub trait TangentialScene<T: Real, M, A, P> {
-    /// What is integrated along the motion.
-    type Observer: Observer<T>;
-    /// What comes out.
-    type Contact;
-
-    /// The state before contact.
-    ///
-    /// # Errors
-    /// A ratio outside its range.
-    fn start(
-        &self,
-        sphere: &Sphere<T>,
-        adhesion: &A,
-        peeling: &P,
-        motion: &M,
-        units: &Scaled<T>,
-    ) -> Result<Self::Observer, InputError>;
-
-    /// The result in SI units.
-    fn finish(observer: Self::Observer, sphere: &Sphere<T>, units: &Scaled<T>) -> Self::Contact;
-}
-
-impl<T: Real, M, A, P> TangentialScene<T, M, A, P> for NoFriction {
-    type Observer = ();
-    type Contact = ();
-
-    fn start(&self, _: &Sphere<T>, _: &A, _: &P, _: &M, _: &Scaled<T>) -> Result<(), InputError> {
-        Ok(())
-    }
-
-    fn finish((): (), _: &Sphere<T>, _: &Scaled<T>) {}
-}
-
-impl<T: Real, M: Oblique<T>, A> TangentialScene<T, M, A, NoPeeling> for Coulomb<T> {
-    type Observer = TangentialMotion<T, NoPeeling>;
-    type Contact = TangentialContact<T>;
-
-    fn start(
-        &self,
-        sphere: &Sphere<T>,
-        _adhesion: &A,
-        peeling: &NoPeeling,
-        motion: &M,
-        units: &Scaled<T>,
-    ) -> Result<Self::Observer, InputError> {
-        Ok(TangentialMotion::new(motion, units.speed, self.coefficient(), sphere.gyration_ratio(), *peeling))
-    }
-
-    fn finish(observer: Self::Observer, sphere: &Sphere<T>, units: &Scaled<T>) -> TangentialContact<T> {
-        TangentialContact::new(&observer, sphere, units)
-    }
-}
-
-impl<T: Real, M: Oblique<T>> TangentialScene<T, M, Ring<T>, Peeling<T>> for Coulomb<T> {
-    type Observer = TangentialMotion<T, ScaledPeeling<T>>;
-    type Contact = TangentialContact<T>;
-
-    fn start(
-        &self,
-        sphere: &Sphere<T>,
-        adhesion: &Ring<T>,
-        peeling: &Peeling<T>,
-        motion: &M,
-        units: &Scaled<T>,
-    ) -> Result<Self::Observer, InputError> {
-        let peeling = scaled::peeling(peeling, adhesion, sphere, units)?;
-        Ok(TangentialMotion::new(motion, units.speed, self.coefficient(), sphere.gyration_ratio(), peeling))
-    }
-
-    fn finish(observer: Self::Observer, sphere: &Sphere<T>, units: &Scaled<T>) -> TangentialContact<T> {
-        TangentialContact::new(&observer, sphere, units)
     }
 }
 

@@ -9,6 +9,14 @@ use core::f64::consts::PI;
 use crate::Real;
 
 /// A number type with the tables for `N` nodes: a function f on 0..1 is given by its values at the nodes.
+///
+/// ```
+/// use microimpact::simulation::Nodes;
+///
+/// // Radau's quadrature with three nodes is exact for z^4.
+/// let integral: f64 = <f64 as Nodes<3>>::Z.iter().zip(<f64 as Nodes<3>>::WHOLE).map(|(z, weight)| weight * z.powi(4)).sum();
+/// assert!((integral - 0.2).abs() < 1e-15);
+/// ```
 pub trait Nodes<const N: usize>: Real {
     /// The nodes, in rising order; the last is 1.
     const Z: [Self; N];
@@ -208,6 +216,13 @@ const fn tail<const N: usize>(z: &[f64; N]) -> [f64; N] {
 ///
 /// They are those of Gauss for the weight z^2 (1 - z^2)^2 of losses that grow at least with the square of the contact radius
 /// s = a (1 - z^2). The weight is part of the integrals.
+///
+/// ```
+/// use microimpact::simulation::PhaseNodes;
+///
+/// let weight: f64 = <f64 as PhaseNodes<5>>::WHOLE.iter().sum();
+/// assert!((weight - 8.0 / 105.0).abs() < 1e-15);
+/// ```
 pub trait PhaseNodes<const N: usize>: Real {
     /// 1 - z^2 at the nodes: the contact radius over its peak.
     const M: [Self; N];

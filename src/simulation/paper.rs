@@ -5,13 +5,13 @@
 //! estimates the time, and the step is repeated up to it. As the forces are not smooth where x = 0, the error falls with
 //! the power 3/2 of the step with adhesion and 5/2 without, not 4.
 
+use super::Simulation;
 use super::law::{Attraction, Damping, HertzLaw, NormalLaw};
 use super::motion::{Effort, End, NormalPath};
 use super::observer::{Impulses, Observer, Times, Works};
 use super::outcome::{Everything, NormalContact, Output, Status};
 use super::scaled::Scale;
-use super::tangential::{SpinDamping, TangentialMotion};
-use super::{Simulation, TangentialScene};
+use super::tangential::{SpinDamping, TangentialMotion, TangentialScene};
 use crate::{Approach, Hertz, InputError, Real};
 
 /// The method of Runge, Kutta and Gill with a fixed step.

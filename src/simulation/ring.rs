@@ -43,6 +43,8 @@ pub struct ScaledRing<T> {
 }
 
 impl<T: Real> Attraction<T> for ScaledRing<T> {
+    const PRESENT: bool = true;
+
     #[inline]
     fn energy(&self, s: T) -> T {
         T::constant(0.5) * self.strength * s * s * s

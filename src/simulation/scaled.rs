@@ -2,8 +2,8 @@
 //!
 //! Unit of length is the peak indentation L of the undamped motion without external force, unit of speed U is such that the
 //! elastic force becomes (5/4) s^3, with the contact radius in units of sqrt(r L). Then 0 <= s <= 1 and |y| <= 1 without an
-//! external force, whatever the particle, and 2 E = 1 - p before the impact, where p < 1 is the strength of adhesion. In
-//! terms of spec 4.3 this is A = 5/4, B = (3/4) p.
+//! external force, whatever the particle, and 2 E = 1 - p before the impact, where p < 1 is the strength of adhesion: its
+//! force is (3/4) p s.
 
 use core::f64::consts::PI;
 
@@ -128,6 +128,12 @@ fn peak_contact_radius<T: Real>(p: T) -> T {
 }
 
 /// A term of a scene that becomes a dimensionless term of the motion.
+///
+/// ```
+/// use microimpact::simulation::{NoDamping, Scale};
+///
+/// assert_eq!(size_of::<<NoDamping as Scale<f32>>::Scaled>(), 0);
+/// ```
 pub trait Scale<T: Real> {
     /// The dimensionless term.
     type Scaled: Copy;

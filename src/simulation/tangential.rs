@@ -13,8 +13,11 @@
 use super::law::NormalLaw;
 use super::nodes::Nodes;
 use super::observer::Observer;
+use super::outcome::TangentialContact;
+use super::ring::Ring;
+use super::scaled::Scaled;
 use super::stretch::{Stretch, dot, integrals};
-use crate::{InputError, Oblique, Parameter, Real};
+use crate::{Coulomb, InputError, NoFriction, Oblique, Parameter, Real, Sphere};
 
 /// No peeling moment.
 ///
@@ -316,6 +319,90 @@ impl<T: Real, P: SpinDamping<T>> Observer<T> for TangentialMotion<T, P> {
         let momentum = self.tangential + self.gyration_ratio * self.peripheral;
         self.tangential = momentum / (T::ONE + self.gyration_ratio);
         self.peripheral = self.tangential;
+    }
+}
+
+/// A tangential side of a scene: none, or friction with or without a peeling moment.
+///
+/// ```
+/// use microimpact::simulation::{NoPeeling, TangentialScene};
+/// use microimpact::{NoAdhesion, NoFriction, NormalMotion};
+///
+/// type Contact = <NoFriction as TangentialScene<f32, NormalMotion<f32>, NoAdhesion, NoPeeling>>::Contact;
+/// assert_eq!(size_of::<Contact>(), 0);
+/// ```
+pub trait TangentialScene<T: Real, M, A, P> {
+    /// What is integrated along the motion.
+    type Observer: Observer<T>;
+    /// What comes out.
+    type Contact;
+
+    /// The state before contact.
+    ///
+    /// # Errors
+    /// A ratio outside its range.
+    fn start(
+        &self,
+        sphere: &Sphere<T>,
+        adhesion: &A,
+        peeling: &P,
+        motion: &M,
+        units: &Scaled<T>,
+    ) -> Result<Self::Observer, InputError>;
+
+    /// The result in SI units.
+    fn finish(observer: Self::Observer, sphere: &Sphere<T>, units: &Scaled<T>) -> Self::Contact;
+}
+
+impl<T: Real, M, A, P> TangentialScene<T, M, A, P> for NoFriction {
+    type Observer = ();
+    type Contact = ();
+
+    fn start(&self, _: &Sphere<T>, _: &A, _: &P, _: &M, _: &Scaled<T>) -> Result<(), InputError> {
+        Ok(())
+    }
+
+    fn finish((): (), _: &Sphere<T>, _: &Scaled<T>) {}
+}
+
+impl<T: Real, M: Oblique<T>, A> TangentialScene<T, M, A, NoPeeling> for Coulomb<T> {
+    type Observer = TangentialMotion<T, NoPeeling>;
+    type Contact = TangentialContact<T>;
+
+    fn start(
+        &self,
+        sphere: &Sphere<T>,
+        _adhesion: &A,
+        peeling: &NoPeeling,
+        motion: &M,
+        units: &Scaled<T>,
+    ) -> Result<Self::Observer, InputError> {
+        Ok(TangentialMotion::new(motion, units.speed, self.coefficient(), sphere.gyration_ratio(), *peeling))
+    }
+
+    fn finish(observer: Self::Observer, sphere: &Sphere<T>, units: &Scaled<T>) -> TangentialContact<T> {
+        TangentialContact::new(&observer, sphere, units)
+    }
+}
+
+impl<T: Real, M: Oblique<T>> TangentialScene<T, M, Ring<T>, Peeling<T>> for Coulomb<T> {
+    type Observer = TangentialMotion<T, ScaledPeeling<T>>;
+    type Contact = TangentialContact<T>;
+
+    fn start(
+        &self,
+        sphere: &Sphere<T>,
+        adhesion: &Ring<T>,
+        peeling: &Peeling<T>,
+        motion: &M,
+        units: &Scaled<T>,
+    ) -> Result<Self::Observer, InputError> {
+        let peeling = super::scaled::peeling(peeling, adhesion, sphere, units)?;
+        Ok(TangentialMotion::new(motion, units.speed, self.coefficient(), sphere.gyration_ratio(), peeling))
+    }
+
+    fn finish(observer: Self::Observer, sphere: &Sphere<T>, units: &Scaled<T>) -> TangentialContact<T> {
+        TangentialContact::new(&observer, sphere, units)
     }
 }
 
