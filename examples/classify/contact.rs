@@ -18,7 +18,12 @@ pub struct SimulationModel<T> {
     tolerance: T,
 }
 
-type Simulated<T> = SimulatedImpact<T, TangentialContact<T>>;
+/// A simulated impact.
+pub struct Simulated<T> {
+    sphere: Sphere<T>,
+    groups: Groups<T>,
+    pub impact: SimulatedImpact<T, TangentialContact<T>>,
+}
 
 impl<T: Scalar + AllNodes> SimulationModel<T> {
     pub fn new(tolerance: f64) -> Result<Self, InputError> {
@@ -29,12 +34,8 @@ impl<T: Scalar + AllNodes> SimulationModel<T> {
 
     /// Builds the scene of a row and simulates its impact.
     pub fn compute(&self, row: &Row<'_>) -> Result<Simulated<T>, String> {
-        Ok(self.compute_with_groups(row)?.0)
-    }
-
-    fn compute_with_groups(&self, row: &Row<'_>) -> Result<(Simulated<T>, Groups<T>), String> {
         let (sphere, before) = sphere_and_motion(row)?;
-        let (impact, groups) = if self.tolerance >= T::constant(3e-7) {
+        let simulated = if self.tolerance >= T::constant(3e-7) {
             self.compute_by::<7>(row, sphere, &before)
         } else if self.tolerance >= T::constant(3e-10) {
             self.compute_by::<9>(row, sphere, &before)
@@ -43,8 +44,8 @@ impl<T: Scalar + AllNodes> SimulationModel<T> {
         } else {
             self.compute_by::<14>(row, sphere, &before)
         }?;
-        match impact.run.status {
-            Status::Solved => Ok((impact, groups)),
+        match simulated.impact.run.status {
+            Status::Solved => Ok(simulated),
             Status::BudgetSpent => Err("the simulation has spent its budget of stretches".into()),
         }
     }
@@ -54,7 +55,7 @@ impl<T: Scalar + AllNodes> SimulationModel<T> {
         row: &Row<'_>,
         sphere: Sphere<T>,
         before: &PlanarMotion<T>,
-    ) -> Result<(Simulated<T>, Groups<T>), String>
+    ) -> Result<Simulated<T>, String>
     where
         T: Nodes<N>,
     {
@@ -74,7 +75,8 @@ impl<T: Scalar + AllNodes> SimulationModel<T> {
         } else {
             scene.with_peeling(peeling).and_then(|scene| scene.impact(&method, before))
         };
-        Ok((impact.map_err(reason)?, scene.groups(before).map_err(reason)?))
+        let groups = scene.groups(before).map_err(reason)?;
+        Ok(Simulated { sphere, groups, impact: impact.map_err(reason)? })
     }
 }
 
@@ -107,7 +109,7 @@ impl<T: Scalar + AllNodes> Work for SimulationModel<T> {
     }
 
     fn cells(&self, row: &Row<'_>) -> (Vec<String>, Result<(), String>) {
-        let (impact, groups) = match self.compute_with_groups(row) {
+        let Simulated { impact, groups, .. } = match self.compute(row) {
             Ok(computed) => computed,
             Err(reason) => return (Vec::new(), Err(reason)),
         };
@@ -158,8 +160,7 @@ impl<T: Scalar + AllNodes> Work for SimulationModel<T> {
     }
 
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<Cell>, String> {
-        let (sphere, _) = sphere_and_motion(row)?;
-        let impact = self.compute(row)?;
+        let Simulated { sphere, impact, .. } = self.compute(row)?;
         let SimulatedImpact { normal, tangential, outputs, .. } = &impact;
         let nano = |value: Option<T>| value.map_or("-".into(), |value| format!("{:.2}", value * T::constant(1e9)));
         let lost = impact.energy(&sphere).map(|ledger| T::constant(100.0) * ledger.lost() / ledger.before);

@@ -130,7 +130,7 @@ impl<T: Scalar + contact::AllNodes> Work for Both<T> {
     }
 
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<Cell>, String> {
-        let (contact, body) = (self.simulation.compute(row)?, self.rigid_body.compute(row)?);
+        let (contact, body) = (self.simulation.compute(row)?.impact, self.rigid_body.compute(row)?);
         let cells = [
             name,
             contact.class().to_string(),

@@ -1,4 +1,10 @@
-//! What several tests need: the reference solutions, as scenes.
+//! What several tests need: the reference solutions, as scenes, and the examples, run as a person runs them.
+
+use std::collections::HashMap;
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::{Output, Stdio};
+use std::sync::{LazyLock, Mutex};
 
 use microimpact::simulation::{HystereticDamping, Ring, Simulation};
 use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, Real, Sphere, Stiffness};
@@ -77,4 +83,33 @@ impl Case {
     fn scalar<T: Real>(&self, column: &str) -> T {
         T::constant(self.number(column))
     }
+}
+
+/// Runs an example of the library with arguments and standard input.
+///
+/// # Panics
+/// If the example does not build or cannot be run.
+pub fn run_example(example: &'static str, arguments: &[&str], input: &[u8]) -> Output {
+    let mut command = std::process::Command::new(built_example(example));
+    command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("the example runs");
+    let mut stdin = child.stdin.take().expect("its standard input is a pipe");
+    let input = input.to_owned();
+    let feeder = std::thread::spawn(move || stdin.write_all(&input));
+    let output = child.wait_with_output().expect("the example ends");
+    // A run that ends early does not read all of its input.
+    let _ = feeder.join();
+    output
+}
+
+/// The program of an example, built once.
+fn built_example(example: &'static str) -> PathBuf {
+    static BUILT: LazyLock<Mutex<HashMap<&'static str, PathBuf>>> = LazyLock::new(Mutex::default);
+    let mut built = BUILT.lock().expect("no build of an example fails");
+    let path = built.entry(example).or_insert_with(|| {
+        let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml");
+        let build = escargot::CargoBuild::new().manifest_path(manifest).package("microimpact").example(example);
+        build.run().expect("the example builds").path().to_owned()
+    });
+    path.clone()
 }

@@ -1,34 +1,14 @@
 //! The example `classify`, run as a person runs it.
 
-use std::io::Write;
-use std::process::{Command, Output, Stdio};
-use std::sync::OnceLock;
+use std::process::Output;
 
-const MANIFEST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml");
+use host_tests::run_example;
 
 const HEADER: &str = "name,radius_m,density_kg_m3,restitution,adhesion_coefficient,friction,speed_normal_m_s,speed_tangential_m_s,spin_rad_s\n";
 const TABLE_1: &str = "Table 1,5.06e-6,2600,0.978,0.237,0.1,2.8,0,1.46e5\n";
 
-fn classify() -> Command {
-    static EXAMPLE: OnceLock<escargot::CargoRun> = OnceLock::new();
-    let example = EXAMPLE.get_or_init(|| {
-        let build = escargot::CargoBuild::new().manifest_path(MANIFEST).package("microimpact").example("classify");
-        build.run().unwrap()
-    });
-    example.command()
-}
-
 fn run(arguments: &[&str], input: &[u8]) -> Output {
-    let mut command = classify();
-    command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    let mut child = command.spawn().unwrap();
-    let mut stdin = child.stdin.take().unwrap();
-    let input = input.to_owned();
-    let feeder = std::thread::spawn(move || stdin.write_all(&input));
-    let output = child.wait_with_output().unwrap();
-    // A run that ends early does not read all of its input.
-    let _ = feeder.join().unwrap();
-    output
+    run_example("classify", arguments, input)
 }
 
 /// A table that was written, by column name and row.

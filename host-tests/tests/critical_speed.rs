@@ -1,9 +1,10 @@
 //! The speed that separates capture from rebound in the contact simulation, and the example `critical`.
 
 use std::f64::consts::PI;
-use std::io::Write;
-use std::process::{Command, Output, Stdio};
-use std::sync::OnceLock;
+
+use std::process::Output;
+
+use host_tests::run_example;
 
 use microimpact::simulation::{Collocation, ConstantForce, HystereticDamping, NoPeeling, Nodes, Ring, Simulation};
 use microimpact::{CriticalSpeed, InputError, NoFriction, NormalMotion, Outcome, Parameter, Real, Sphere, Stiffness};
@@ -254,18 +255,7 @@ fn nothing_panics_or_returns_what_is_no_speed() {
 }
 
 fn run(arguments: &[&str], input: &str) -> Output {
-    static EXAMPLE: OnceLock<escargot::CargoRun> = OnceLock::new();
-    let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml");
-    let example = EXAMPLE.get_or_init(|| {
-        let build = escargot::CargoBuild::new().manifest_path(manifest).package("microimpact").example("critical");
-        build.run().unwrap()
-    });
-    let mut command: Command = example.command();
-    command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    let mut child = command.spawn().unwrap();
-    // The inputs here fit into a pipe; a run that ends early does not read them.
-    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
-    child.wait_with_output().unwrap()
+    run_example("critical", arguments, input.as_bytes())
 }
 
 /// The rows of a table that was written, without its header, and the header.

@@ -2,7 +2,8 @@
 
 use host_tests::{Case, cases};
 use microimpact::simulation::{
-    Collocation, Nodes, RungeKuttaGill, SimulatedImpact, Simulation, Status, SteppedImpact, TangentialContact,
+    Collocation, Everything, Nodes, NormalContact, RungeKuttaGill, SimulatedImpact, Simulation, Status, SteppedImpact,
+    TangentialContact,
 };
 use microimpact::{InputError, NormalMotion, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
 
@@ -159,36 +160,29 @@ where
     f64: Nodes<N>,
 {
     let impact: SimulatedImpact<_, _> = scene.impact(&Collocation::<N, f64>::new(1e-9).unwrap(), motion).unwrap();
-    Answer {
-        restitution: impact.normal.overall_restitution(),
-        peak: impact.normal.peak_indentation().unwrap(),
-        peak_radius: impact.normal.peak_contact_radius().unwrap(),
-        rebound_speed: impact.normal.rebound_speed(),
-        work_of_adhesion: impact.outputs.works.adhesion,
-        outcome: impact.normal.outcome(),
-        tangential: impact.tangential,
-    }
+    Answer::from(&impact.normal, &impact.outputs, impact.tangential)
 }
 
 fn stepped(scene: &Scene, motion: &Motion) -> Answer {
     let impact: SteppedImpact<_, _> = scene.stepped_impact(&RungeKuttaGill::new(20_000), motion).unwrap();
-    Answer {
-        restitution: impact.normal.overall_restitution(),
-        peak: impact.normal.peak_indentation().unwrap(),
-        peak_radius: impact.normal.peak_contact_radius().unwrap(),
-        rebound_speed: impact.normal.rebound_speed(),
-        work_of_adhesion: impact.outputs.works.adhesion,
-        outcome: impact.normal.outcome(),
-        tangential: impact.tangential,
+    Answer::from(&impact.normal, &impact.outputs, impact.tangential)
+}
+
+impl Answer {
+    fn from(normal: &NormalContact<f64>, outputs: &Everything<f64>, tangential: TangentialContact<f64>) -> Self {
+        Self {
+            restitution: normal.overall_restitution(),
+            peak: normal.peak_indentation().unwrap(),
+            peak_radius: normal.peak_contact_radius().unwrap(),
+            rebound_speed: normal.rebound_speed(),
+            work_of_adhesion: outputs.works.adhesion,
+            outcome: normal.outcome(),
+            tangential,
+        }
     }
 }
 
-type Scene = Simulation<
-    f64,
-    microimpact::simulation::HystereticDamping<f64>,
-    microimpact::simulation::Ring<f64>,
-    microimpact::Coulomb<f64>,
->;
+type Scene = host_tests::Scene<f64>;
 type Motion = microimpact::PlanarMotion<f64>;
 
 fn scene(radius: f64, strength: f64, zeta_h: f64, zeta_a: f64) -> Scene {

@@ -89,7 +89,10 @@ pub(super) fn follow<T: Nodes<N>, const N: usize, L: NormalLaw<T>, O: Observer<T
     let at = Point { s: T::ZERO, energy, speed_squared: energy + energy };
     let mut follower = Follower::from(law, control, observer, at);
     // A sphere that comes slower than a barrier is high turns back in front of it and has none to pass on its way out.
-    follower.brink = Some(brink(law)).filter(|(_, height)| energy > *height).unwrap_or((T::ZERO, T::ZERO));
+    let barrier = brink(law);
+    if energy > barrier.1 {
+        follower.brink = barrier;
+    }
     let effort = follower.effort;
     let mut path = NormalPath { end: End::Budget, energy, peak: T::ZERO, turning: T::ZERO, effort };
     path.end = match follower.approach::<N>() {

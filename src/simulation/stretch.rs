@@ -116,7 +116,8 @@ impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
         Self { speed, half_inverse, power, change: T::constant(1e9), sweeps: 0 }
     }
 
-    /// One sweep: Heron's step for the root at every node. `gain` is what the losses leave, as a sum.
+    /// One sweep: Heron's step for the root at every node. `lost` makes the square of a speed from the free one and the
+    /// integral of the losses.
     #[inline]
     fn sweep(&mut self, free: &[T; N], loss: &[T; N], lost: impl Fn(T, T) -> T, table: &[[T; N]; N]) -> T {
         let two = T::constant(2.0);
