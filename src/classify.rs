@@ -66,6 +66,19 @@ pub enum Class {
     CapturedResting,
 }
 
+impl Class {
+    #[inline]
+    pub(crate) const fn of(outcome: Outcome, motion: SurfaceMotion) -> Self {
+        match (outcome, motion) {
+            (Outcome::Rebound, SurfaceMotion::Sliding) => Self::ReboundSliding,
+            (Outcome::Rebound, SurfaceMotion::Rolling | SurfaceMotion::Resting) => Self::ReboundRolling,
+            (Outcome::Capture, SurfaceMotion::Sliding) => Self::CapturedSliding,
+            (Outcome::Capture, SurfaceMotion::Rolling) => Self::CapturedRolling,
+            (Outcome::Capture, SurfaceMotion::Resting) => Self::CapturedResting,
+        }
+    }
+}
+
 impl fmt::Display for Class {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
@@ -153,12 +166,6 @@ impl<T> Classification<T, ContactClass<T>> {
     /// ```
     #[inline]
     pub fn class(&self) -> Class {
-        match (self.outcome, self.contact.motion) {
-            (Outcome::Rebound, SurfaceMotion::Sliding) => Class::ReboundSliding,
-            (Outcome::Rebound, _) => Class::ReboundRolling,
-            (Outcome::Capture, SurfaceMotion::Sliding) => Class::CapturedSliding,
-            (Outcome::Capture, SurfaceMotion::Rolling) => Class::CapturedRolling,
-            (Outcome::Capture, SurfaceMotion::Resting) => Class::CapturedResting,
-        }
+        Class::of(self.outcome, self.contact.motion)
     }
 }

@@ -1,65 +1,35 @@
 //! Rows by the contact simulation.
 
 use comfy_table::Cell;
-use microimpact::simulation::{Collocation, Groups, Nodes, SimulatedImpact, Simulation, Status, TangentialContact};
-use microimpact::{InputError, PlanarMotion, Sphere, Stiffness, SurfaceMotion};
+use microimpact::simulation::{Adaptive, AdaptiveNodes, Groups, SimulatedImpact, Simulation, TangentialContact};
+use microimpact::{Class, InputError, Outcome, Sphere, Stiffness, SurfaceMotion};
 
 use crate::sheet::command::Work;
 use crate::sheet::{Row, Scalar, reason};
 use crate::{motion_name, outcome_name, sphere_and_motion};
 
-/// A number type with tables for every number of nodes that a tolerance may need.
-pub trait AllNodes: Nodes<7> + Nodes<9> + Nodes<12> + Nodes<14> {}
-
-impl<T: Nodes<7> + Nodes<9> + Nodes<12> + Nodes<14>> AllNodes for T {}
-
 /// The simulation to a tolerance, in numbers of type `T`.
 pub struct SimulationModel<T> {
-    tolerance: T,
+    method: Adaptive<T>,
 }
 
 /// A simulated impact.
 pub struct Simulated<T> {
     sphere: Sphere<T>,
     groups: Groups<T>,
+    outcome: Outcome,
+    pub class: Class,
     pub impact: SimulatedImpact<T, TangentialContact<T>>,
 }
 
-impl<T: Scalar + AllNodes> SimulationModel<T> {
+impl<T: Scalar + AdaptiveNodes> SimulationModel<T> {
     pub fn new(tolerance: f64) -> Result<Self, InputError> {
-        let tolerance = T::constant(tolerance);
-        Collocation::<7, T>::new(tolerance)?;
-        Ok(Self { tolerance })
+        Ok(Self { method: Adaptive::new(T::constant(tolerance))? })
     }
 
     /// Builds the scene of a row and simulates its impact.
     pub fn compute(&self, row: &Row<'_>) -> Result<Simulated<T>, String> {
         let (sphere, before) = sphere_and_motion(row)?;
-        let simulated = if self.tolerance >= T::constant(3e-7) {
-            self.compute_by::<7>(row, sphere, &before)
-        } else if self.tolerance >= T::constant(3e-10) {
-            self.compute_by::<9>(row, sphere, &before)
-        } else if self.tolerance >= T::constant(3e-13) {
-            self.compute_by::<12>(row, sphere, &before)
-        } else {
-            self.compute_by::<14>(row, sphere, &before)
-        }?;
-        match simulated.impact.run.status {
-            Status::Solved => Ok(simulated),
-            Status::BudgetSpent => Err("the simulation has spent its budget of stretches".into()),
-        }
-    }
-
-    fn compute_by<const N: usize>(
-        &self,
-        row: &Row<'_>,
-        sphere: Sphere<T>,
-        before: &PlanarMotion<T>,
-    ) -> Result<Simulated<T>, String>
-    where
-        T: Nodes<N>,
-    {
-        let method = Collocation::<N, T>::new(self.tolerance).map_err(reason)?;
         let stiffness = Stiffness::new(row.required("stiffness_pa")?).map_err(reason)?;
         let (zeta_h, zeta_a) = (row.or_zero("zeta_h")?, row.or_zero("zeta_a")?);
         let (strength, friction) = (row.or_zero("adhesion_n_m")?, row.or_zero("friction")?);
@@ -68,19 +38,27 @@ impl<T: Scalar + AllNodes> SimulationModel<T> {
             .with_damping(zeta_h)
             .and_then(|scene| scene.with_ring(strength, zeta_a))
             .and_then(|scene| scene.with_friction(friction))
-            .and_then(|scene| scene.with_external_force(force))
             .map_err(reason)?;
-        let impact = if peeling == T::ZERO {
-            scene.impact(&method, before)
-        } else {
-            scene.with_peeling(peeling).and_then(|scene| scene.impact(&method, before))
+        // Terms that are zero are left out, so that they cost nothing.
+        let impact = match (peeling == T::ZERO, force == T::ZERO) {
+            (true, true) => scene.impact(&self.method, &before),
+            (true, false) => scene.with_external_force(force).and_then(|scene| scene.impact(&self.method, &before)),
+            (false, true) => scene.with_peeling(peeling).and_then(|scene| scene.impact(&self.method, &before)),
+            (false, false) => scene
+                .with_peeling(peeling)
+                .and_then(|scene| scene.with_external_force(force))
+                .and_then(|scene| scene.impact(&self.method, &before)),
         };
-        let groups = scene.groups(before).map_err(reason)?;
-        Ok(Simulated { sphere, groups, impact: impact.map_err(reason)? })
+        let impact = impact.map_err(reason)?;
+        let groups = scene.groups(&before).map_err(reason)?;
+        match (impact.normal.outcome(), impact.class()) {
+            (Some(outcome), Some(class)) => Ok(Simulated { sphere, groups, outcome, class, impact }),
+            _ => Err("the simulation has spent its budget of stretches".into()),
+        }
     }
 }
 
-impl<T: Scalar + AllNodes> Work for SimulationModel<T> {
+impl<T: Scalar + AdaptiveNodes> Work for SimulationModel<T> {
     fn columns(&self) -> Vec<String> {
         [
             "outcome",
@@ -109,14 +87,14 @@ impl<T: Scalar + AllNodes> Work for SimulationModel<T> {
     }
 
     fn cells(&self, row: &Row<'_>) -> (Vec<String>, Result<(), String>) {
-        let Simulated { impact, groups, .. } = match self.compute(row) {
+        let Simulated { impact, groups, outcome, .. } = match self.compute(row) {
             Ok(computed) => computed,
             Err(reason) => return (Vec::new(), Err(reason)),
         };
         let SimulatedImpact { normal, tangential, outputs, .. } = &impact;
         let optional = |value: Option<T>| value.map(|value| row.cell(value)).unwrap_or_default();
         let cells = vec![
-            outcome_name(normal.outcome()).into(),
+            outcome_name(outcome).into(),
             motion_name(tangential.motion()).into(),
             row.cell(normal.overall_restitution()),
             optional(normal.peak_indentation()),
@@ -160,13 +138,13 @@ impl<T: Scalar + AllNodes> Work for SimulationModel<T> {
     }
 
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<Cell>, String> {
-        let Simulated { sphere, impact, .. } = self.compute(row)?;
+        let Simulated { sphere, impact, class, .. } = self.compute(row)?;
         let SimulatedImpact { normal, tangential, outputs, .. } = &impact;
         let nano = |value: Option<T>| value.map_or("-".into(), |value| format!("{:.2}", value * T::constant(1e9)));
         let lost = impact.energy(&sphere).map(|ledger| T::constant(100.0) * ledger.lost() / ledger.before);
         let cells = [
             name,
-            impact.class().to_string(),
+            class.to_string(),
             format!("{:.4}", normal.overall_restitution()),
             format!("{:.3}", normal.rebound_speed()),
             format!("{:.3}", tangential.velocity() + T::ZERO),

@@ -14,6 +14,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
 use comfy_table::Cell;
+use microimpact::simulation::AdaptiveNodes;
 use microimpact::{NormalMotion, Outcome, PlanarMotion, Sphere, SurfaceMotion};
 use sheet::command::{self, Format, ScalarType, Work};
 use sheet::{Row, Scalar, reason};
@@ -72,7 +73,7 @@ fn main() -> ExitCode {
     command::exit_code("classify", result)
 }
 
-fn run<T: Scalar + contact::AllNodes>(options: &Options) -> Result<usize, Box<dyn std::error::Error>> {
+fn run<T: Scalar + AdaptiveNodes>(options: &Options) -> Result<usize, Box<dyn std::error::Error>> {
     let (file, bundled) = (options.file.as_deref(), include_str!("impacts.csv"));
     let rigid_body = rigid_body::RigidBodyModel::<T>::new();
     let simulation = contact::SimulationModel::<T>::new(options.tolerance)?;
@@ -89,7 +90,7 @@ struct Both<T: Scalar> {
     simulation: contact::SimulationModel<T>,
 }
 
-impl<T: Scalar + contact::AllNodes> Work for Both<T> {
+impl<T: Scalar + AdaptiveNodes> Work for Both<T> {
     fn columns(&self) -> Vec<String> {
         let rigid_body = self.rigid_body.columns();
         let named = rigid_body.iter().map(|column| format!("rigid_body_{column}"));
@@ -130,10 +131,11 @@ impl<T: Scalar + contact::AllNodes> Work for Both<T> {
     }
 
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<Cell>, String> {
-        let (contact, body) = (self.simulation.compute(row)?.impact, self.rigid_body.compute(row)?);
+        let (simulated, body) = (self.simulation.compute(row)?, self.rigid_body.compute(row)?);
+        let contact = &simulated.impact;
         let cells = [
             name,
-            contact.class().to_string(),
+            simulated.class.to_string(),
             body.classification.class().to_string(),
             format!("{:.4}", contact.normal.overall_restitution()),
             format!("{:.4}", body.impact.normal.overall_restitution()),

@@ -66,7 +66,7 @@ impl Inputs {
 
     fn outcome(&self, speed: f64) -> Outcome {
         let method = Collocation::<12, f64>::new(1e-12).unwrap();
-        self.scene().unwrap().normal_impact(&method, &NormalMotion::new(speed).unwrap()).unwrap().outcome()
+        self.scene().unwrap().normal_impact(&method, &NormalMotion::new(speed).unwrap()).unwrap().outcome().unwrap()
     }
 }
 

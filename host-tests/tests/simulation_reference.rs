@@ -42,7 +42,7 @@ fn errors<const N: usize, T: Nodes<N>>(tolerance: f64, double: impl Fn(T) -> f64
         };
         let rebounds = case.text("outcome") == "rebound";
         let rolls = case.text("motion") == "rolling";
-        let found = impact.normal.outcome() == Outcome::Rebound;
+        let found = impact.normal.outcome() == Some(Outcome::Rebound);
         if impact.run.status != Status::Solved || found != rebounds {
             wrong.push(format!("{name}: {:?}, {:?}", impact.normal.outcome(), impact.run));
             continue;
@@ -150,7 +150,7 @@ fn twelve_nodes() {
         restitution: 1e-12,
         indentation: 1e-9,
         others: 1e-9,
-        exceptions: &[("critical -1e-06", "turning", 1e-7)],
+        exceptions: &[("critical -1e-06", "turning", 3e-8)],
     };
     assert_within(&errors::<12, f64>(1e-12, |x| x), &allowed);
 }
@@ -178,9 +178,8 @@ fn seven_nodes() {
         others: 3e-5,
         exceptions: &[
             ("critical +1e-06", "contact time", 2e-3),
-            ("critical +1e-06", "adhesion impulse", 2e-4),
-            ("critical -0.001", "turning", 1e-3),
-            ("critical -1e-06", "turning", 1.0),
+            ("critical -0.001", "turning", 1e-4),
+            ("critical -1e-06", "turning", 0.1),
         ],
     };
     assert_within(&errors::<7, f64>(1e-6, |x| x), &allowed);

@@ -1,6 +1,7 @@
 //! A constant external force along the normal.
 
 use super::law::Attraction;
+use super::nodes::Share;
 use crate::{InputError, Parameter, Real};
 
 /// No external force.
@@ -67,6 +68,11 @@ impl<T: Real> Attraction<T> for ScaledForce<T> {
     #[inline]
     fn divided(&self, p: T, s: T) -> T {
         self.0 * (p + s)
+    }
+
+    #[inline]
+    fn fall(&self, peak: T, share: &Share<T>) -> T {
+        self.0 * peak * peak * (T::ONE + share.radius)
     }
 
     #[inline]

@@ -4,6 +4,7 @@
 //! the normal motion is the path y^2/2 = E - V(s), along which only the losses change the energy E. V is a polynomial:
 //! no roots, and smooth where the spheres touch.
 
+use super::nodes::Share;
 use crate::{NoAdhesion, Real};
 
 /// What the solver knows of a contact: potential and losses against the contact radius s, in units in which the peak of
@@ -88,6 +89,12 @@ pub trait NormalLaw<T: Real>: Copy {
     /// Force of adhesion without its damping.
     fn adhesion_force(&self, s: T) -> T;
 
+    /// Force of the potential -dV/dx; a law whose indentation has no slope at s = 0 has to say what it is there.
+    #[inline]
+    fn conservative_force(&self, s: T) -> T {
+        -(self.slope(s) / self.indentation_slope(s))
+    }
+
     /// Damping force of both kinds on the way in or out.
     #[inline]
     fn damping(&self, s: T, rebound: bool) -> T {
@@ -100,10 +107,17 @@ pub trait NormalLaw<T: Real>: Copy {
         self.indentation_slope(s) * self.damping(s, rebound)
     }
 
-    /// The same over s^2, for s > 0; a law that loses less than that close to s = 0 has it grow there.
+    /// What the potential falls by from the peak to a share m of its contact radius, over 1 - m.
     #[inline]
-    fn loss_over_square(&self, s: T, rebound: bool) -> T {
-        self.loss(s, rebound) / (s * s)
+    fn fall(&self, peak: T, share: &Share<T>) -> T {
+        peak * self.divided(peak, peak * share.radius)
+    }
+
+    /// Energy that damping takes for each ds and unit of speed, over m^2 at the share m > 0 of the peak; a law that loses
+    /// less than that close to s = 0 has it grow there.
+    #[inline]
+    fn loss_over_square(&self, peak: T, share: &Share<T>, rebound: bool) -> T {
+        self.loss(peak * share.radius, rebound) / share.square
     }
 }
 
@@ -155,9 +169,15 @@ pub trait Attraction<T: Real>: Copy {
         T::ZERO
     }
 
-    /// The same over the contact radius.
+    /// As [`NormalLaw::fall`], of the energy.
     #[inline]
-    fn damping_over_radius(&self, _s: T) -> T {
+    fn fall(&self, _peak: T, _share: &Share<T>) -> T {
+        T::ZERO
+    }
+
+    /// As [`NormalLaw::loss_over_square`].
+    #[inline]
+    fn loss_over_square(&self, _peak: T, _share: &Share<T>) -> T {
         T::ZERO
     }
 
@@ -230,9 +250,17 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> NormalLaw<T> fo
     }
 
     #[inline]
-    fn loss_over_square(&self, s: T, rebound: bool) -> T {
-        let material = T::constant(2.5) * self.damping.rate() * s * s;
-        if rebound { material + T::constant(2.0) * self.adhesion.damping_over_radius(s) } else { material }
+    fn fall(&self, peak: T, share: &Share<T>) -> T {
+        let square = peak * peak;
+        let elastic = T::constant(0.5) * square * square * peak * share.quintic;
+        elastic - self.adhesion.fall(peak, share) - self.force.fall(peak, share)
+    }
+
+    #[inline]
+    fn loss_over_square(&self, peak: T, share: &Share<T>, rebound: bool) -> T {
+        let square = peak * peak;
+        let material = T::constant(2.5) * self.damping.rate() * square * square * share.square;
+        if rebound { material + self.adhesion.loss_over_square(peak, share) } else { material }
     }
 
     #[inline]
@@ -243,6 +271,11 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> NormalLaw<T> fo
     #[inline]
     fn adhesion_force(&self, s: T) -> T {
         self.adhesion.force(s)
+    }
+
+    #[inline]
+    fn conservative_force(&self, s: T) -> T {
+        self.adhesion_force(s) + self.force.force(s) - self.elastic_force(s)
     }
 }
 

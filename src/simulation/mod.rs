@@ -4,39 +4,45 @@
 //! external force (B6 to B10), each a type that a scene includes or not. The normal motion is solved as kinetic energy
 //! against contact radius, where it is smooth from first touch to separation, and all else follows from integrals over it.
 
+mod adaptive;
 mod critical;
 mod damping;
 mod fixed_cost;
 mod force;
+mod integrals;
 mod law;
 mod motion;
 mod nodes;
 mod observer;
 mod outcome;
+mod outputs;
 mod paper;
+mod phase;
 mod ring;
+mod run;
 mod scaled;
 mod stretch;
 mod tangential;
 
+pub use adaptive::{Adaptive, AdaptiveNodes};
 pub use damping::{HystereticDamping, NoDamping};
 pub use fixed_cost::FixedCost;
 pub use force::{ConstantForce, NoForce};
 pub use law::{Attraction, Damping, NormalLaw};
-pub use motion::NormalMethod;
-pub use nodes::{Nodes, PhaseNodes};
-pub use outcome::{
-    ContactImpulses, ContactTimes, ContactWorks, Everything, NormalContact, Output, RunReport, Status,
-    TangentialContact,
-};
-pub use paper::{RungeKuttaGill, StepReport, SteppedImpact};
+pub use motion::Method;
+pub use nodes::{Nodes, PhaseNodes, PhaseSamples, Share};
+pub use outcome::{NormalContact, SurfaceState, TangentialContact, TangentialVelocities};
+pub use outputs::{ContactImpulses, ContactTimes, ContactWorks, Everything, Output};
+pub use paper::RungeKuttaGill;
 pub use ring::Ring;
+pub use run::{RunReport, Status};
 pub use scaled::{Groups, Scale};
-pub use tangential::{NoPeeling, Peeling, TangentialScene};
+pub use tangential::{NoPeeling, Peeling, Tangential, TangentialScene};
 
 use crate::{Approach, Coulomb, InputError, NoAdhesion, NoFriction, Parameter, Real, Sphere, Stiffness};
 use law::HertzLaw;
-use motion::{NormalPath, follow};
+use motion::{MOST_STRETCHES, NormalPath, follow};
+use observer::Observer;
 use scaled::Scaled;
 use stretch::Control;
 
@@ -69,14 +75,21 @@ impl<const N: usize, T: Real> Collocation<N, T> {
         Ok(Self { tolerance: tolerance.max(T::constant(8.0) * T::EPSILON) })
     }
 
+    /// Stretches after which a run gives up, refused ones included.
+    ///
+    /// ```
+    /// assert!(microimpact::simulation::Collocation::<7, f32>::MOST_STRETCHES < 1000);
+    /// ```
+    pub const MOST_STRETCHES: u32 = MOST_STRETCHES;
+
     fn control(&self, timed: bool) -> Control<T> {
         Control { settled: T::constant(0.1) * self.tolerance, error: self.tolerance, timed }
     }
 }
 
-impl<T: Nodes<N>, const N: usize> NormalMethod<T> for Collocation<N, T> {
-    fn normal_motion<L: NormalLaw<T>>(&self, law: &L, energy: T) -> NormalPath<T> {
-        follow::<T, N, _, _>(law, energy, self.control(false), false, &mut ())
+impl<T: Nodes<N>, O: Observer<T>, const N: usize> Method<T, O> for Collocation<N, T> {
+    fn solve<L: NormalLaw<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
+        follow::<T, N, _, _>(law, energy, self.control(O::TIMED), O::TO_TURNING_POINT, observer)
     }
 }
 
@@ -111,8 +124,8 @@ pub struct Simulation<T, D = NoDamping, A = NoAdhesion, F = NoFriction, P = NoPe
     force: X,
 }
 
-/// The result of a simulation, with `O` for the outputs asked for and `G` for the tangential side: `()` or
-/// [`TangentialContact`].
+/// The result of a simulation, with `O` for the outputs asked for and `G` for the tangential side: `()`,
+/// [`TangentialContact`] or [`TangentialVelocities`].
 ///
 /// ```
 /// use microimpact::simulation::{Collocation, Simulation};
@@ -120,7 +133,7 @@ pub struct Simulation<T, D = NoDamping, A = NoAdhesion, F = NoFriction, P = NoPe
 ///
 /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
 /// let impact = scene.impact(&Collocation::<7, f64>::new(1e-6)?, &NormalMotion::new(1.0)?)?;
-/// assert_eq!(impact.normal.outcome(), Outcome::Rebound);
+/// assert_eq!(impact.normal.outcome(), Some(Outcome::Rebound));
 /// assert!((impact.normal.overall_restitution() - 1.0).abs() < 1e-6);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
@@ -282,26 +295,32 @@ where
     ///     .with_damping(10.5)?
     ///     .with_ring(250.0, 6.25)?;
     /// let method = Collocation::<7, f64>::new(1e-6)?;
-    /// assert_eq!(scene.impact(&method, &NormalMotion::new(5.0)?)?.normal.outcome(), Outcome::Capture);
-    /// assert_eq!(scene.impact(&method, &NormalMotion::new(8.0)?)?.normal.outcome(), Outcome::Rebound);
+    /// assert_eq!(scene.impact(&method, &NormalMotion::new(5.0)?)?.normal.outcome(), Some(Outcome::Capture));
+    /// assert_eq!(scene.impact(&method, &NormalMotion::new(8.0)?)?.normal.outcome(), Some(Outcome::Rebound));
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn impact<const N: usize, M>(
+    pub fn impact<M, S>(
         &self,
-        method: &Collocation<N, T>,
+        method: &S,
         motion: &M,
-    ) -> Result<SimulatedImpact<T, F::Contact>, InputError>
+    ) -> Result<SimulatedImpact<T, <F as Tangential<T>>::Contact>, InputError>
     where
-        T: Nodes<N>,
         M: Approach<T>,
-        F: TangentialScene<T, M, A, P>,
+        F: Tangential<T> + TangentialScene<T, M, A, P, <F as Tangential<T>>::Contact>,
+        S: Method<
+                T,
+                (
+                    <Everything<T> as Output<T>>::Observer,
+                    <F as TangentialScene<T, M, A, P, <F as Tangential<T>>::Contact>>::Observer,
+                ),
+            >,
     {
         self.observe(method, motion)
     }
 
-    /// The impact of a sphere that arrives with `motion`, with the outputs that the type `O` of the result names:
-    /// [`ContactTimes`], [`ContactImpulses`], [`ContactWorks`], pairs of them, or `()` for none. What is not named is not
-    /// computed.
+    /// The impact of a sphere that arrives with `motion`, with what the type of the result names: outputs `O`
+    /// ([`ContactTimes`], [`ContactImpulses`], [`ContactWorks`], pairs of them, or `()` for none) and a tangential side `G`.
+    /// What is not named is not computed.
     ///
     /// # Errors
     /// As [`impact`](Self::impact).
@@ -313,31 +332,26 @@ where
     /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
     /// let motion = NormalMotion::new(1.0)?;
     /// let method = Collocation::<9, f64>::new(1e-9)?;
-    /// let impact: SimulatedImpact<_, _, ContactTimes<f64>> = scene.observe(&method, &motion)?;
+    /// let impact: SimulatedImpact<_, (), ContactTimes<f64>> = scene.observe(&method, &motion)?;
     /// assert_eq!(impact.outputs, scene.impact(&method, &motion)?.outputs.times);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn observe<const N: usize, M, O>(
-        &self,
-        method: &Collocation<N, T>,
-        motion: &M,
-    ) -> Result<SimulatedImpact<T, F::Contact, O>, InputError>
+    pub fn observe<M, S, G, O>(&self, method: &S, motion: &M) -> Result<SimulatedImpact<T, G, O>, InputError>
     where
-        T: Nodes<N>,
         M: Approach<T>,
-        F: TangentialScene<T, M, A, P>,
+        F: TangentialScene<T, M, A, P, G>,
         O: Output<T>,
+        S: Method<T, (O::Observer, F::Observer)>,
     {
         let approach = motion.normal().speed();
         let units = self.units(approach)?;
         let tangential = self.friction.start(&self.sphere, &self.adhesion, &self.peeling, motion, &units)?;
         let mut observer = (O::begin(), tangential);
-        let path =
-            follow::<T, N, _, _>(&self.law(&units)?, units.energy, method.control(O::TIMED), true, &mut observer);
+        let path = method.solve(&self.law(&units)?, units.energy, &mut observer);
         let (observer, tangential) = observer;
         Ok(SimulatedImpact {
             normal: NormalContact::new(&path, approach, &self.sphere, self.stiffness, &units),
-            tangential: F::finish(tangential, &self.sphere, &units),
+            tangential: F::finish(tangential, &path, &self.sphere, &units),
             outputs: O::finish(observer, &path, &self.sphere, &units),
             run: RunReport::new(&path),
         })
@@ -361,12 +375,12 @@ where
     /// ```
     pub fn normal_impact(
         &self,
-        method: &impl NormalMethod<T>,
+        method: &impl Method<T, ()>,
         motion: &impl Approach<T>,
     ) -> Result<NormalContact<T>, InputError> {
         let approach = motion.normal().speed();
         let units = self.units(approach)?;
-        let path = method.normal_motion(&self.law(&units)?, units.energy);
+        let path = method.solve(&self.law(&units)?, units.energy, &mut ());
         Ok(NormalContact::new(&path, approach, &self.sphere, self.stiffness, &units))
     }
 

@@ -30,13 +30,14 @@ pub struct NormalPath<T> {
     pub(super) effort: Effort<T>,
 }
 
-/// A method that follows the normal motion to its end.
+/// A method that follows the motion to its end, for what `O` observes of it: `()` for nothing, or outputs with a tangential
+/// side.
 ///
 /// ```
-/// use microimpact::simulation::{Collocation, FixedCost, NormalMethod, Simulation};
+/// use microimpact::simulation::{Collocation, FixedCost, Method, Simulation};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
-/// fn restitution(method: &impl NormalMethod<f64>) -> Result<f64, microimpact::InputError> {
+/// fn restitution(method: &impl Method<f64, ()>) -> Result<f64, microimpact::InputError> {
 ///     let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
 ///     Ok(scene.normal_impact(method, &NormalMotion::new(1.0)?)?.overall_restitution())
 /// }
@@ -44,9 +45,9 @@ pub struct NormalPath<T> {
 /// assert!((exact - quick).abs() < 1e-6);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
-pub trait NormalMethod<T: Real> {
+pub trait Method<T: Real, O> {
     /// The motion under a law of a sphere that arrives with a kinetic energy.
-    fn normal_motion<L: NormalLaw<T>>(&self, law: &L, energy: T) -> NormalPath<T>;
+    fn solve<L: NormalLaw<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T>;
 }
 
 /// What a motion took.
@@ -55,6 +56,8 @@ pub(super) struct Effort<T> {
     pub(super) stretches: u32,
     pub(super) refused: u32,
     pub(super) sweeps: u32,
+    /// Evaluations in each sweep.
+    pub(super) nodes: u32,
     /// Largest estimated error of a stretch.
     pub(super) error: T,
 }
@@ -93,6 +96,7 @@ pub(super) fn follow<T: Nodes<N>, const N: usize, L: NormalLaw<T>, O: Observer<T
     if energy > barrier.1 {
         follower.brink = barrier;
     }
+    follower.effort.nodes = N as u32;
     let effort = follower.effort;
     let mut path = NormalPath { end: End::Budget, energy, peak: T::ZERO, turning: T::ZERO, effort };
     path.end = match follower.approach::<N>() {
@@ -113,9 +117,44 @@ pub(super) fn follow<T: Nodes<N>, const N: usize, L: NormalLaw<T>, O: Observer<T
     path
 }
 
+/// Share of a stretch at which the sphere begins to roll, the part up to there, and what is left of the error, as a share of
+/// the stretch; from a first value of the share.
+pub(super) fn find_end_of_slip<T: Nodes<N>, const N: usize>(
+    law: &impl NormalLaw<T>,
+    observer: &impl Observer<T>,
+    share: T,
+    tolerance: T,
+    mut part: impl FnMut(T) -> Stretch<T, N>,
+) -> (T, Stretch<T, N>, T) {
+    let close = T::constant(0.03) * tolerance.sqrt();
+    let (mut z, mut before, mut after) = (share, T::ZERO, T::ONE);
+    let mut tries = 0;
+    loop {
+        let first = part(z);
+        // Newton's step, held between the places known to come before and after.
+        let late = observer.lateness(law, &first) * z;
+        tries += 1;
+        if late.abs() <= close * z {
+            return (z, first, late);
+        }
+        if tries == MOST_SPLITS {
+            return (z, first, T::ZERO);
+        }
+        if late > T::ZERO {
+            after = z;
+        } else {
+            before = z;
+        }
+        z = z - late;
+        if z <= before || z >= after {
+            z = T::constant(0.5) * (before + after);
+        }
+    }
+}
+
 impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     pub(super) fn from(law: &'a L, control: Control<T>, observer: &'a mut O, at: Point<T>) -> Self {
-        let effort = Effort { stretches: 0, refused: 0, sweeps: 0, error: T::ZERO };
+        let effort = Effort { stretches: 0, refused: 0, sweeps: 0, nodes: 0, error: T::ZERO };
         Self { law, control, observer, at, brink: (T::ZERO, T::ZERO), effort }
     }
 
@@ -372,51 +411,23 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let two = T::constant(2.0);
         let control = Control { error: T::ONE / T::EPSILON, timed: false, ..self.control };
         let (law, sweeps) = (self.law, &mut self.effort.sweeps);
-        let close = T::constant(0.03) * self.control.error.sqrt();
-        let (mut z, mut before, mut after) = (z, T::ZERO, T::ONE);
-        let mut first: Stretch<T, N>;
-        let mut late;
-        let mut tries = 0;
-        loop {
-            first = match turning_point {
-                Some(peak) if from.s == peak => {
-                    leave(law, peak, (peak - to) * z * z, from.energy, course, &control, sweeps)
-                }
-                Some(peak) => {
-                    let depth = peak - from.s;
-                    pass(law, &from, (two * depth * z, -(depth * z * z)), course, &control, sweeps)
-                }
-                None => pass(law, &from, ((to - from.s) * z, T::ZERO), course, &control, sweeps),
-            };
-            // Newton's step, held between the places known to come before and after.
-            late = self.observer.lateness(law, &first) * z;
-            tries += 1;
-            if late.abs() <= close * z {
-                break;
+        let (z, first, late) = find_end_of_slip(law, self.observer, z, self.control.error, |z| match turning_point {
+            Some(peak) if from.s == peak => {
+                leave(law, peak, (peak - to) * z * z, from.energy, course, &control, sweeps)
             }
-            if tries == MOST_SPLITS {
-                late = T::ZERO;
-                break;
+            Some(peak) => {
+                let depth = peak - from.s;
+                pass(law, &from, (two * depth * z, -(depth * z * z)), course, &control, sweeps)
             }
-            if late > T::ZERO {
-                after = z;
-            } else {
-                before = z;
-            }
-            z = z - late;
-            if z <= before || z >= after {
-                z = T::constant(0.5) * (before + after);
-            }
-        }
-        self.observer.observe(law, &first, course.rebound);
-        let end_rate = first.rate.last().copied().unwrap_or(T::ZERO);
-        self.observer.roll(-(late / z * end_rate));
+            None => pass(law, &from, ((to - from.s) * z, T::ZERO), course, &control, sweeps),
+        });
+        let late = late / z * first.rate.last().copied().unwrap_or(T::ZERO);
         let mut middle = first.end;
         if course.rebound && middle.speed_squared < T::ZERO {
             middle.energy = whole.end.energy;
         }
         let rest = T::ONE - z;
-        let second: Stretch<T, N> = match turning_point {
+        let mut after = || match turning_point {
             Some(peak) if from.s == peak => {
                 let depth = peak - to;
                 pass(law, &middle, (-(two * depth * z * rest), -(depth * rest * rest)), course, &control, sweeps)
@@ -428,7 +439,7 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             }
             None => pass(law, &middle, (to - middle.s, T::ZERO), course, &control, sweeps),
         };
-        self.observer.observe(law, &second, course.rebound);
+        self.observer.observe_rolling(law, whole, &first, late, &mut after, course.rebound);
     }
 
     /// By how much the next stretch may be longer, from 0.3 to 3: (allowed error/error)^(1/2N).

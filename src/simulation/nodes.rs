@@ -1,5 +1,5 @@
-//! Nodes on 0..1 and the integrals that collocation needs, computed by the compiler: Radau's for a stretch, for any number
-//! of nodes, and Gauss's for a whole phase of the motion.
+//! Nodes on 0..1 and the integrals that collocation needs, computed by the compiler: Radau's for a stretch and Gauss's for a
+//! whole phase of the motion, for any number of nodes.
 
 // Indices run over arrays of the length that their loops count to.
 #![allow(clippy::indexing_slicing)]
@@ -32,6 +32,8 @@ pub trait Nodes<const N: usize>: Real {
     ///
     /// Up to a common factor these are the weights of barycentric interpolation too.
     const TAIL: [Self; N];
+    /// Coefficient of the shifted Legendre polynomial of degree i in f: sum over k of `LEGENDRE[i][k]` f(k).
+    const LEGENDRE: [[Self; N]; N];
 }
 
 macro_rules! impl_nodes {
@@ -43,6 +45,7 @@ macro_rules! impl_nodes {
             const WHOLE: [Self; N] = narrowed!($float, last_column(&Table::<N>::RUNNING));
             const WHOLE_TURNING: [Self; N] = narrowed!($float, last_column(&Table::<N>::TURNING));
             const TAIL: [Self; N] = narrowed!($float, Table::<N>::TAIL);
+            const LEGENDRE: [[Self; N]; N] = narrowed_square!($float, Table::<N>::LEGENDRE);
         }
     };
 }
@@ -84,6 +87,21 @@ impl<const N: usize> Table<N> {
     const RUNNING: [[f64; N]; N] = integrals(&Self::Z, &Self::WEIGHTS, false);
     const TURNING: [[f64; N]; N] = integrals(&Self::Z, &Self::WEIGHTS, true);
     const TAIL: [f64; N] = tail(&Self::Z);
+    const LEGENDRE: [[f64; N]; N] = {
+        let (mut table, mut i) = ([[0.0; N]; N], 0);
+        while i < N {
+            let mut k = 0;
+            while k < N {
+                let x = 2.0 * Self::Z[k] - 1.0;
+                let value = if i == 0 { 1.0 } else { legendre(i, x).0 };
+                let norm = (2 * i + 1) as f64;
+                table[i][k] = norm * Self::WEIGHTS[k] * value;
+                k += 1;
+            }
+            i += 1;
+        }
+        table
+    };
 }
 
 /// Legendre's polynomials of degree n and n - 1 and their derivatives at x inside -1..1.
@@ -212,6 +230,40 @@ const fn tail<const N: usize>(z: &[f64; N]) -> [f64; N] {
     tail
 }
 
+/// A contact radius as a share m of its peak, with what the powers of m add up to.
+///
+/// ```
+/// use microimpact::simulation::Share;
+///
+/// let share = Share::new(0.5);
+/// assert_eq!((share.square, share.cubic, share.quintic), (0.25, 1.75, 1.9375));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Share<T> {
+    /// m.
+    pub radius: T,
+    /// m^2.
+    pub square: T,
+    /// (1 - m^3)/(1 - m).
+    pub cubic: T,
+    /// (1 - m^5)/(1 - m).
+    pub quintic: T,
+}
+
+impl<T: Real> Share<T> {
+    /// A share m of 0 to 1.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::simulation::Share::new(1.0_f32).quintic, 5.0);
+    /// ```
+    #[inline]
+    pub fn new(radius: T) -> Self {
+        let square = radius * radius;
+        let cubic = T::ONE + radius + square;
+        Self { radius, square, cubic, quintic: T::ONE + radius + square * cubic }
+    }
+}
+
 /// A number type with the tables for `N` nodes over a whole phase, from the peak z = 0 to the contact radius zero, z = 1.
 ///
 /// They are those of Gauss for the weight z^2 (1 - z^2)^2 of losses that grow at least with the square of the contact radius
@@ -224,109 +276,268 @@ const fn tail<const N: usize>(z: &[f64; N]) -> [f64; N] {
 /// assert!((weight - 8.0 / 105.0).abs() < 1e-15);
 /// ```
 pub trait PhaseNodes<const N: usize>: Real {
-    /// 1 - z^2 at the nodes: the contact radius over its peak.
-    const M: [Self; N];
+    /// The nodes, in rising order.
+    const Z: [Self; N];
+    /// The contact radii.
+    const SHARES: [Share<Self>; N];
     /// Integral of the weighted f from 0 to node j, over the square of that node: sum over k of `RUNNING[k][j]` f(k).
     const RUNNING: [[Self; N]; N];
+    /// The same for f = 1 and f = m^2.
+    const RUNNING_POWERS: [(Self, Self); N];
     /// Integral of the weighted f from 0 to 1.
     const WHOLE: [Self; N];
+    /// Share in f of the highest polynomial orthogonal under the weight, in units of the weighted integral of f.
+    ///
+    /// Up to a common factor these are the weights of barycentric interpolation too.
+    const TAIL: [Self; N];
+}
+
+/// A number type that can pass from the `N` nodes of a phase to `M` of Radau's.
+///
+/// ```
+/// use microimpact::simulation::{Nodes, PhaseNodes, PhaseSamples};
+///
+/// // At z = 1 the integral is that of the whole phase.
+/// let table = <f64 as PhaseSamples<5, 8>>::RUNNING;
+/// for (row, whole) in table.iter().zip(<f64 as PhaseNodes<5>>::WHOLE) {
+///     assert!((row[7] - whole).abs() < 1e-15);
+/// }
+/// ```
+pub trait PhaseSamples<const N: usize, const M: usize>: PhaseNodes<N> + Nodes<M> {
+    /// The contact radii at Radau's nodes.
+    const SHARES: [Share<Self>; M];
+    /// Integral of the weighted f from 0 to Radau's node q, over the square of that node: sum over k of `RUNNING[k][q]` f(k).
+    const RUNNING: [[Self; M]; N];
 }
 
 macro_rules! impl_phase_nodes {
-    ($($n:literal: $z:expr),*) => {
-        $(
-            impl Phase<$n> {
-                const Z: [f64; $n] = $z;
-            }
+    ($float:ident) => {
+        impl<const N: usize> PhaseNodes<N> for $float {
+            const Z: [Self; N] = narrowed!($float, Phase::<N>::Z);
+            const SHARES: [Share<Self>; N] = shares!($float, N, Phase::<N>::Z);
+            const RUNNING: [[Self; N]; N] = narrowed_square!($float, Phase::<N>::RUNNING);
+            const RUNNING_POWERS: [(Self, Self); N] = {
+                let wide = Phase::<N>::RUNNING_POWERS;
+                let mut narrow = [(0.0, 0.0); N];
+                let mut j = 0;
+                while j < N {
+                    narrow[j] = (wide[j].0 as $float, wide[j].1 as $float);
+                    j += 1;
+                }
+                narrow
+            };
+            const WHOLE: [Self; N] = narrowed!($float, Phase::<N>::WHOLE);
+            const TAIL: [Self; N] = narrowed!($float, Phase::<N>::TAIL);
+        }
 
-            impl_phase_nodes!(f32, $n);
-            impl_phase_nodes!(f64, $n);
-        )*
-    };
-    ($float:ident, $n:literal) => {
-        impl PhaseNodes<$n> for $float {
-            const M: [Self; $n] = {
-                const N: usize = $n;
-                narrowed!($float, Phase::<N>::contact_radii(&Phase::<N>::Z))
-            };
-            const RUNNING: [[Self; $n]; $n] = {
-                const N: usize = $n;
-                narrowed_square!($float, Phase::<N>::integrals(&Phase::<N>::Z))
-            };
-            const WHOLE: [Self; $n] = {
-                const N: usize = $n;
-                narrowed!($float, Phase::<N>::whole(&Phase::<N>::Z))
+        impl<const N: usize, const M: usize> PhaseSamples<N, M> for $float {
+            const SHARES: [Share<Self>; M] = shares!($float, M, Table::<M>::Z);
+            const RUNNING: [[Self; M]; N] = {
+                let wide = Phase::<N>::integrals(&Table::<M>::Z);
+                let mut narrow = [[0.0; M]; N];
+                let mut k = 0;
+                while k < N {
+                    let mut q = 0;
+                    while q < M {
+                        narrow[k][q] = wide[k][q] as $float;
+                        q += 1;
+                    }
+                    k += 1;
+                }
+                narrow
             };
         }
     };
 }
+
+macro_rules! shares {
+    ($float:ident, $n:ident, $z:expr) => {{
+        let z = $z;
+        let mut shares = [Share { radius: 0.0, square: 0.0, cubic: 0.0, quintic: 0.0 }; $n];
+        let mut j = 0;
+        while j < $n {
+            let m = 1.0 - z[j] * z[j];
+            let square = m * m;
+            let cubic = 1.0 + m + square;
+            shares[j] = Share {
+                radius: m as $float,
+                square: square as $float,
+                cubic: cubic as $float,
+                quintic: (1.0 + m + square * cubic) as $float,
+            };
+            j += 1;
+        }
+        shares
+    }};
+}
+
+impl_phase_nodes!(f32);
+impl_phase_nodes!(f64);
+
+/// Nodes of the quadrature by which the integrals over a phase are computed; exact up to `Z`'s own 24.
+const FINE: usize = 24;
 
 struct Phase<const N: usize>;
 
 impl<const N: usize> Phase<N> {
-    const fn contact_radii(z: &[f64; N]) -> [f64; N] {
-        let mut m = [0.0; N];
+    const ORTHOGONAL: Orthogonal<N> = Orthogonal::new();
+    const Z: [f64; N] = Self::ORTHOGONAL.zeros();
+    const RUNNING: [[f64; N]; N] = Self::integrals(&Self::Z);
+    const WHOLE: [f64; N] = {
+        let rows = Self::integrals(&[1.0]);
+        let mut whole = [0.0; N];
+        let mut k = 0;
+        while k < N {
+            whole[k] = rows[k][0];
+            k += 1;
+        }
+        whole
+    };
+    const RUNNING_POWERS: [(f64, f64); N] = {
+        let mut powers = [(0.0, 0.0); N];
         let mut j = 0;
         while j < N {
-            m[j] = 1.0 - z[j] * z[j];
+            let mut k = 0;
+            while k < N {
+                let m = 1.0 - Self::Z[k] * Self::Z[k];
+                powers[j].0 += Self::RUNNING[k][j];
+                powers[j].1 += Self::RUNNING[k][j] * m * m;
+                k += 1;
+            }
             j += 1;
         }
-        m
-    }
+        powers
+    };
 
-    /// Weighted integral of Lagrange's polynomial k from 0 to `end`, exact with Radau's 16 nodes.
-    const fn integral(z: &[f64; N], k: usize, end: f64) -> f64 {
-        let (mut sum, mut q) = (0.0, 0);
-        while q < 16 {
-            let x = end * Table::<16>::Z[q];
-            let m = 1.0 - x * x;
-            sum += Table::<16>::WEIGHTS[q] * x * x * m * m * lagrange(z, k, x);
-            q += 1;
+    /// Leading coefficients of Lagrange's polynomials, times the norm of the highest orthogonal one.
+    const TAIL: [f64; N] = {
+        let (mut norm, mut n) = (1.0, 1);
+        while n < N {
+            norm *= root(Self::ORTHOGONAL.b[n]);
+            n += 1;
         }
-        end * sum
-    }
+        let (mut tail, mut k) = ([0.0; N], 0);
+        while k < N {
+            let (mut product, mut i) = (1.0, 0);
+            while i < N {
+                if i != k {
+                    product *= Self::Z[k] - Self::Z[i];
+                }
+                i += 1;
+            }
+            // 8/105 is the integral of the weight.
+            tail[k] = 8.0 / 105.0 * norm / product;
+            k += 1;
+        }
+        tail
+    };
 
-    const fn integrals(z: &[f64; N]) -> [[f64; N]; N] {
-        let mut table = [[0.0; N]; N];
+    /// Weighted integrals of Lagrange's polynomials from 0 to each end, over the square of that end.
+    const fn integrals<const M: usize>(ends: &[f64; M]) -> [[f64; M]; N] {
+        let mut table = [[0.0; M]; N];
         let mut k = 0;
         while k < N {
             let mut j = 0;
-            while j < N {
-                table[k][j] = Self::integral(z, k, z[j]) / (z[j] * z[j]);
+            while j < M {
+                let (mut sum, mut q) = (0.0, 0);
+                while q < FINE {
+                    let x = ends[j] * Table::<FINE>::Z[q];
+                    sum += Table::<FINE>::WEIGHTS[q] * phase_weight(x) * lagrange(&Self::Z, k, x);
+                    q += 1;
+                }
+                table[k][j] = sum / ends[j];
                 j += 1;
             }
             k += 1;
         }
         table
     }
-
-    const fn whole(z: &[f64; N]) -> [f64; N] {
-        let mut whole = [0.0; N];
-        let mut k = 0;
-        while k < N {
-            whole[k] = Self::integral(z, k, 1.0);
-            k += 1;
-        }
-        whole
-    }
 }
 
-impl_phase_nodes! {
-    4: [0.168_848_643_306_250_23, 0.400_478_437_938_044_4, 0.648_109_617_548_724_5, 0.858_882_474_005_624],
-    5: [
-        0.126_557_189_417_750_3, 0.310_043_870_426_936_04, 0.522_411_788_307_857, 0.727_305_133_842_193_1,
-        0.892_545_619_488_074_3
-    ],
-    6: [
-        0.098_160_669_059_215_35, 0.245_742_548_552_825_94, 0.425_618_808_246_569_9, 0.612_676_900_154_884_7,
-        0.782_853_661_600_094_8, 0.915_451_689_718_810_6
-    ],
-    7: [
-        0.078_252_305_111_601_93, 0.198_877_908_670_727_03, 0.351_242_977_929_878_6, 0.517_744_883_928_144,
-        0.680_563_644_311_726_4, 0.823_197_376_456_624, 0.931_744_552_722_608
-    ],
-    8: [
-        0.063_790_269_425_280_9, 0.163_890_160_193_141_99, 0.293_617_787_423_141_04, 0.440_415_820_055_981_7,
-        0.591_028_743_025_116_5, 0.732_568_378_965_366_8, 0.853_364_086_043_577_4, 0.943_746_098_565_475_6
-    ]
+const fn phase_weight(z: f64) -> f64 {
+    let m = 1.0 - z * z;
+    z * z * m * m
+}
+
+/// Square root by Newton's method, from above.
+const fn root(x: f64) -> f64 {
+    let (mut root, mut step) = (1.0 + x, 0);
+    while step < 60 {
+        root = 0.5 * (root + x / root);
+        step += 1;
+    }
+    root
+}
+
+/// Polynomials orthogonal under the weight of a phase: p_(n+1) = (z - a_n) p_n - b_n p_(n-1).
+struct Orthogonal<const N: usize> {
+    a: [f64; N],
+    b: [f64; N],
+}
+
+impl<const N: usize> Orthogonal<N> {
+    /// Stieltjes's procedure: the coefficients are ratios of integrals of p_n^2.
+    const fn new() -> Self {
+        const { assert!(N >= 3 && N <= 20, "a phase has three to twenty nodes") };
+        let (mut a, mut b) = ([0.0; N], [0.0; N]);
+        let (mut before, mut now) = ([0.0; FINE], [1.0; FINE]);
+        let (mut square_before, mut n) = (1.0, 0);
+        while n < N {
+            let (mut square, mut moment, mut q) = (0.0, 0.0, 0);
+            while q < FINE {
+                let part = Table::<FINE>::WEIGHTS[q] * phase_weight(Table::<FINE>::Z[q]) * now[q] * now[q];
+                square += part;
+                moment += part * Table::<FINE>::Z[q];
+                q += 1;
+            }
+            a[n] = moment / square;
+            b[n] = if n == 0 { 0.0 } else { square / square_before };
+            square_before = square;
+            q = 0;
+            while q < FINE {
+                let next = (Table::<FINE>::Z[q] - a[n]) * now[q] - b[n] * before[q];
+                before[q] = now[q];
+                now[q] = next;
+                q += 1;
+            }
+            n += 1;
+        }
+        Self { a, b }
+    }
+
+    const fn value(&self, degree: usize, z: f64) -> f64 {
+        let (mut last, mut value, mut n) = (0.0, 1.0, 0);
+        while n < degree {
+            (last, value) = (value, (z - self.a[n]) * value - self.b[n] * last);
+            n += 1;
+        }
+        value
+    }
+
+    /// Zeros of the polynomial of degree N; those of each degree lie between those of the one before.
+    const fn zeros(&self) -> [f64; N] {
+        let (mut zeros, mut degree) = ([1.0; N], 1);
+        while degree <= N {
+            let (below, mut j) = (zeros, 0);
+            while j < degree {
+                let mut low = if j == 0 { 0.0 } else { below[j - 1] };
+                let mut high = if j + 1 == degree { 1.0 } else { below[j] };
+                let rises = (degree - j) % 2 == 1;
+                let mut step = 0;
+                while step < 54 {
+                    let z = 0.5 * (low + high);
+                    if (self.value(degree, z) < 0.0) == rises {
+                        low = z;
+                    } else {
+                        high = z;
+                    }
+                    step += 1;
+                }
+                zeros[j] = 0.5 * (low + high);
+                j += 1;
+            }
+            degree += 1;
+        }
+        zeros
+    }
 }

@@ -2,13 +2,22 @@
 
 use super::law::NormalLaw;
 use super::nodes::Nodes;
-use super::stretch::{Stretch, dot};
+use super::stretch::Stretch;
 use crate::Real;
 
 /// Something that is integrated along the motion, one stretch after the other in the order of time.
 pub trait Observer<T: Real> {
     /// Whether it looks for the end of sliding.
     const EVENTS: bool = false;
+
+    /// Whether it wants to see the motion at all.
+    const OBSERVES: bool = true;
+
+    /// Whether the time that a stretch takes has to meet the tolerance too.
+    const TIMED: bool = false;
+
+    /// Whether a captured sphere is to be followed until it first turns back, and not only until it cannot escape.
+    const TO_TURNING_POINT: bool = true;
 
     /// Adds a stretch.
     fn observe<const N: usize>(&mut self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>, rebound: bool)
@@ -33,13 +42,29 @@ pub trait Observer<T: Real> {
         T::ZERO
     }
 
-    /// The sphere rolls from here on; it began `before` this moment.
+    /// Adds a stretch in which the sphere begins to roll: `before` is its part up to there, but for a time `late` by which that
+    /// part ends too late, and `after` makes the rest.
     #[inline]
-    fn roll(&mut self, _before: T) {}
+    fn observe_rolling<const N: usize>(
+        &mut self,
+        law: &impl NormalLaw<T>,
+        whole: &Stretch<T, N>,
+        _before: &Stretch<T, N>,
+        _late: T,
+        _after: &mut dyn FnMut() -> Stretch<T, N>,
+        rebound: bool,
+    ) where
+        T: Nodes<N>,
+    {
+        self.observe(law, whole, rebound);
+    }
 }
 
 /// Nothing besides the end.
 impl<T: Real> Observer<T> for () {
+    const OBSERVES: bool = false;
+    const TO_TURNING_POINT: bool = false;
+
     #[inline]
     fn observe<const N: usize>(&mut self, _law: &impl NormalLaw<T>, _stretch: &Stretch<T, N>, _rebound: bool)
     where
@@ -50,6 +75,9 @@ impl<T: Real> Observer<T> for () {
 
 impl<T: Real, A: Observer<T>, B: Observer<T>> Observer<T> for (A, B) {
     const EVENTS: bool = A::EVENTS || B::EVENTS;
+    const OBSERVES: bool = A::OBSERVES || B::OBSERVES;
+    const TIMED: bool = A::TIMED || B::TIMED;
+    const TO_TURNING_POINT: bool = A::TO_TURNING_POINT || B::TO_TURNING_POINT;
 
     #[inline]
     fn observe<const N: usize>(&mut self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>, rebound: bool)
@@ -77,93 +105,18 @@ impl<T: Real, A: Observer<T>, B: Observer<T>> Observer<T> for (A, B) {
     }
 
     #[inline]
-    fn roll(&mut self, before: T) {
-        self.0.roll(before);
-        self.1.roll(before);
-    }
-}
-
-/// Times of peak and separation, in units of the scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Times<T> {
-    pub(super) now: T,
-    pub(super) peak: T,
-}
-
-impl<T: Real> Times<T> {
-    pub(super) fn new() -> Self {
-        Self { now: T::ZERO, peak: T::ZERO }
-    }
-}
-
-impl<T: Real> Observer<T> for Times<T> {
-    #[inline]
-    fn observe<const N: usize>(&mut self, _law: &impl NormalLaw<T>, stretch: &Stretch<T, N>, rebound: bool)
-    where
+    fn observe_rolling<const N: usize>(
+        &mut self,
+        law: &impl NormalLaw<T>,
+        whole: &Stretch<T, N>,
+        before: &Stretch<T, N>,
+        late: T,
+        after: &mut dyn FnMut() -> Stretch<T, N>,
+        rebound: bool,
+    ) where
         T: Nodes<N>,
     {
-        self.now = self.now + dot(&T::WHOLE, &stretch.rate);
-        if !rebound {
-            self.peak = self.now;
-        }
-    }
-}
-
-/// Impulses of the elastic force and of adhesion on rebound, in units of the scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Impulses<T> {
-    pub(super) elastic: T,
-    pub(super) adhesion_rebound: T,
-}
-
-impl<T: Real> Impulses<T> {
-    pub(super) fn new() -> Self {
-        Self { elastic: T::ZERO, adhesion_rebound: T::ZERO }
-    }
-}
-
-impl<T: Real> Observer<T> for Impulses<T> {
-    #[inline]
-    fn observe<const N: usize>(&mut self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>, rebound: bool)
-    where
-        T: Nodes<N>,
-    {
-        for ((&s, &y), (&rate, &weight)) in stretch.s.iter().zip(&stretch.y).zip(stretch.rate.iter().zip(&T::WHOLE)) {
-            let duration = weight * rate;
-            self.elastic = self.elastic + duration * law.elastic_force(s);
-            if rebound {
-                let force = law.adhesion_force(s) + law.adhesion_damping(s) * y;
-                self.adhesion_rebound = self.adhesion_rebound + duration * force;
-            }
-        }
-    }
-}
-
-/// Works of the two kinds of damping, in units of the scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Works<T> {
-    pub(super) material: T,
-    pub(super) adhesion: T,
-}
-
-impl<T: Real> Works<T> {
-    pub(super) fn new() -> Self {
-        Self { material: T::ZERO, adhesion: T::ZERO }
-    }
-}
-
-impl<T: Real> Observer<T> for Works<T> {
-    #[inline]
-    fn observe<const N: usize>(&mut self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>, rebound: bool)
-    where
-        T: Nodes<N>,
-    {
-        for ((&s, &y), (&rate, &weight)) in stretch.s.iter().zip(&stretch.y).zip(stretch.rate.iter().zip(&T::WHOLE)) {
-            let square = weight * rate * y * y;
-            self.material = self.material + square * law.material_damping(s);
-            if rebound {
-                self.adhesion = self.adhesion + square * law.adhesion_damping(s);
-            }
-        }
+        self.0.observe_rolling(law, whole, before, late, after, rebound);
+        self.1.observe_rolling(law, whole, before, late, after, rebound);
     }
 }

@@ -3,10 +3,10 @@
 use core::f64::consts::PI;
 
 use super::SimulatedImpact;
-use super::motion::{End, MOST_STRETCHES, NormalPath};
-use super::observer::{Impulses, Observer, Times, Works};
+use super::motion::{End, NormalPath};
+use super::run::Status;
 use super::scaled::Scaled;
-use super::tangential::{SpinDamping, TangentialMotion};
+use super::tangential::{SpinDamping, SurfaceImpulse, TangentialMotion};
 use crate::rigid::EnergyLedger;
 use crate::{Class, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
 
@@ -27,7 +27,7 @@ use crate::{Class, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalContact<T> {
     status: Status,
-    outcome: Outcome,
+    outcome: Option<Outcome>,
     approach: T,
     restitution_squared: T,
     peak_indentation: Option<T>,
@@ -44,10 +44,14 @@ impl<T: Real> NormalContact<T> {
         stiffness: Stiffness<T>,
         units: &Scaled<T>,
     ) -> Self {
-        let outcome = if path.end == End::Separation { Outcome::Rebound } else { Outcome::Capture };
+        let outcome = match path.end {
+            End::Separation => Some(Outcome::Rebound),
+            End::Capture => Some(Outcome::Capture),
+            End::Budget => None,
+        };
         let restitution_squared = match outcome {
-            Outcome::Rebound => path.energy.max(T::ZERO) / units.energy,
-            Outcome::Capture => T::ZERO,
+            Some(Outcome::Rebound) => path.energy.max(T::ZERO) / units.energy,
+            Some(Outcome::Capture) | None => T::ZERO,
         };
         let indentation = |s: T| (s > T::ZERO).then(|| units.length * s * s);
         Self {
@@ -78,7 +82,7 @@ impl<T: Real> NormalContact<T> {
         self.status
     }
 
-    /// Rebound or capture; not to be relied on unless the [`status`](Self::status) is that of a solution.
+    /// Rebound or capture; `None` where the method has not come to a solution.
     ///
     /// ```
     /// use microimpact::simulation::{Collocation, Simulation};
@@ -86,15 +90,15 @@ impl<T: Real> NormalContact<T> {
     ///
     /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
     /// let method = Collocation::<7, f64>::new(1e-6)?;
-    /// assert_eq!(scene.normal_impact(&method, &NormalMotion::new(1.0)?)?.outcome(), Outcome::Rebound);
+    /// assert_eq!(scene.normal_impact(&method, &NormalMotion::new(1.0)?)?.outcome(), Some(Outcome::Rebound));
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     #[inline]
-    pub fn outcome(&self) -> Outcome {
+    pub fn outcome(&self) -> Option<Outcome> {
         self.outcome
     }
 
-    /// Overall restitution e; zero for a capture.
+    /// Overall restitution e; zero for a capture and where there is no solution.
     ///
     /// ```
     /// use microimpact::simulation::{Collocation, Simulation};
@@ -111,7 +115,7 @@ impl<T: Real> NormalContact<T> {
         self.restitution_squared.sqrt()
     }
 
-    /// Rebound speed V_n, m/s; zero for a capture.
+    /// Rebound speed V_n, m/s; zero for a capture and where there is no solution.
     ///
     /// ```
     /// use microimpact::simulation::{Collocation, Simulation};
@@ -200,217 +204,6 @@ impl<T: Real> NormalContact<T> {
     }
 }
 
-/// Something that a simulation can be asked for besides how it ends; chosen by its type, and absent where not named.
-///
-/// ```
-/// use microimpact::simulation::{ContactTimes, Output};
-///
-/// assert!(<(ContactTimes<f64>, ()) as Output<f64>>::TIMED);
-/// ```
-pub trait Output<T: Real>: Sized {
-    /// Whether the time that a stretch takes has to meet the tolerance too.
-    const TIMED: bool;
-    /// What is integrated along the motion.
-    type Observer: Observer<T>;
-
-    /// The state at first touch.
-    fn begin() -> Self::Observer;
-
-    /// The output in SI units.
-    fn finish(observer: Self::Observer, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self;
-}
-
-impl<T: Real> Output<T> for () {
-    const TIMED: bool = false;
-    type Observer = ();
-
-    fn begin() {}
-
-    fn finish((): (), _path: &NormalPath<T>, _sphere: &Sphere<T>, _units: &Scaled<T>) {}
-}
-
-impl<T: Real, A: Output<T>, B: Output<T>> Output<T> for (A, B) {
-    const TIMED: bool = A::TIMED || B::TIMED;
-    type Observer = (A::Observer, B::Observer);
-
-    fn begin() -> Self::Observer {
-        (A::begin(), B::begin())
-    }
-
-    fn finish((a, b): Self::Observer, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
-        (A::finish(a, path, sphere, units), B::finish(b, path, sphere, units))
-    }
-}
-
-/// All outputs of a simulation.
-///
-/// ```
-/// use microimpact::simulation::{Collocation, Everything, Simulation};
-/// use microimpact::{NormalMotion, Sphere, Stiffness};
-///
-/// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
-/// let Everything { times, impulses, works } =
-///     scene.impact(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(1.0)?)?.outputs;
-/// assert!(times.contact.is_some() && impulses.elastic > 0.0 && works.material > 0.0);
-/// # Ok::<(), microimpact::InputError>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Everything<T> {
-    /// When the peak and the separation came.
-    pub times: ContactTimes<T>,
-    /// Impulses of the elastic force and of adhesion.
-    pub impulses: ContactImpulses<T>,
-    /// Works of the two kinds of damping.
-    pub works: ContactWorks<T>,
-}
-
-impl<T: Real> Output<T> for Everything<T> {
-    const TIMED: bool = true;
-    type Observer = (Times<T>, (Impulses<T>, Works<T>));
-
-    fn begin() -> Self::Observer {
-        (Times::new(), (Impulses::new(), Works::new()))
-    }
-
-    fn finish(observer: Self::Observer, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
-        let (times, (impulses, works)) = observer;
-        Self {
-            times: Output::finish(times, path, sphere, units),
-            impulses: Output::finish(impulses, path, sphere, units),
-            works: Output::finish(works, path, sphere, units),
-        }
-    }
-}
-
-/// Times of a simulated impact, s, from first touch.
-///
-/// ```
-/// use microimpact::simulation::{Collocation, Simulation};
-/// use microimpact::{Hertz, NormalMotion, Sphere, Stiffness};
-///
-/// let (sphere, stiffness) = (Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
-/// let motion = NormalMotion::new(1.0)?;
-/// let times = Simulation::new(sphere, stiffness).impact(&Collocation::<9, f64>::new(1e-9)?, &motion)?.outputs.times;
-/// assert!((times.contact.unwrap() / Hertz::new(&sphere, stiffness, &motion).duration - 1.0).abs() < 1e-7);
-/// assert!((times.peak.unwrap() / times.contact.unwrap() - 0.5).abs() < 1e-7);
-/// # Ok::<(), microimpact::InputError>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ContactTimes<T> {
-    /// Time of the peak; `None` where there is none.
-    pub peak: Option<T>,
-    /// Time of separation; `None` for a capture.
-    pub contact: Option<T>,
-}
-
-impl<T: Real> Output<T> for ContactTimes<T> {
-    const TIMED: bool = true;
-    type Observer = Times<T>;
-
-    fn begin() -> Times<T> {
-        Times::new()
-    }
-
-    fn finish(times: Times<T>, path: &NormalPath<T>, _sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
-        Self::new(&times, path, units)
-    }
-}
-
-impl<T: Real> ContactTimes<T> {
-    pub(super) fn new(times: &Times<T>, path: &NormalPath<T>, units: &Scaled<T>) -> Self {
-        let unit = units.time();
-        Self {
-            peak: (path.peak > T::ZERO).then(|| times.peak * unit),
-            contact: (path.end == End::Separation).then(|| times.now * unit),
-        }
-    }
-}
-
-/// Normal impulses of a simulated impact, N s.
-///
-/// ```
-/// use microimpact::simulation::{Collocation, Simulation};
-/// use microimpact::{NormalMotion, Sphere, Stiffness};
-///
-/// // Without adhesion and damping the elastic force reverses the momentum.
-/// let sphere = Sphere::solid(1e-6, 1000.0)?;
-/// let scene = Simulation::new(sphere, Stiffness::new(1e10)?);
-/// let impulses = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(1.0)?)?.outputs.impulses;
-/// assert!((impulses.elastic / (2.0 * sphere.mass()) - 1.0).abs() < 1e-8);
-/// assert_eq!(impulses.adhesion_rebound, 0.0);
-/// # Ok::<(), microimpact::InputError>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ContactImpulses<T> {
-    /// Integral of the elastic force sqrt(r) K delta^(3/2).
-    pub elastic: T,
-    /// Size of the impulse of adhesion on rebound, its damping included.
-    pub adhesion_rebound: T,
-}
-
-impl<T: Real> Output<T> for ContactImpulses<T> {
-    const TIMED: bool = true;
-    type Observer = Impulses<T>;
-
-    fn begin() -> Impulses<T> {
-        Impulses::new()
-    }
-
-    fn finish(impulses: Impulses<T>, _path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
-        Self::new(&impulses, sphere, units)
-    }
-}
-
-impl<T: Real> ContactImpulses<T> {
-    pub(super) fn new(impulses: &Impulses<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
-        let unit = sphere.mass() * units.speed;
-        Self { elastic: impulses.elastic * unit, adhesion_rebound: impulses.adhesion_rebound * unit }
-    }
-}
-
-/// Energies that the two kinds of damping take from the normal motion, J.
-///
-/// ```
-/// use microimpact::simulation::{Collocation, Simulation};
-/// use microimpact::{NormalMotion, Sphere, Stiffness};
-///
-/// let sphere = Sphere::solid(5.06e-6, 2600.0)?;
-/// let scene = Simulation::new(sphere, Stiffness::new(7.5e10)?).with_damping(10.5)?.with_ring(250.0, 6.25)?;
-/// let impact = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(2.8)?)?;
-/// let e = impact.normal.overall_restitution();
-/// let lost = 0.5 * sphere.mass() * 2.8 * 2.8 * (1.0 - e * e);
-/// assert!(((impact.outputs.works.material + impact.outputs.works.adhesion) / lost - 1.0).abs() < 1e-8);
-/// # Ok::<(), microimpact::InputError>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ContactWorks<T> {
-    /// Lost to the damping in the materials.
-    pub material: T,
-    /// Lost to the damping of adhesion.
-    pub adhesion: T,
-}
-
-impl<T: Real> Output<T> for ContactWorks<T> {
-    const TIMED: bool = false;
-    type Observer = Works<T>;
-
-    fn begin() -> Works<T> {
-        Works::new()
-    }
-
-    fn finish(works: Works<T>, _path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
-        Self::new(&works, sphere, units)
-    }
-}
-
-impl<T: Real> ContactWorks<T> {
-    pub(super) fn new(works: &Works<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
-        // In this order no factor leaves the range of single precision.
-        let energy = |work: T| sphere.mass() * units.speed * (units.speed * work);
-        Self { material: energy(works.material), adhesion: energy(works.adhesion) }
-    }
-}
-
 /// The tangential side of a simulated impact, at separation or where a captured sphere was left.
 ///
 /// ```
@@ -428,6 +221,8 @@ impl<T: Real> ContactWorks<T> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TangentialContact<T> {
     motion: SurfaceMotion,
+    /// Whether nothing moves any more.
+    resting: bool,
     velocity: T,
     spin: T,
     rotation: T,
@@ -440,12 +235,14 @@ pub struct TangentialContact<T> {
 impl<T: Real> TangentialContact<T> {
     pub(super) fn new<P: SpinDamping<T>>(
         motion: &TangentialMotion<T, P>,
+        path: &NormalPath<T>,
         sphere: &Sphere<T>,
         units: &Scaled<T>,
     ) -> Self {
         let energies = [motion.energy(), motion.friction_loss, motion.peeling_loss];
         Self {
-            motion: if motion.slides() { SurfaceMotion::Sliding } else { SurfaceMotion::Rolling },
+            motion: surface_motion(motion.slides(), false),
+            resting: path.end == End::Capture && motion.rests(),
             velocity: motion.tangential * units.speed,
             spin: motion.peripheral * units.speed / sphere.radius(),
             rotation: motion.rotation * (units.length / sphere.radius()),
@@ -455,7 +252,7 @@ impl<T: Real> TangentialContact<T> {
         }
     }
 
-    /// Whether the sphere slides or rolls.
+    /// Whether the contact point slips or the sphere rolls, if only with no speed at all.
     ///
     /// ```
     /// use microimpact::simulation::{Collocation, Simulation};
@@ -574,8 +371,81 @@ impl<T: Real> TangentialContact<T> {
     }
 }
 
-impl<T: Real, O> SimulatedImpact<T, TangentialContact<T>, O> {
-    /// Outcome and motion along the surface in one word; of a captured sphere, where it first turns back.
+/// Velocities along the surface at separation, where no more is asked for; of a captured sphere when its slip has ended,
+/// as the surface goes on to press on it.
+///
+/// ```
+/// use microimpact::simulation::{FixedCost, SimulatedImpact, Simulation, TangentialVelocities};
+/// use microimpact::{NormalMotion, Sphere, Stiffness, SurfaceMotion};
+///
+/// // Sliding throughout: friction turns f times the normal impulse against the motion.
+/// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_friction(0.1)?;
+/// let method = FixedCost::<7>::new(3)?.with_outputs::<10>();
+/// let impact: SimulatedImpact<_, TangentialVelocities<f64>, ()> =
+///     scene.observe(&method, &NormalMotion::new(1.0)?.with_tangential(5.0)?)?;
+/// assert_eq!(impact.tangential.motion, SurfaceMotion::Sliding);
+/// assert!((impact.tangential.velocity - 4.8).abs() < 1e-5);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TangentialVelocities<T> {
+    /// Whether the sphere slides, rolls or, captured, rests.
+    pub motion: SurfaceMotion,
+    /// Tangential velocity V_t, m/s.
+    pub velocity: T,
+    /// Spin W, rad/s.
+    pub spin: T,
+}
+
+impl<T: Real> TangentialVelocities<T> {
+    pub(super) fn new(motion: &SurfaceImpulse<T>, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
+        let captured = path.end == End::Capture;
+        let (sliding, [velocity, peripheral]) = motion.after(captured);
+        Self {
+            motion: surface_motion(sliding, captured && motion.rests()),
+            velocity: velocity * units.speed,
+            spin: peripheral * units.speed / sphere.radius(),
+        }
+    }
+}
+
+/// How the contact point moves.
+fn surface_motion(sliding: bool, resting: bool) -> SurfaceMotion {
+    match (sliding, resting) {
+        (true, _) => SurfaceMotion::Sliding,
+        (false, true) => SurfaceMotion::Resting,
+        (false, false) => SurfaceMotion::Rolling,
+    }
+}
+
+/// The result of a tangential side: how the contact point moves.
+///
+/// ```
+/// use microimpact::simulation::{SurfaceState, TangentialVelocities};
+/// use microimpact::SurfaceMotion;
+///
+/// let slow = TangentialVelocities { motion: SurfaceMotion::Rolling, velocity: 1e-3, spin: 1e3 };
+/// assert_eq!(SurfaceState::surface_motion(&slow), SurfaceMotion::Rolling);
+/// ```
+pub trait SurfaceState {
+    /// Sliding, rolling or resting.
+    fn surface_motion(&self) -> SurfaceMotion;
+}
+
+impl<T> SurfaceState for TangentialContact<T> {
+    fn surface_motion(&self) -> SurfaceMotion {
+        if self.resting { SurfaceMotion::Resting } else { self.motion }
+    }
+}
+
+impl<T> SurfaceState for TangentialVelocities<T> {
+    fn surface_motion(&self) -> SurfaceMotion {
+        self.motion
+    }
+}
+
+impl<T: Real, G: SurfaceState, O> SimulatedImpact<T, G, O> {
+    /// Outcome and motion along the surface in one word; `None` where the method has not come to a solution.
     ///
     /// ```
     /// use microimpact::simulation::{Collocation, Simulation};
@@ -586,25 +456,20 @@ impl<T: Real, O> SimulatedImpact<T, TangentialContact<T>, O> {
     ///     .with_ring(250.0, 6.25)?
     ///     .with_friction(0.1)?;
     /// let class = |v_n, v_t| Ok(scene.impact(&Collocation::<7, f64>::new(1e-6)?, &NormalMotion::new(v_n)?.with_tangential(v_t)?)?.class());
-    /// assert_eq!(class(8.0, 1.0), Ok::<_, microimpact::InputError>(Class::ReboundRolling));
-    /// assert_eq!(class(8.0, 90.0), Ok(Class::ReboundSliding));
-    /// assert_eq!(class(5.0, 1.0), Ok(Class::CapturedRolling));
-    /// assert_eq!(class(5.0, 0.0), Ok(Class::CapturedResting));
+    /// assert_eq!(class(8.0, 1.0), Ok::<_, microimpact::InputError>(Some(Class::ReboundRolling)));
+    /// assert_eq!(class(8.0, 90.0), Ok(Some(Class::ReboundSliding)));
+    /// assert_eq!(class(5.0, 1.0), Ok(Some(Class::CapturedRolling)));
+    /// assert_eq!(class(5.0, 0.0), Ok(Some(Class::CapturedResting)));
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn class(&self) -> Class {
-        match (self.normal.outcome, self.tangential.motion) {
-            (Outcome::Rebound, SurfaceMotion::Sliding) => Class::ReboundSliding,
-            (Outcome::Rebound, _) => Class::ReboundRolling,
-            (Outcome::Capture, SurfaceMotion::Sliding) => Class::CapturedSliding,
-            (Outcome::Capture, _) if self.tangential.velocity == T::ZERO => Class::CapturedResting,
-            (Outcome::Capture, _) => Class::CapturedRolling,
-        }
+    pub fn class(&self) -> Option<Class> {
+        self.normal.outcome.map(|outcome| Class::of(outcome, self.tangential.surface_motion()))
     }
 }
 
 impl<T: Real> SimulatedImpact<T, TangentialContact<T>> {
-    /// Where the kinetic energy went; `None` for a captured sphere, which has not yet come to rest.
+    /// Where the kinetic energy went; `None` for a captured sphere, which has not yet come to rest, and where there is no
+    /// solution.
     ///
     /// The works of damping are integrals of their own, so what the losses lack in sum shows the error of the run. The
     /// external force is conservative and gives back what it takes.
@@ -626,7 +491,7 @@ impl<T: Real> SimulatedImpact<T, TangentialContact<T>> {
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn energy(&self, sphere: &Sphere<T>) -> Option<EnergyLedger<T>> {
-        if self.normal.outcome == Outcome::Capture {
+        if self.normal.outcome != Some(Outcome::Rebound) {
             return None;
         }
         let joules = |energy: T| sphere.mass() * energy;
@@ -641,75 +506,5 @@ impl<T: Real> SimulatedImpact<T, TangentialContact<T>> {
             rolling: joules(peeling),
             external: T::ZERO,
         })
-    }
-}
-
-/// Whether a run came to its end.
-///
-/// ```
-/// use microimpact::simulation::{Collocation, Simulation, Status};
-/// use microimpact::{NormalMotion, Sphere, Stiffness};
-///
-/// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
-/// let impact = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(1.0)?)?;
-/// assert_eq!(impact.run.status, Status::Solved);
-/// # Ok::<(), microimpact::InputError>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Status {
-    /// The motion was followed to its end within the tolerance.
-    Solved,
-    /// The number of stretches was spent; the result is not to be relied on.
-    BudgetSpent,
-}
-
-impl Status {
-    fn of<T>(path: &NormalPath<T>) -> Self {
-        if path.end == End::Budget { Self::BudgetSpent } else { Self::Solved }
-    }
-}
-
-/// What a run took.
-///
-/// ```
-/// use microimpact::simulation::{Collocation, RunReport, Simulation};
-/// use microimpact::{NormalMotion, Sphere, Stiffness};
-///
-/// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(10.0)?;
-/// let run: RunReport<f64> = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(1.0)?)?.run;
-/// assert!(run.stretches + run.refused <= RunReport::<f64>::MOST_STRETCHES);
-/// assert!(run.estimated_error <= 1e-9);
-/// # Ok::<(), microimpact::InputError>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RunReport<T> {
-    /// Whether the run came to its end.
-    pub status: Status,
-    /// Stretches that the motion was divided into.
-    pub stretches: u32,
-    /// Stretches that were tried and refused.
-    pub refused: u32,
-    /// Sweeps over the nodes of a stretch, in total.
-    pub sweeps: u32,
-    /// Largest estimated error of a stretch, over the energy there.
-    pub estimated_error: T,
-}
-
-impl<T: Real> RunReport<T> {
-    /// Stretches after which a run gives up.
-    ///
-    /// ```
-    /// assert!(microimpact::simulation::RunReport::<f32>::MOST_STRETCHES < 1000);
-    /// ```
-    pub const MOST_STRETCHES: u32 = MOST_STRETCHES;
-
-    pub(super) fn new(path: &NormalPath<T>) -> Self {
-        Self {
-            status: Status::of(path),
-            stretches: path.effort.stretches,
-            refused: path.effort.refused,
-            sweeps: path.effort.sweeps,
-            estimated_error: path.effort.error,
-        }
     }
 }

@@ -1,6 +1,7 @@
 //! Adhesion as a ring force around the contact.
 
 use super::law::Attraction;
+use super::nodes::Share;
 use crate::{InputError, Parameter, Real};
 
 /// The ring force 2 pi f0 a of the paper, with the damping factor 1 - c_A delta' on rebound (B6), c_A = zeta_A C (B5).
@@ -76,8 +77,13 @@ impl<T: Real> Attraction<T> for ScaledRing<T> {
     }
 
     #[inline]
-    fn damping_over_radius(&self, _s: T) -> T {
-        T::constant(0.75) * self.damping * self.strength
+    fn fall(&self, peak: T, share: &Share<T>) -> T {
+        T::constant(0.5) * self.strength * peak * peak * peak * share.cubic
+    }
+
+    #[inline]
+    fn loss_over_square(&self, peak: T, _share: &Share<T>) -> T {
+        T::constant(1.5) * self.damping * self.strength * peak * peak
     }
 
     #[inline]

@@ -112,15 +112,15 @@ impl<T: Real> Scaled<T> {
 
 /// Contact radius a of the undamped peak over that of Hertz's impact: the root of a^5 - p a^3 = 1.
 fn peak_contact_radius<T: Real>(p: T) -> T {
-    // As a^2 = p + a^-3, from a value that is right to first order for small p and in the limit of large p.
-    let q = T::ONE / (T::ONE + T::constant(0.42) * p);
-    let mut a = (p + q * q.sqrt()).sqrt();
+    // As a^2 = p + a^-3, from a value that is right to 1e-3 for every p.
+    let mut a = (p + T::ONE / (T::ONE + p * (T::constant(0.58) + T::constant(0.315) * p))).sqrt();
     for _ in 0..4 {
         let inverse = T::ONE / a;
         let cube = inverse * inverse * inverse;
         let step = (a * a - p - cube) / (a + a + T::constant(3.0) * cube * inverse);
         a = a - step;
-        if step.abs() <= T::EPSILON * a {
+        // What is left of the error is less than the square of the step.
+        if step * step <= T::EPSILON * (a * a) {
             break;
         }
     }

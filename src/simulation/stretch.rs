@@ -78,7 +78,8 @@ pub(super) fn dot<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
 }
 
 /// Integrals from zero to each node.
-#[inline]
+// Inlined into a loop, the whole table would be copied to the stack first.
+#[inline(never)]
 pub(super) fn integrals<T: Real, const N: usize>(table: &[[T; N]; N], f: &[T; N]) -> [T; N] {
     let mut sums = [T::ZERO; N];
     for k in 0..N {
@@ -101,6 +102,9 @@ struct Sweeps<T, const N: usize> {
     change: T,
     sweeps: u32,
 }
+
+/// By how much, squared, the next change may be larger than the last two let expect.
+const SURPRISE: f64 = 100.0;
 
 /// Sweeps that a stretch may take.
 const MOST_SWEEPS: u32 = 20;
@@ -141,7 +145,7 @@ impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
     #[inline]
     fn settles(&mut self, change: T, control: &Control<T>) -> Progress {
         let enough = control.settled * control.settled;
-        if change <= enough || (self.sweeps > 1 && change * change <= enough * self.change) {
+        if change <= enough || (self.sweeps > 1 && T::constant(SURPRISE) * change * change <= enough * self.change) {
             return Progress::Settled;
         }
         if change < T::constant(4.0) * self.change && self.sweeps < MOST_SWEEPS {
@@ -167,12 +171,20 @@ impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
     #[inline]
     fn error(&self, scale: T, rate: &[T; N], control: &Control<T>) -> T {
         let tail = |f: &[T; N]| dot(&T::TAIL, f).abs();
-        let mut share = tail(&self.power) / (dot(&T::WHOLE, &self.power).abs() + scale + T::SMALLEST);
-        if control.timed {
-            share = share.max(tail(rate) / (dot(&T::WHOLE, rate).abs() + T::SMALLEST));
-        }
+        let share = tail(&self.power) / (dot(&T::WHOLE, &self.power).abs() + scale + T::SMALLEST);
+        // Energies feel little of what makes the time inexact, the slow end of the motion.
+        let weight = if control.timed { T::ONE } else { T::constant(0.1) };
+        let share = share.max(weight * tail_of_times(rate));
         T::constant(0.02) * share * share
     }
+}
+
+/// What the nodes cannot represent of the times for each dz, as a share of them.
+#[inline]
+pub(super) fn tail_of_times<T: Nodes<N>, const N: usize>(rate: &[T; N]) -> T {
+    // The highest share alone may vanish by chance.
+    let before = T::constant(0.3) * dot(&T::LEGENDRE[N - 2], rate).abs();
+    dot(&T::TAIL, rate).abs().max(before) / (dot(&T::WHOLE, rate).abs() + T::SMALLEST)
 }
 
 enum Progress {
@@ -340,6 +352,7 @@ pub(super) fn arrive<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
         if (depth > T::ZERO) != inwards || turning <= T::ZERO {
             break;
         }
+
         match state.settles(change + step * step, control) {
             Progress::Settled => {
                 accepted = true;

@@ -10,10 +10,12 @@
 // Indices run over arrays of the length that their loops count to.
 #![allow(clippy::indexing_slicing, clippy::needless_range_loop)]
 
+use super::integrals::{Integrals, Quantities, observe_by_integrals};
 use super::law::NormalLaw;
+use super::motion::NormalPath;
 use super::nodes::Nodes;
 use super::observer::Observer;
-use super::outcome::TangentialContact;
+use super::outcome::{TangentialContact, TangentialVelocities};
 use super::ring::Ring;
 use super::scaled::Scaled;
 use super::stretch::{Stretch, dot, integrals};
@@ -104,6 +106,30 @@ pub struct TangentialMotion<T, P> {
     pub(super) direction: T,
     now: T,
     pub(super) rolls_from: Option<T>,
+    /// Speed below which rolling is nothing but rounding.
+    rounding: T,
+}
+
+/// Direction of a slip: its sign, or zero.
+fn direction<T: Real>(slip: T) -> T {
+    if slip > T::ZERO {
+        T::ONE
+    } else if slip < T::ZERO {
+        -T::ONE
+    } else {
+        T::ZERO
+    }
+}
+
+/// Velocity of a sphere that rolls with the angular momentum about its contact point of two velocities.
+#[inline]
+fn rolling<T: Real>(tangential: T, peripheral: T, gyration_ratio: T) -> T {
+    (tangential + gyration_ratio * peripheral) / (T::ONE + gyration_ratio)
+}
+
+/// Speed that is nothing but the rounding of [`rolling`].
+fn rounding<T: Real>(tangential: T, peripheral: T, gyration_ratio: T) -> T {
+    T::constant(8.0) * T::EPSILON * rolling(tangential.abs(), peripheral.abs(), gyration_ratio)
 }
 
 /// Velocities at the nodes of a stretch and at its end in time.
@@ -117,20 +143,14 @@ struct Slide<T, const N: usize> {
 impl<T: Real, P: SpinDamping<T>> TangentialMotion<T, P> {
     /// The motion before contact, with velocities divided by `unit`.
     pub(super) fn new(motion: &impl Oblique<T>, unit: T, friction: T, gyration_ratio: T, peeling: P) -> Self {
-        let slip = motion.slip();
-        let direction = if slip > T::ZERO {
-            T::ONE
-        } else if slip < T::ZERO {
-            -T::ONE
-        } else {
-            T::ZERO
-        };
+        let direction = direction(motion.slip());
+        let (tangential, peripheral) = (motion.tangential() / unit, motion.peripheral() / unit);
         Self {
             friction,
             gyration_ratio,
             peeling,
-            tangential: motion.tangential() / unit,
-            peripheral: motion.peripheral() / unit,
+            tangential,
+            peripheral,
             displacement: T::ZERO,
             rotation: T::ZERO,
             friction_loss: T::ZERO,
@@ -138,7 +158,13 @@ impl<T: Real, P: SpinDamping<T>> TangentialMotion<T, P> {
             direction,
             now: T::ZERO,
             rolls_from: (direction == T::ZERO).then_some(T::ZERO),
+            rounding: rounding(tangential, peripheral, gyration_ratio),
         }
+    }
+
+    /// Whether it rolls with no more than a speed of rounding.
+    pub(super) fn rests(&self) -> bool {
+        !self.slides() && self.tangential.abs() <= self.rounding
     }
 
     pub(super) fn slides(&self) -> bool {
@@ -162,6 +188,40 @@ impl<T: Real, P: SpinDamping<T>> TangentialMotion<T, P> {
             peeled = peeled + T::WHOLE[j] * stretch.rate[j] * stretch.s[j] * u * u;
         }
         self.gyration_ratio * self.peeling.rate() * peeled
+    }
+
+    /// The sphere rolls from here on; it began `before` this moment.
+    pub(super) fn roll(&mut self, before: T) {
+        self.direction = T::ZERO;
+        self.rolls_from = Some(self.now + before);
+        self.tangential = rolling(self.tangential, self.peripheral, self.gyration_ratio);
+        self.peripheral = self.tangential;
+    }
+
+    /// The way that the sphere rolls in a time, without a peeling moment.
+    fn pass_rolling(&mut self, duration: T) {
+        let way = duration * self.tangential;
+        self.now = self.now + duration;
+        self.displacement = self.displacement + way;
+        self.rotation = self.rotation + way;
+    }
+
+    /// By how much an impulse changes the slip.
+    #[inline]
+    fn closing(&self) -> T {
+        self.friction * (T::ONE + T::ONE / self.gyration_ratio)
+    }
+
+    /// Slip after a stretch of sliding in its first direction, without a peeling moment.
+    fn slip_after<const N: usize>(&self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>) -> T
+    where
+        T: Nodes<N>,
+    {
+        let mut impulse = T::ZERO;
+        for j in 0..N {
+            impulse = impulse + T::WHOLE[j] * law.elastic_force(stretch.s[j]) * stretch.rate[j];
+        }
+        self.slip() - self.closing() * impulse
     }
 
     /// Slip in its first direction.
@@ -235,6 +295,7 @@ impl<T: Real, P: SpinDamping<T>> TangentialMotion<T, P> {
 
 impl<T: Real, P: SpinDamping<T>> Observer<T> for TangentialMotion<T, P> {
     const EVENTS: bool = true;
+    const TIMED: bool = true;
 
     #[inline]
     fn observe<const N: usize>(&mut self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>, _rebound: bool)
@@ -242,6 +303,9 @@ impl<T: Real, P: SpinDamping<T>> Observer<T> for TangentialMotion<T, P> {
         T: Nodes<N>,
     {
         let duration = dot(&T::WHOLE, &stretch.rate);
+        if !self.slides() && !P::PRESENT {
+            return self.pass_rolling(duration);
+        }
         self.now = self.now + duration;
         if self.slides() {
             let slide = self.slide(law, stretch);
@@ -258,21 +322,18 @@ impl<T: Real, P: SpinDamping<T>> Observer<T> for TangentialMotion<T, P> {
             self.friction_loss = self.friction_loss + (energy - self.energy() - peeled);
             return;
         }
-        let mut way = duration * self.tangential;
-        if P::PRESENT {
-            let share = self.gyration_ratio / (T::ONE + self.gyration_ratio);
-            let (decay, whole_decay) = self.decay(stretch, share);
-            let mut left = T::ZERO;
-            for j in 0..N {
-                left = left + T::WHOLE[j] * stretch.rate[j] * (-decay[j]).exp();
-            }
-            way = left * self.tangential;
-            let energy = self.energy();
-            self.tangential = self.tangential * (-whole_decay).exp();
-            self.peripheral = self.tangential;
-            // Rolling, friction only passes the moment on.
-            self.peeling_loss = self.peeling_loss + (energy - self.energy());
+        let share = self.gyration_ratio / (T::ONE + self.gyration_ratio);
+        let (decay, whole_decay) = self.decay(stretch, share);
+        let mut left = T::ZERO;
+        for j in 0..N {
+            left = left + T::WHOLE[j] * stretch.rate[j] * (-decay[j]).exp();
         }
+        let way = left * self.tangential;
+        let energy = self.energy();
+        self.tangential = self.tangential * (-whole_decay).exp();
+        self.peripheral = self.tangential;
+        // Rolling, friction only passes the moment on.
+        self.peeling_loss = self.peeling_loss + (energy - self.energy());
         self.displacement = self.displacement + way;
         self.rotation = self.rotation + way;
     }
@@ -281,7 +342,7 @@ impl<T: Real, P: SpinDamping<T>> Observer<T> for TangentialMotion<T, P> {
     where
         T: Nodes<N>,
     {
-        if !self.slides() {
+        if !self.slides() || (!P::PRESENT && self.slip_after(law, stretch) > T::ZERO) {
             return None;
         }
         let slide = self.slide(law, stretch);
@@ -289,12 +350,14 @@ impl<T: Real, P: SpinDamping<T>> Observer<T> for TangentialMotion<T, P> {
         if slip_after > T::ZERO {
             return None;
         }
-        let mut slip = [T::ZERO; N];
+        let (mut slip, mut slope) = ([T::ZERO; N], [T::ZERO; N]);
+        let closing = if stretch.forward { -self.closing() } else { self.closing() };
         for j in 0..N {
             slip[j] = (slide.tangential[j] - slide.peripheral[j]) * self.direction;
+            slope[j] = closing * law.elastic_force(stretch.s[j]) * stretch.rate[j];
         }
         let ends = if stretch.forward { (self.slip(), slip_after) } else { (slip_after, self.slip()) };
-        let z = root_between_nodes(&slip, ends, T::constant(1e-9) * self.slip());
+        let z = root_between_nodes(&slip, &slope, ends, T::constant(1e-6) * self.slip());
         let z = z.max(T::constant(1e-6)).min(T::constant(0.999_999));
         Some(if stretch.forward { z } else { T::ONE - z })
     }
@@ -303,39 +366,100 @@ impl<T: Real, P: SpinDamping<T>> Observer<T> for TangentialMotion<T, P> {
     where
         T: Nodes<N>,
     {
-        let slide = self.slide(law, stretch);
         let (s, rate) = (stretch.s[N - 1], stretch.rate[N - 1]);
-        let closing = self.direction * self.friction * law.elastic_force(s) * (T::ONE + T::ONE / self.gyration_ratio);
-        let mut slope = -(closing * rate);
-        if P::PRESENT {
-            slope = slope + self.peeling.rate() * s * rate * slide.peripheral_after;
+        let closing = -(self.closing() * law.elastic_force(s) * rate);
+        if !P::PRESENT {
+            return self.slip_after(law, stretch) / closing;
         }
+        let slide = self.slide(law, stretch);
+        let slope = self.direction * closing + self.peeling.rate() * s * rate * slide.peripheral_after;
         (slide.tangential_after - slide.peripheral_after) / slope
     }
 
-    fn roll(&mut self, before: T) {
-        self.direction = T::ZERO;
-        self.rolls_from = Some(self.now + before);
-        let momentum = self.tangential + self.gyration_ratio * self.peripheral;
-        self.tangential = momentum / (T::ONE + self.gyration_ratio);
-        self.peripheral = self.tangential;
+    fn observe_rolling<const N: usize>(
+        &mut self,
+        law: &impl NormalLaw<T>,
+        whole: &Stretch<T, N>,
+        before: &Stretch<T, N>,
+        late: T,
+        after: &mut dyn FnMut() -> Stretch<T, N>,
+        rebound: bool,
+    ) where
+        T: Nodes<N>,
+    {
+        let end = self.now + dot(&T::WHOLE, &whole.rate);
+        self.observe(law, before, rebound);
+        self.roll(-late);
+        if P::PRESENT {
+            self.observe(law, &after(), rebound);
+        } else {
+            self.pass_rolling(end - self.now);
+        }
     }
 }
 
-/// A tangential side of a scene: none, or friction with or without a peeling moment.
+/// Velocities before contact and the impulse of the elastic force, from which those after it follow without a peeling
+/// moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceImpulse<T> {
+    friction: T,
+    gyration_ratio: T,
+    tangential: T,
+    peripheral: T,
+    elastic: T,
+}
+
+impl<T: Real> SurfaceImpulse<T> {
+    /// Whether the sphere still slides, and its tangential and peripheral velocities; a captured one goes on until it rolls.
+    pub(super) fn after(&self, captured: bool) -> (bool, [T; 2]) {
+        let (v, u, kappa) = (self.tangential, self.peripheral, self.gyration_ratio);
+        let slip = v - u;
+        let impulse = self.friction * self.elastic;
+        let ends = slip.abs() <= impulse * (T::ONE + T::ONE / kappa) || (captured && self.friction > T::ZERO);
+        if ends {
+            let rolling = rolling(v, u, kappa);
+            return (false, [rolling, rolling]);
+        }
+        let impulse = direction(slip) * impulse;
+        (true, [v - impulse, u + impulse / kappa])
+    }
+
+    /// Whether it would roll with no more than a speed of rounding.
+    pub(super) fn rests(&self) -> bool {
+        let (v, u, kappa) = (self.tangential, self.peripheral, self.gyration_ratio);
+        rolling(v, u, kappa).abs() <= rounding(v, u, kappa)
+    }
+}
+
+impl<T: Real> Quantities<T> for SurfaceImpulse<T> {
+    #[inline]
+    fn combine(self, other: Self, of: impl Fn(T, T) -> T + Copy) -> Self {
+        Self { elastic: of(self.elastic, other.elastic), ..self }
+    }
+}
+
+impl<T: Real> Integrals<T> for SurfaceImpulse<T> {
+    #[inline]
+    fn growth(&self, law: &impl NormalLaw<T>, s: T, _y: T, _rebound: bool) -> Self {
+        Self { elastic: law.elastic_force(s), ..*self }
+    }
+}
+
+observe_by_integrals!(SurfaceImpulse, timed: true);
+
+/// A tangential side of a scene, with a result `G`: `()` without friction; with it all of [`TangentialContact`], or, without a
+/// peeling moment, [`TangentialVelocities`] alone.
 ///
 /// ```
 /// use microimpact::simulation::{NoPeeling, TangentialScene};
 /// use microimpact::{NoAdhesion, NoFriction, NormalMotion};
 ///
-/// type Contact = <NoFriction as TangentialScene<f32, NormalMotion<f32>, NoAdhesion, NoPeeling>>::Contact;
-/// assert_eq!(size_of::<Contact>(), 0);
+/// type Observer = <NoFriction as TangentialScene<f32, NormalMotion<f32>, NoAdhesion, NoPeeling, ()>>::Observer;
+/// assert_eq!(size_of::<Observer>(), 0);
 /// ```
-pub trait TangentialScene<T: Real, M, A, P> {
+pub trait TangentialScene<T: Real, M, A, P, G> {
     /// What is integrated along the motion.
-    type Observer: Observer<T>;
-    /// What comes out.
-    type Contact;
+    type Observer;
 
     /// The state before contact.
     ///
@@ -351,23 +475,73 @@ pub trait TangentialScene<T: Real, M, A, P> {
     ) -> Result<Self::Observer, InputError>;
 
     /// The result in SI units.
-    fn finish(observer: Self::Observer, sphere: &Sphere<T>, units: &Scaled<T>) -> Self::Contact;
+    fn finish(observer: Self::Observer, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> G;
 }
 
-impl<T: Real, M, A, P> TangentialScene<T, M, A, P> for NoFriction {
-    type Observer = ();
+/// All that a scene can tell of its tangential side.
+///
+/// ```
+/// use microimpact::simulation::{Tangential, TangentialContact};
+/// use microimpact::{Coulomb, NoFriction};
+///
+/// assert_eq!(size_of::<<NoFriction as Tangential<f32>>::Contact>(), 0);
+/// let _: Option<<Coulomb<f32> as Tangential<f32>>::Contact> = None::<TangentialContact<f32>>;
+/// ```
+pub trait Tangential<T> {
+    /// The result.
+    type Contact;
+}
+
+impl<T> Tangential<T> for NoFriction {
     type Contact = ();
+}
+
+impl<T> Tangential<T> for Coulomb<T> {
+    type Contact = TangentialContact<T>;
+}
+
+impl<T: Real, M, A, P> TangentialScene<T, M, A, P, ()> for NoFriction {
+    type Observer = ();
 
     fn start(&self, _: &Sphere<T>, _: &A, _: &P, _: &M, _: &Scaled<T>) -> Result<(), InputError> {
         Ok(())
     }
 
-    fn finish((): (), _: &Sphere<T>, _: &Scaled<T>) {}
+    fn finish((): (), _: &NormalPath<T>, _: &Sphere<T>, _: &Scaled<T>) {}
 }
 
-impl<T: Real, M: Oblique<T>, A> TangentialScene<T, M, A, NoPeeling> for Coulomb<T> {
+impl<T: Real, M: Oblique<T>, A> TangentialScene<T, M, A, NoPeeling, TangentialVelocities<T>> for Coulomb<T> {
+    type Observer = SurfaceImpulse<T>;
+
+    fn start(
+        &self,
+        sphere: &Sphere<T>,
+        _adhesion: &A,
+        _peeling: &NoPeeling,
+        motion: &M,
+        units: &Scaled<T>,
+    ) -> Result<Self::Observer, InputError> {
+        Ok(SurfaceImpulse {
+            friction: self.coefficient(),
+            gyration_ratio: sphere.gyration_ratio(),
+            tangential: motion.tangential() / units.speed,
+            peripheral: motion.peripheral() / units.speed,
+            elastic: T::ZERO,
+        })
+    }
+
+    fn finish(
+        observer: Self::Observer,
+        path: &NormalPath<T>,
+        sphere: &Sphere<T>,
+        units: &Scaled<T>,
+    ) -> TangentialVelocities<T> {
+        TangentialVelocities::new(&observer, path, sphere, units)
+    }
+}
+
+impl<T: Real, M: Oblique<T>, A> TangentialScene<T, M, A, NoPeeling, TangentialContact<T>> for Coulomb<T> {
     type Observer = TangentialMotion<T, NoPeeling>;
-    type Contact = TangentialContact<T>;
 
     fn start(
         &self,
@@ -380,14 +554,18 @@ impl<T: Real, M: Oblique<T>, A> TangentialScene<T, M, A, NoPeeling> for Coulomb<
         Ok(TangentialMotion::new(motion, units.speed, self.coefficient(), sphere.gyration_ratio(), *peeling))
     }
 
-    fn finish(observer: Self::Observer, sphere: &Sphere<T>, units: &Scaled<T>) -> TangentialContact<T> {
-        TangentialContact::new(&observer, sphere, units)
+    fn finish(
+        observer: Self::Observer,
+        path: &NormalPath<T>,
+        sphere: &Sphere<T>,
+        units: &Scaled<T>,
+    ) -> TangentialContact<T> {
+        TangentialContact::new(&observer, path, sphere, units)
     }
 }
 
-impl<T: Real, M: Oblique<T>> TangentialScene<T, M, Ring<T>, Peeling<T>> for Coulomb<T> {
+impl<T: Real, M: Oblique<T>> TangentialScene<T, M, Ring<T>, Peeling<T>, TangentialContact<T>> for Coulomb<T> {
     type Observer = TangentialMotion<T, ScaledPeeling<T>>;
-    type Contact = TangentialContact<T>;
 
     fn start(
         &self,
@@ -401,51 +579,86 @@ impl<T: Real, M: Oblique<T>> TangentialScene<T, M, Ring<T>, Peeling<T>> for Coul
         Ok(TangentialMotion::new(motion, units.speed, self.coefficient(), sphere.gyration_ratio(), peeling))
     }
 
-    fn finish(observer: Self::Observer, sphere: &Sphere<T>, units: &Scaled<T>) -> TangentialContact<T> {
-        TangentialContact::new(&observer, sphere, units)
+    fn finish(
+        observer: Self::Observer,
+        path: &NormalPath<T>,
+        sphere: &Sphere<T>,
+        units: &Scaled<T>,
+    ) -> TangentialContact<T> {
+        TangentialContact::new(&observer, path, sphere, units)
     }
 }
 
-/// Root of the polynomial through `values` at the nodes that has the values `ends` at 0 and 1, of opposite signs:
-/// regula falsi with halving (the Illinois method) on the barycentric form.
-fn root_between_nodes<T: Nodes<N>, const N: usize>(values: &[T; N], ends: (T, T), enough: T) -> T {
+/// Place, value and, at a node, slope at an end of a bracket.
+type End<T> = (T, T, Option<T>);
+
+/// Root of the polynomial through `values` at the nodes that has the values `ends` at 0 and 1, of opposite signs: Newton's
+/// method on the barycentric form, with `slopes` at the nodes that need not be exact.
+fn root_between_nodes<T: Nodes<N>, const N: usize>(values: &[T; N], slopes: &[T; N], ends: (T, T), enough: T) -> T {
     let positive_first = ends.0 > T::ZERO;
-    let (mut low, mut at_low, mut high, mut at_high) = (T::ZERO, ends.0, T::ONE, ends.1);
+    let (mut low, mut high): (End<T>, End<T>) = ((T::ZERO, ends.0, None), (T::ONE, ends.1, None));
     for j in 0..N {
         if (values[j] > T::ZERO) == positive_first {
-            (low, at_low) = (T::Z[j], values[j]);
+            low = (T::Z[j], values[j], Some(slopes[j]));
         } else {
-            (high, at_high) = (T::Z[j], values[j]);
+            high = (T::Z[j], values[j], Some(slopes[j]));
             break;
         }
     }
-    let half = T::constant(0.5);
-    let mut root = low;
-    for _ in 0..30 {
-        if at_high == at_low {
-            break;
-        }
-        root = low - at_low * (high - low) / (at_high - at_low);
+    let secant = (high.1 - low.1) / (high.0 - low.0);
+    let (slope_low, slope_high) = (low.2.unwrap_or(secant), high.2.unwrap_or(secant));
+    let width = high.0 - low.0;
+    // The cubic with these values and slopes at both ends of the bracket.
+    let bend = slope_low + slope_high - secant - secant;
+    let cubic = |z: T| {
+        let t = (z - low.0) / width;
+        low.1 + width * t * (slope_low + t * (secant - slope_low - bend * (T::ONE - t)))
+    };
+    let slope = |z: T| {
+        let t = (z - low.0) / width;
+        slope_low + t * ((slope_high - slope_low) - T::constant(3.0) * bend * (T::ONE - t))
+    };
+    let polynomial = |z: T| {
         let (mut numerator, mut denominator) = (T::ZERO, T::ZERO);
         for j in 0..N {
-            let distance = root - T::Z[j];
+            let distance = z - T::Z[j];
             if distance == T::ZERO {
-                return root;
+                return values[j];
             }
             let weight = T::TAIL[j] / distance;
             numerator = numerator + weight * values[j];
             denominator = denominator + weight;
         }
-        let value = numerator / denominator;
+        numerator / denominator
+    };
+    let guess = polish(cubic, &slope, (low.0, high.0), positive_first, low.0 - low.1 / secant, (enough, 4));
+    polish(polynomial, &slope, (low.0, high.0), positive_first, guess, (enough, 20))
+}
+
+/// A root improved by Newton's method within its bracket, until the value is small enough.
+#[inline]
+fn polish<T: Real>(
+    value_at: impl Fn(T) -> T,
+    slope_at: &impl Fn(T) -> T,
+    (mut low, mut high): (T, T),
+    positive_first: bool,
+    root: T,
+    (enough, steps): (T, u32),
+) -> T {
+    let mut root = root;
+    for _ in 0..steps {
+        let value = value_at(root);
         if value.abs() < enough {
             break;
         }
         if (value > T::ZERO) == positive_first {
-            (low, at_low) = (root, value);
-            at_high = at_high * half;
+            low = root;
         } else {
-            (high, at_high) = (root, value);
-            at_low = at_low * half;
+            high = root;
+        }
+        root = root - value / slope_at(root);
+        if !(root > low && root < high) {
+            root = T::constant(0.5) * (low + high);
         }
     }
     root

@@ -2,14 +2,13 @@
 //! and a ring, and then with friction and spin too.
 
 use core::hint::black_box;
+use core::marker::PhantomData;
 
 use microimpact::simulation::{
-    Collocation, FixedCost, HystereticDamping, Nodes, NormalContact, NormalMethod, Ring, SimulatedImpact, Simulation,
-    TangentialContact,
+    Collocation, FixedCost, HystereticDamping, Method, NoPeeling, NormalContact, Ring, SimulatedImpact, Simulation,
+    SurfaceState, TangentialContact, TangentialScene, TangentialVelocities,
 };
-use microimpact::{
-    Coulomb, InputError, NoFriction, NormalMotion, Outcome, PlanarMotion, Sphere, Stiffness, SurfaceMotion,
-};
+use microimpact::{Class, Coulomb, InputError, NoFriction, NormalMotion, Outcome, PlanarMotion, Sphere, Stiffness};
 
 use super::impacts::{CONTACTS, Impact};
 use super::scenes::{Answer, DENSITY_KG_M3, FRICTION, Measured, Number, RADIUS_M, Scene, Visitor, given};
@@ -22,50 +21,51 @@ const RING_DAMPING: f64 = 6.25;
 /// The class of an impact that the library refuses.
 pub const REFUSED: &str = "refused";
 
+/// The class where a method comes to no solution.
+pub const UNDECIDED: &str = "undecided";
+
 /// A method and how exactly it is to solve a scene.
-pub trait Method: Sized {
-    /// Name of the scene with normal impacts only.
-    const NORMAL_SCENE: &'static str = "simulation/normal";
+pub trait Setting: Sized {
+    /// Name of the scene, without or with friction.
+    const SCENE: &'static str;
 
     /// The method, validated.
     fn new() -> Option<Self>;
 }
 
-impl Method for Collocation<7, f32> {
-    fn new() -> Option<Self> {
-        Self::new(given(1e-6)).ok()
-    }
+/// A method for scenes with friction.
+pub struct Oblique<S>(S);
+
+macro_rules! setting {
+    ($method:ty, $scene:literal, $new:expr) => {
+        impl Setting for $method {
+            const SCENE: &'static str = $scene;
+
+            fn new() -> Option<Self> {
+                $new
+            }
+        }
+    };
 }
 
-impl Method for Collocation<9, f64> {
-    fn new() -> Option<Self> {
-        Self::new(given(1e-9)).ok()
-    }
-}
-
-impl Method for Collocation<5, f32> {
-    const NORMAL_SCENE: &'static str = "simulation/normal-1e-5";
-
-    fn new() -> Option<Self> {
-        Self::new(given(1e-5)).ok()
-    }
-}
-
-impl Method for FixedCost<5> {
-    const NORMAL_SCENE: &'static str = "simulation/fixed-1e-5";
-
-    fn new() -> Option<Self> {
-        Self::new(black_box(3)).ok()
-    }
-}
-
-impl Method for FixedCost<7> {
-    const NORMAL_SCENE: &'static str = "simulation/fixed-1e-6";
-
-    fn new() -> Option<Self> {
-        Self::new(black_box(4)).ok()
-    }
-}
+setting!(FixedCost<4>, "simulation/fixed-class", Self::new(black_box(2)).ok());
+setting!(FixedCost<5>, "simulation/fixed-1e-5", Self::new(black_box(3)).ok());
+setting!(FixedCost<7>, "simulation/fixed-1e-6", Self::new(black_box(3)).ok());
+setting!(Collocation<5, f32>, "simulation/normal-1e-5", Self::new(given(1e-5)).ok());
+setting!(Collocation<7, f32>, "simulation/normal", Self::new(given(1e-6)).ok());
+setting!(Collocation<9, f64>, "simulation/normal", Self::new(given(1e-9)).ok());
+setting!(
+    Oblique<FixedCost<5, 7>>,
+    "simulation/fixed-oblique-1e-5",
+    FixedCost::new(black_box(3)).ok().map(|method| Self(method.with_outputs()))
+);
+setting!(
+    Oblique<FixedCost<7, 9>>,
+    "simulation/fixed-oblique-1e-6",
+    FixedCost::new(black_box(3)).ok().map(|method| Self(method.with_outputs()))
+);
+setting!(Oblique<Collocation<7, f32>>, "simulation/oblique", Setting::new().map(Self));
+setting!(Oblique<Collocation<9, f64>>, "simulation/oblique", Setting::new().map(Self));
 
 type Surface<T, F = NoFriction> = Simulation<T, HystereticDamping<T>, Ring<T>, F>;
 
@@ -75,14 +75,15 @@ pub struct NormalContacts<T, M> {
     method: M,
 }
 
-/// Friction and spin.
-pub struct ObliqueContacts<T, M> {
+/// Friction and spin, with a result `G` along the surface.
+pub struct ObliqueContacts<T, M, G> {
     scene: Surface<T, Coulomb<T>>,
-    method: M,
+    method: Oblique<M>,
+    result: PhantomData<G>,
 }
 
-impl<T: Number, M: Method + NormalMethod<T>> Scene<T> for NormalContacts<T, M> {
-    const NAME: &'static str = M::NORMAL_SCENE;
+impl<T: Number, M: Setting + Method<T, ()>> Scene<T> for NormalContacts<T, M> {
+    const NAME: &'static str = M::SCENE;
     const PLANAR: bool = false;
     type Motion = NormalMotion<T>;
     type Verdict = Result<NormalContact<T>, InputError>;
@@ -106,19 +107,20 @@ impl<T: Number, M: Method + NormalMethod<T>> Scene<T> for NormalContacts<T, M> {
     }
 }
 
-impl<const N: usize, T> Scene<T> for ObliqueContacts<T, Collocation<N, T>>
+impl<T: Number, M, G: SurfaceState> Scene<T> for ObliqueContacts<T, M, G>
 where
-    T: Number + Nodes<N>,
-    Collocation<N, T>: Method,
+    Oblique<M>: Setting,
+    Coulomb<T>: TangentialScene<T, PlanarMotion<T>, Ring<T>, NoPeeling, G>,
+    M: Method<T, ((), <Coulomb<T> as TangentialScene<T, PlanarMotion<T>, Ring<T>, NoPeeling, G>>::Observer)>,
 {
-    const NAME: &'static str = "simulation/oblique";
+    const NAME: &'static str = Oblique::<M>::SCENE;
     const PLANAR: bool = true;
     type Motion = PlanarMotion<T>;
-    type Verdict = Result<SimulatedImpact<T, TangentialContact<T>, ()>, InputError>;
+    type Verdict = Result<SimulatedImpact<T, G, ()>, InputError>;
 
     fn new() -> Option<Self> {
         let scene = surface().and_then(|surface| surface.with_friction(given(FRICTION))).ok()?;
-        Some(Self { scene, method: Method::new()? })
+        Some(Self { scene, method: Setting::new()?, result: PhantomData })
     }
 
     fn motion(&self, measured: &Measured<T>) -> Option<Self::Motion> {
@@ -131,7 +133,7 @@ where
     // What is counted is the library, not a second call around it.
     #[inline(always)]
     fn classify(&self, motion: &Self::Motion) -> Self::Verdict {
-        self.scene.observe(&self.method, motion)
+        self.scene.observe(&self.method.0, motion)
     }
 
     fn impacts() -> impl Iterator<Item = &'static Impact> {
@@ -149,21 +151,23 @@ fn surface<T: Number>() -> Result<Surface<T>, InputError> {
 impl<T: Number> From<Result<NormalContact<T>, InputError>> for Answer<T> {
     fn from(verdict: Result<NormalContact<T>, InputError>) -> Self {
         let class = verdict.map_or(REFUSED, |contact| match contact.outcome() {
-            Outcome::Rebound => "rebound",
-            Outcome::Capture => "captured",
+            Some(Outcome::Rebound) => "rebound",
+            Some(Outcome::Capture) => "captured",
+            None => UNDECIDED,
         });
         answer(class, verdict.ok())
     }
 }
 
-impl<T: Number> From<Result<SimulatedImpact<T, TangentialContact<T>, ()>, InputError>> for Answer<T> {
-    fn from(verdict: Result<SimulatedImpact<T, TangentialContact<T>, ()>, InputError>) -> Self {
-        let class = verdict.map_or(REFUSED, |impact| match (impact.normal.outcome(), impact.tangential.motion()) {
-            (Outcome::Rebound, SurfaceMotion::Sliding) => "rebound-sliding",
-            (Outcome::Rebound, SurfaceMotion::Rolling | SurfaceMotion::Resting) => "rebound-rolling",
-            (Outcome::Capture, SurfaceMotion::Sliding) => "captured-sliding",
-            (Outcome::Capture, SurfaceMotion::Rolling) => "captured-rolling",
-            (Outcome::Capture, SurfaceMotion::Resting) => "captured-resting",
+impl<T: Number, G: SurfaceState> From<Result<SimulatedImpact<T, G, ()>, InputError>> for Answer<T> {
+    fn from(verdict: Result<SimulatedImpact<T, G, ()>, InputError>) -> Self {
+        let class = verdict.as_ref().map_or(REFUSED, |impact| match impact.class() {
+            Some(Class::ReboundSliding) => "rebound-sliding",
+            Some(Class::ReboundRolling) => "rebound-rolling",
+            Some(Class::CapturedSliding) => "captured-sliding",
+            Some(Class::CapturedRolling) => "captured-rolling",
+            Some(Class::CapturedResting) => "captured-resting",
+            None => UNDECIDED,
         });
         answer(class, verdict.ok().map(|impact| impact.normal))
     }
@@ -176,11 +180,14 @@ fn answer<T: Number>(class: &'static str, contact: Option<NormalContact<T>>) -> 
 
 /// Goes through the scenes of the simulation in both number types.
 pub(super) fn visit_contacts(visitor: &mut impl Visitor) {
+    visitor.visit::<f32, NormalContacts<f32, FixedCost<4>>>();
     visitor.visit::<f32, NormalContacts<f32, FixedCost<5>>>();
     visitor.visit::<f32, NormalContacts<f32, FixedCost<7>>>();
+    visitor.visit::<f32, ObliqueContacts<f32, FixedCost<5, 7>, TangentialVelocities<f32>>>();
+    visitor.visit::<f32, ObliqueContacts<f32, FixedCost<7, 9>, TangentialVelocities<f32>>>();
     visitor.visit::<f32, NormalContacts<f32, Collocation<5, f32>>>();
     visitor.visit::<f32, NormalContacts<f32, Collocation<7, f32>>>();
-    visitor.visit::<f32, ObliqueContacts<f32, Collocation<7, f32>>>();
+    visitor.visit::<f32, ObliqueContacts<f32, Collocation<7, f32>, TangentialContact<f32>>>();
     visitor.visit::<f64, NormalContacts<f64, Collocation<9, f64>>>();
-    visitor.visit::<f64, ObliqueContacts<f64, Collocation<9, f64>>>();
+    visitor.visit::<f64, ObliqueContacts<f64, Collocation<9, f64>, TangentialContact<f64>>>();
 }

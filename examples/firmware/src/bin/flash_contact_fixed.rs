@@ -12,5 +12,5 @@ use panic_halt as _;
 
 #[entry]
 fn main() -> ! {
-    classify_for_ever::<f32, NormalContacts<f32, FixedCost<7>>>(MEASURED)
+    classify_for_ever::<f32, NormalContacts<f32, FixedCost<5>>>(MEASURED)
 }

@@ -5,12 +5,12 @@
 #![no_main]
 
 use cortex_m_rt::entry;
-use microimpact::simulation::Collocation;
+use microimpact::simulation::{Collocation, TangentialContact};
 use microimpact_firmware::contacts::ObliqueContacts;
 use microimpact_firmware::flash::{MEASURED, classify_for_ever};
 use panic_halt as _;
 
 #[entry]
 fn main() -> ! {
-    classify_for_ever::<f32, ObliqueContacts<f32, Collocation<7, f32>>>(MEASURED)
+    classify_for_ever::<f32, ObliqueContacts<f32, Collocation<7, f32>, TangentialContact<f32>>>(MEASURED)
 }

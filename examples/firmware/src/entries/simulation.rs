@@ -6,9 +6,9 @@
 use core::hint::black_box;
 
 use microimpact::simulation::{
-    Attraction, Collocation, ConstantForce, ContactImpulses, ContactTimes, ContactWorks, Damping, FixedCost,
-    HystereticDamping, NoPeeling, Nodes, NormalContact, Peeling, PhaseNodes, Ring, RunReport, RungeKuttaGill, Scale,
-    SimulatedImpact, Simulation, SteppedImpact, TangentialContact, TangentialScene,
+    Attraction, Collocation, ConstantForce, ContactImpulses, ContactTimes, ContactWorks, Damping, Everything,
+    FixedCost, HystereticDamping, Method, NoPeeling, Nodes, NormalContact, Peeling, PhaseSamples, Ring, RunReport,
+    RungeKuttaGill, Scale, SimulatedImpact, Simulation, TangentialContact, TangentialScene, TangentialVelocities,
 };
 use microimpact::{Approach, InputError, NoFriction, Real, Sphere, Stiffness};
 
@@ -20,11 +20,11 @@ pub trait AnyNodes:
     + Nodes<7>
     + Nodes<9>
     + Nodes<12>
-    + PhaseNodes<4>
-    + PhaseNodes<5>
-    + PhaseNodes<6>
-    + PhaseNodes<7>
-    + PhaseNodes<8>
+    + PhaseSamples<4, 7>
+    + PhaseSamples<5, 8>
+    + PhaseSamples<6, 9>
+    + PhaseSamples<7, 10>
+    + PhaseSamples<8, 16>
 {
 }
 
@@ -40,11 +40,11 @@ pub(super) fn call_all<T: AnyNodes>() -> Result<(), InputError> {
     with_every_term::<7, T>(&scene)?;
     with_every_term::<9, T>(&scene)?;
     with_every_term::<12, T>(&scene)?;
-    at_fixed_cost::<4, T>(&scene)?;
-    at_fixed_cost::<5, T>(&scene)?;
-    at_fixed_cost::<6, T>(&scene)?;
-    at_fixed_cost::<7, T>(&scene)?;
-    at_fixed_cost::<8, T>(&scene)?;
+    at_fixed_cost::<4, 7, T>(&scene)?;
+    at_fixed_cost::<5, 8, T>(&scene)?;
+    at_fixed_cost::<6, 9, T>(&scene)?;
+    at_fixed_cost::<7, 10, T>(&scene)?;
+    at_fixed_cost::<8, 16, T>(&scene)?;
     outputs(&scene)?;
     with_damping(scene)?;
     with_damping(scene.with_damping(any())?)
@@ -74,12 +74,20 @@ fn with_every_term<const N: usize, T: Nodes<N>>(scene: &Simulation<T>) -> Result
     Ok(())
 }
 
-fn at_fixed_cost<const N: usize, T: PhaseNodes<N>>(scene: &Simulation<T>) -> Result<(), InputError> {
+fn at_fixed_cost<const N: usize, const M: usize, T: PhaseSamples<N, M>>(
+    scene: &Simulation<T>,
+) -> Result<(), InputError> {
     let method = FixedCost::<N>::new(black_box(3))?;
-    let (motion, _, _) = motions(scene.sphere())?;
+    let (motion, _, planar) = motions(scene.sphere())?;
     contact(&scene.normal_impact(&method, &motion)?);
     let scene = scene.with_damping(any())?.with_ring(any(), any())?.with_external_force(any())?;
     contact(&scene.normal_impact(&method, &motion)?);
+    let method = method.with_outputs::<M>();
+    let impact: SimulatedImpact<T, TangentialVelocities<T>, Everything<T>> =
+        scene.with_friction(any())?.observe(&method, &planar)?;
+    keep((impact.class(), impact.outputs, impact.tangential));
+    report(&impact.run);
+    contact(&impact.normal);
     Ok(())
 }
 
@@ -128,10 +136,12 @@ where
     D: Scale<T, Scaled: Damping<T>>,
     A: Scale<T, Scaled: Attraction<T>>,
     X: Scale<T, Scaled: Attraction<T>>,
-    F: TangentialScene<T, M, A, P, Contact = TangentialContact<T>>,
+    F: TangentialScene<T, M, A, P, TangentialContact<T>>,
+    Collocation<5, T>: Method<T, ((), F::Observer)>,
     M: Approach<T>,
 {
-    let impact: SimulatedImpact<T, _, ()> = scene.observe(&Collocation::<5, T>::new(any())?, motion)?;
+    let impact: SimulatedImpact<T, TangentialContact<T>, ()> =
+        scene.observe(&Collocation::<5, T>::new(any())?, motion)?;
     report(&impact.run);
     contact(&impact.normal);
     tangential(&impact.tangential);
@@ -146,16 +156,14 @@ fn outputs<T: Nodes<5>>(scene: &Simulation<T>) -> Result<(), InputError> {
     let method = Collocation::<5, T>::new(any())?;
     let each: SimulatedImpact<T, (), Each<T>> = normal.observe(&method, &straight)?;
     keep(each.outputs);
-    let each: SimulatedImpact<T, _, Each<T>> = oblique.observe(&method, &moved)?;
+    let each: SimulatedImpact<T, TangentialContact<T>, Each<T>> = oblique.observe(&method, &moved)?;
     keep(each.outputs);
 
     let method = RungeKuttaGill::new(black_box(100));
-    let stepped: SteppedImpact<T, ()> = normal.stepped_impact(&method, &straight)?;
-    keep(stepped);
-    let stepped: SteppedImpact<T, _> = oblique.stepped_impact(&method, &moved)?;
-    keep(stepped);
-    let stepped: SteppedImpact<T, _> = oblique.with_peeling(any())?.stepped_impact(&method, &spun)?;
-    keep(stepped);
+    keep(normal.impact(&method, &straight)?.outputs);
+    contact(&normal.normal_impact(&method, &straight)?);
+    keep(oblique.impact(&method, &moved)?.tangential);
+    keep(oblique.with_peeling(any())?.impact(&method, &spun)?.tangential);
     Ok(())
 }
 

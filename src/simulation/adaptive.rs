@@ -1,0 +1,283 @@
+//! The method that chooses by itself: whole phases where damping is mild and the tolerance not too small, else stretches.
+
+use super::Collocation;
+use super::law::NormalLaw;
+use super::motion::{Effort, End, Method, NormalPath, find_end_of_slip};
+use super::nodes::{Nodes, PhaseSamples};
+use super::observer::Observer;
+use super::phase::Phase;
+use super::stretch::{Stretch, tail_of_times};
+use crate::{InputError, Parameter, Real};
+
+/// Error control by whatever is fastest for a scene and a tolerance: mild damping lets each phase be one polynomial, with as
+/// many nodes as the tolerance needs; everything else goes to [`Collocation`].
+///
+/// All tables together take some 100 kB. Firmware that knows its scenes does better with [`FixedCost`](super::FixedCost)
+/// or one [`Collocation`].
+///
+/// ```
+/// use microimpact::simulation::{Adaptive, Simulation};
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
+///
+/// // From no damping to so much that the sphere hardly leaves the surface: d (1 + e) = ln((1 + d)/(1 - e d)).
+/// let (sphere, stiffness) = (Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+/// let motion = NormalMotion::new(1.0)?;
+/// for zeta in [0.1, 10.0, 1e3, 1e5] {
+///     let scene = Simulation::new(sphere, stiffness).with_damping(zeta)?;
+///     let (d, e) = (scene.groups(&motion)?.material_damping, scene.normal_impact(&Adaptive::new(1e-9)?, &motion)?.overall_restitution());
+///     assert!((d * (1.0 + e) - ((1.0 + d) / (1.0 - e * d)).ln()).abs() < 1e-6_f64);
+/// }
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Adaptive<T> {
+    tolerance: T,
+}
+
+/// A number type with the tables for every number of nodes that a tolerance may need.
+///
+/// ```
+/// fn restitution<T: microimpact::simulation::AdaptiveNodes>() {}
+///
+/// restitution::<f32>();
+/// restitution::<f64>();
+/// ```
+pub trait AdaptiveNodes:
+    PhaseSamples<5, 10>
+    + PhaseSamples<7, 13>
+    + PhaseSamples<9, 16>
+    + PhaseSamples<10, 18>
+    + PhaseSamples<13, 24>
+    + PhaseSamples<14, 26>
+    + Nodes<7>
+    + Nodes<9>
+    + Nodes<10>
+    + Nodes<12>
+    + Nodes<14>
+{
+}
+
+impl<T> AdaptiveNodes for T where
+    T: PhaseSamples<5, 10>
+        + PhaseSamples<7, 13>
+        + PhaseSamples<9, 16>
+        + PhaseSamples<10, 18>
+        + PhaseSamples<13, 24>
+        + PhaseSamples<14, 26>
+        + Nodes<7>
+        + Nodes<9>
+        + Nodes<10>
+        + Nodes<10>
+        + Nodes<12>
+        + Nodes<14>
+{
+}
+
+impl<T: Real> Adaptive<T> {
+    /// A method with a tolerance for e^2 and, relative to themselves, for all outputs asked for; a number type's rounding
+    /// limits it from below.
+    ///
+    /// # Errors
+    /// A tolerance outside its range.
+    ///
+    /// ```
+    /// assert!(microimpact::simulation::Adaptive::new(1e-6).is_ok());
+    /// assert!(microimpact::simulation::Adaptive::new(0.0).is_err());
+    /// ```
+    pub fn new(tolerance: T) -> Result<Self, InputError> {
+        let tolerance = Parameter::Tolerance.check(tolerance)?;
+        Ok(Self { tolerance: tolerance.max(T::constant(8.0) * T::EPSILON) })
+    }
+}
+
+impl<T: AdaptiveNodes, O: Observer<T>> Method<T, O> for Adaptive<T> {
+    fn solve<L: NormalLaw<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
+        let tolerance = self.tolerance;
+        let mut attempts = Attempts { tolerance, allowed: if L::MAY_REPEL { 0 } else { 2 } };
+        // Each number of nodes from the tolerance on that it mostly reaches, with times and without, to one that fewer reach
+        // with ease.
+        macro_rules! try_phases {
+            ($nodes:literal, $outputs:literal, $timed:literal, $untimed:literal, $enough:literal) => {
+                let reached = T::constant(if O::TIMED { $timed } else { $untimed });
+                if tolerance >= reached
+                    && tolerance < T::constant($enough)
+                    && let Some(path) = attempts.phases::<L, O, $nodes, $outputs>(law, energy, observer)
+                {
+                    return path;
+                }
+            };
+        }
+        try_phases!(5, 10, 3e-5, 1e-5, 1.0);
+        try_phases!(7, 13, 5e-7, 3e-7, 1e-4);
+        try_phases!(9, 16, 2e-8, 1e-8, 1e-5);
+        try_phases!(10, 18, 7e-9, 2e-9, 2e-7);
+        try_phases!(13, 24, 6e-10, 3e-11, 5e-8);
+        try_phases!(14, 26, 2e-10, 8e-12, 2e-9);
+        macro_rules! stretches {
+            ($nodes:literal) => {
+                Collocation::<$nodes, T> { tolerance }.solve(law, energy, observer)
+            };
+        }
+        if tolerance >= T::constant(3e-7) {
+            stretches!(7)
+        } else if tolerance >= T::constant(3e-10) {
+            stretches!(9)
+        } else if tolerance >= T::constant(3e-11) {
+            stretches!(10)
+        } else if tolerance >= T::constant(3e-13) {
+            stretches!(12)
+        } else {
+            stretches!(14)
+        }
+    }
+}
+
+/// Sweeps that a phase may take.
+const MOST_SWEEPS: u32 = 12;
+
+/// Square of the change of the speeds, over that of the tolerance, at which the sweeps end.
+const SETTLED: f64 = 0.1;
+
+/// Loss over speed at the peak beyond which sweeps take longer than stretches.
+const STRONGEST: f64 = 5.0;
+
+/// Both phases by `N` nodes and their outputs by `M`, unless the motion does not lend itself to it or the estimated error is
+/// too large.
+fn phases<T, L, O, const N: usize, const M: usize>(
+    law: &L,
+    energy: T,
+    tolerance: T,
+    observer: &mut O,
+) -> Result<NormalPath<T>, Failed>
+where
+    T: PhaseSamples<N, M>,
+    L: NormalLaw<T>,
+    O: Observer<T>,
+{
+    let mut phase = Phase::<T, N>::approach(law, energy);
+    if phase.loss[0] > T::constant(STRONGEST) * phase.speed[0] {
+        return Err(Failed::ByFar);
+    }
+    let mut sweeps = 0;
+    let mut settle = |phase: &mut Phase<T, N>, after: &mut dyn FnMut(&mut Phase<T, N>, T)| {
+        let (enough, mut before) = (T::constant(SETTLED) * tolerance * tolerance, T::ZERO);
+        for _ in 0..MOST_SWEEPS {
+            let (gained, change) = phase.sweep::<true>();
+            sweeps += 1;
+            after(phase, gained);
+            // Sweeps converge superlinearly.
+            if change <= enough || change * change <= enough * before {
+                return Ok(gained);
+            }
+            before = change;
+        }
+        Err(Failed::ByFar)
+    };
+    let mut at_peak = energy;
+    settle(&mut phase, &mut |phase, lost| {
+        at_peak = phase.correct_peak(law, energy, lost);
+        phase.describe(law, false);
+    })?;
+    let peak = phase.peak;
+    let tails = phase.tails(energy);
+    let mut error = tails.error_of_energy();
+    let judge = |error: T| match error {
+        _ if error <= tolerance => Ok(error),
+        _ if error <= T::constant(100.0) * tolerance => Err(Failed::ByLittle),
+        _ => Err(Failed::ByFar),
+    };
+    let approach = (O::TIMED || O::OBSERVES).then(|| phase.samples::<M>(law, false));
+    let timed = |stretch: &Option<Stretch<T, M>>, least: T| {
+        let Some(stretch) = stretch else { return least };
+        let share = tail_of_times::<T, M>(&stretch.rate);
+        least.max(T::constant(0.1) * share * share)
+    };
+    if O::TIMED {
+        error = error.max(timed(&approach, tails.error_of_times()));
+    }
+    judge(error)?;
+    let before = phase.clone();
+    phase.turn(law);
+    let gained = settle(&mut phase, &mut |_, _| {})?;
+    let tails = phase.tails(energy);
+    error = error.max(tails.error_of_energy());
+    let left = at_peak + gained;
+    if left <= T::ZERO && O::TO_TURNING_POINT {
+        return Err(Failed::ByFar);
+    }
+    let rebound = (O::TIMED || O::OBSERVES).then(|| phase.samples::<M>(law, true));
+    if O::TIMED {
+        error = error.max(timed(&rebound, tails.error_of_times()));
+    }
+    judge(error)?;
+    if left.abs() <= T::constant(4.0) * error * energy {
+        return Err(Failed::ByLittle);
+    }
+    if let (Some(approach), Some(rebound)) = (&approach, &rebound) {
+        show(law, &before, approach, false, tolerance, observer);
+        show(law, &phase, rebound, true, tolerance, observer);
+    }
+    let end = if left > T::ZERO { End::Separation } else { End::Capture };
+    let effort = Effort { stretches: 2, refused: 0, sweeps, nodes: N as u32, error };
+    Ok(NormalPath { end, energy: left, peak, turning: T::ZERO, effort })
+}
+
+/// Shows a phase to an observer, in two parts if the sphere begins to roll in it.
+fn show<T, O, const N: usize, const M: usize>(
+    law: &impl NormalLaw<T>,
+    phase: &Phase<T, N>,
+    whole: &Stretch<T, M>,
+    rebound: bool,
+    tolerance: T,
+    observer: &mut O,
+) where
+    T: PhaseSamples<N, M>,
+    O: Observer<T>,
+{
+    let rolls_at = if O::EVENTS { observer.rolls_at(law, whole) } else { None };
+    let Some(share) = rolls_at else {
+        return observer.observe(law, whole, rebound);
+    };
+    let gains = phase.gains::<M>();
+    let place = |share: T| if rebound { share } else { T::ONE - share };
+    let first = |share: T| phase.part(law, &gains, place(T::ZERO), place(share));
+    let (share, part, late) = find_end_of_slip(law, observer, share, tolerance, first);
+    let late = late / share * part.rate.last().copied().unwrap_or(T::ZERO);
+    let mut rest = || phase.part(law, &gains, place(share), place(T::ONE));
+    observer.observe_rolling(law, whole, &part, late, &mut rest, rebound);
+}
+
+/// How an attempt failed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Failed {
+    /// A few nodes more may be enough.
+    ByLittle,
+    ByFar,
+}
+
+/// Attempts at whole phases: a second one only where the first was not enough by little.
+struct Attempts<T> {
+    tolerance: T,
+    allowed: u32,
+}
+
+impl<T: Real> Attempts<T> {
+    fn phases<L, O, const N: usize, const M: usize>(
+        &mut self,
+        law: &L,
+        energy: T,
+        observer: &mut O,
+    ) -> Option<NormalPath<T>>
+    where
+        T: PhaseSamples<N, M>,
+        L: NormalLaw<T>,
+        O: Observer<T>,
+    {
+        if self.allowed == 0 {
+            return None;
+        }
+        let solved = phases::<T, L, O, N, M>(law, energy, self.tolerance, observer);
+        self.allowed = if solved.as_ref().err() == Some(&Failed::ByLittle) { self.allowed - 1 } else { 0 };
+        solved.ok()
+    }
+}

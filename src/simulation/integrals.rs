@@ -1,0 +1,198 @@
+//! Quantities that are integrals over the time of contact: each is its rate of growth, whatever the method that sums it up.
+
+// Indices run over arrays of the length that their loops count to.
+#![allow(clippy::indexing_slicing, clippy::needless_range_loop)]
+
+use super::law::NormalLaw;
+use super::nodes::Nodes;
+use super::observer::Observer;
+use super::stretch::Stretch;
+use crate::Real;
+
+/// Quantities that are integrated together; none at all is `()`.
+pub trait Quantities<T: Real>: Copy {
+    /// `of` each quantity and its counterpart.
+    #[must_use]
+    fn combine(self, other: Self, of: impl Fn(T, T) -> T + Copy) -> Self;
+}
+
+impl<T: Real> Quantities<T> for () {
+    #[inline]
+    fn combine(self, (): Self, _of: impl Fn(T, T) -> T + Copy) {}
+}
+
+impl<T: Real> Quantities<T> for [T; 2] {
+    #[inline]
+    fn combine(self, other: Self, of: impl Fn(T, T) -> T + Copy) -> Self {
+        let ([a, b], [c, d]) = (self, other);
+        [of(a, c), of(b, d)]
+    }
+}
+
+impl<T: Real, A: Quantities<T>, B: Quantities<T>> Quantities<T> for (A, B) {
+    #[inline]
+    fn combine(self, other: Self, of: impl Fn(T, T) -> T + Copy) -> Self {
+        (self.0.combine(other.0, of), self.1.combine(other.1, of))
+    }
+}
+
+/// Integrals over the motion.
+pub trait Integrals<T: Real>: Quantities<T> {
+    /// What they grow by in time at contact radius s and a speed of size y, on the way in or out.
+    #[must_use]
+    fn growth(&self, law: &impl NormalLaw<T>, s: T, y: T, rebound: bool) -> Self;
+
+    /// The integrals where a method knows the times of the motion better than by their growth.
+    #[must_use]
+    #[inline]
+    fn timed(self, _times: &Times<T>) -> Self {
+        self
+    }
+
+    /// Adds a stretch of the motion by its nodes.
+    #[inline]
+    fn add<const N: usize>(&mut self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>, rebound: bool)
+    where
+        T: Nodes<N>,
+    {
+        for j in 0..N {
+            let duration = T::WHOLE[j] * stretch.rate[j];
+            let growth = self.growth(law, stretch.s[j], stretch.y[j], rebound);
+            *self = self.combine(growth, |sum, rate| sum + duration * rate);
+        }
+    }
+}
+
+impl<T: Real> Integrals<T> for () {
+    #[inline]
+    fn growth(&self, _law: &impl NormalLaw<T>, _s: T, _y: T, _rebound: bool) {}
+}
+
+impl<T: Real, A: Integrals<T>, B: Integrals<T>> Integrals<T> for (A, B) {
+    #[inline]
+    fn growth(&self, law: &impl NormalLaw<T>, s: T, y: T, rebound: bool) -> Self {
+        (self.0.growth(law, s, y, rebound), self.1.growth(law, s, y, rebound))
+    }
+
+    #[inline]
+    fn timed(self, times: &Times<T>) -> Self {
+        (self.0.timed(times), self.1.timed(times))
+    }
+}
+
+/// An observer that only integrates.
+macro_rules! observe_by_integrals {
+    ($integrals:ident, timed: $timed:literal) => {
+        impl<T: Real> Observer<T> for $integrals<T> {
+            const TIMED: bool = $timed;
+
+            #[inline]
+            fn observe<const N: usize>(&mut self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>, rebound: bool)
+            where
+                T: Nodes<N>,
+            {
+                self.add(law, stretch, rebound);
+            }
+        }
+    };
+}
+
+pub(super) use observe_by_integrals;
+
+/// Times since first touch and up to the peak, in units of the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Times<T> {
+    pub(super) now: T,
+    pub(super) peak: T,
+}
+
+impl<T: Real> Times<T> {
+    pub(super) fn new() -> Self {
+        Self { now: T::ZERO, peak: T::ZERO }
+    }
+}
+
+impl<T: Real> Quantities<T> for Times<T> {
+    #[inline]
+    fn combine(self, other: Self, of: impl Fn(T, T) -> T + Copy) -> Self {
+        Self { now: of(self.now, other.now), peak: of(self.peak, other.peak) }
+    }
+}
+
+impl<T: Real> Integrals<T> for Times<T> {
+    #[inline]
+    fn growth(&self, _law: &impl NormalLaw<T>, _s: T, _y: T, rebound: bool) -> Self {
+        Self { now: T::ONE, peak: if rebound { T::ZERO } else { T::ONE } }
+    }
+
+    #[inline]
+    fn timed(self, times: &Times<T>) -> Self {
+        *times
+    }
+}
+
+observe_by_integrals!(Times, timed: true);
+
+/// Impulses of the elastic force and of adhesion on rebound, in units of the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impulses<T> {
+    pub(super) elastic: T,
+    pub(super) adhesion_rebound: T,
+}
+
+impl<T: Real> Impulses<T> {
+    pub(super) fn new() -> Self {
+        Self { elastic: T::ZERO, adhesion_rebound: T::ZERO }
+    }
+}
+
+impl<T: Real> Quantities<T> for Impulses<T> {
+    #[inline]
+    fn combine(self, other: Self, of: impl Fn(T, T) -> T + Copy) -> Self {
+        Self {
+            elastic: of(self.elastic, other.elastic),
+            adhesion_rebound: of(self.adhesion_rebound, other.adhesion_rebound),
+        }
+    }
+}
+
+impl<T: Real> Integrals<T> for Impulses<T> {
+    #[inline]
+    fn growth(&self, law: &impl NormalLaw<T>, s: T, y: T, rebound: bool) -> Self {
+        let adhesion_rebound = if rebound { law.adhesion_force(s) + law.adhesion_damping(s) * y } else { T::ZERO };
+        Self { elastic: law.elastic_force(s), adhesion_rebound }
+    }
+}
+
+observe_by_integrals!(Impulses, timed: true);
+
+/// Works of the two kinds of damping, in units of the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Works<T> {
+    pub(super) material: T,
+    pub(super) adhesion: T,
+}
+
+impl<T: Real> Works<T> {
+    pub(super) fn new() -> Self {
+        Self { material: T::ZERO, adhesion: T::ZERO }
+    }
+}
+
+impl<T: Real> Quantities<T> for Works<T> {
+    #[inline]
+    fn combine(self, other: Self, of: impl Fn(T, T) -> T + Copy) -> Self {
+        Self { material: of(self.material, other.material), adhesion: of(self.adhesion, other.adhesion) }
+    }
+}
+
+impl<T: Real> Integrals<T> for Works<T> {
+    #[inline]
+    fn growth(&self, law: &impl NormalLaw<T>, s: T, y: T, rebound: bool) -> Self {
+        let square = y * y;
+        let adhesion = if rebound { law.adhesion_damping(s) * square } else { T::ZERO };
+        Self { material: law.material_damping(s) * square, adhesion }
+    }
+}
+
+observe_by_integrals!(Works, timed: false);

@@ -1,0 +1,262 @@
+//! A whole phase of the motion, approach or rebound, as one polynomial.
+//!
+//! With the contact radius s = a (1 - z^2) below its peak a and the speed y = z u, both phases run from z = 0 at the peak to
+//! z = 1 at s = 0, and u^2 = free(z) +- integral of z^2 loss(z) u dz / z^2 with plus on approach, seen backwards. Where damping
+//! is mild and the sphere is not slow, u is so smooth that few nodes give it everywhere, and all else are integrals over it.
+
+// Indices run over arrays of the length that their loops count to.
+#![allow(clippy::indexing_slicing, clippy::needless_range_loop)]
+
+use super::law::NormalLaw;
+use super::nodes::{Nodes, PhaseNodes, PhaseSamples, Share};
+use super::stretch::{Point, Stretch, dot};
+use crate::Real;
+
+/// Speeds over z at the nodes, and what they follow from.
+#[derive(Clone)]
+pub(super) struct Phase<T, const N: usize> {
+    /// Peak contact radius.
+    pub(super) peak: T,
+    /// Squares without losses.
+    pub(super) free: [T; N],
+    /// Loss for each dz, over the weight of the nodes; negative on rebound.
+    pub(super) loss: [T; N],
+    pub(super) speed: [T; N],
+}
+
+/// What a phase loses over an energy, and what its nodes cannot represent.
+pub(super) struct Tails<T> {
+    pub(super) lost: T,
+    /// Of the losses, over the energy.
+    pub(super) power: T,
+    /// Of the reciprocal speed, over itself.
+    pub(super) slowness: T,
+}
+
+impl<T: Real> Tails<T> {
+    /// Estimated error of e^2; quadrature is exact to twice the degree of the polynomial, so that it goes with squares.
+    pub(super) fn error_of_energy(&self) -> T {
+        let power = self.power * self.power / (self.lost + T::SMALLEST);
+        let slowness = T::constant(0.03) * self.lost * self.slowness * self.slowness;
+        T::constant(0.5) * power.max(slowness)
+    }
+
+    /// Estimated error of integrals over time, in proportion to themselves, where the quadrature itself is exact.
+    pub(super) fn error_of_times(&self) -> T {
+        let square = self.slowness * self.slowness;
+        (T::constant(2e-3) * self.power).max(T::constant(0.06) * square * square)
+    }
+}
+
+/// Below this share of the speed at the peak the sphere has turned.
+const SLOWEST: f64 = 1e-3;
+
+impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
+    /// The approach to the peak that an energy reaches without losses, with what damping takes estimated.
+    pub(super) fn approach(law: &impl NormalLaw<T>, energy: T) -> Self {
+        let zeros = [T::ZERO; N];
+        let mut phase = Self { peak: T::ONE, free: zeros, loss: zeros, speed: zeros };
+        phase.peak = phase.peak - (law.potential(phase.peak) - energy) / law.slope(phase.peak);
+        phase.describe(law, false);
+        let start = phase.powers();
+        for j in 0..N {
+            phase.speed[j] = phase.free[j].max(T::SMALLEST).sqrt() + Self::gain(start, j);
+        }
+        let before = phase.peak;
+        phase.correct_peak(law, energy, phase.gained());
+        // Elastic energy goes with the fifth power of the peak, the speed with its root.
+        let growth = (phase.peak - before) / before;
+        let factor = T::ONE + growth * (T::constant(2.5) + T::constant(1.875) * growth);
+        phase.describe(law, false);
+        phase.speed = phase.speed.map(|speed| speed * factor);
+        phase
+    }
+
+    /// From the approach to the rebound from the same peak, with what damping takes estimated.
+    pub(super) fn turn(&mut self, law: &impl NormalLaw<T>) {
+        let before = self.powers();
+        self.describe(law, true);
+        let after = self.powers();
+        // What damping gave to the one, seen backwards, it takes from the other; what the losses differ by comes on top.
+        let change = (before.0 + after.0, before.1 + after.1);
+        for j in 0..N {
+            let speed = self.free[j] / self.speed[j] + Self::gain(change, j);
+            self.speed[j] = speed.max(T::constant(SLOWEST));
+        }
+    }
+
+    /// Free squares and losses for the present peak.
+    pub(super) fn describe(&mut self, law: &impl NormalLaw<T>, rebound: bool) {
+        let (two, four) = (T::constant(2.0), T::constant(if rebound { -4.0 } else { 4.0 }));
+        for j in 0..N {
+            let share = &T::SHARES[j];
+            self.free[j] = two * law.fall(self.peak, share);
+            self.loss[j] = four * self.peak * law.loss_over_square(self.peak, share, rebound);
+        }
+    }
+
+    /// Energy that the losses give over the whole phase; negative on rebound.
+    #[inline]
+    pub(super) fn gained(&self) -> T {
+        let mut gained = T::ZERO;
+        for k in 0..N {
+            gained = gained + T::WHOLE[k] * self.loss[k] * self.speed[k];
+        }
+        T::constant(0.5) * gained
+    }
+
+    /// One sweep, with one of Heron's steps for the root at every node: the energy that the losses then give and, where it is
+    /// `MEASURED`, the square of the change of the speeds.
+    #[inline(never)]
+    pub(super) fn sweep<const MEASURED: bool>(&mut self) -> (T, T) {
+        let half = T::constant(0.5);
+        let mut square = self.free;
+        for k in 0..N {
+            let power = self.loss[k] * self.speed[k];
+            for j in 0..N {
+                square[j] = square[j] + <T as PhaseNodes<N>>::RUNNING[k][j] * power;
+            }
+        }
+        let (mut gained, mut change) = (T::ZERO, T::ZERO);
+        for j in 0..N {
+            // A captured sphere turns before s = 0: the floor lets the loss exceed the energy all the same.
+            let speed = (half * (self.speed[j] + square[j] / self.speed[j])).max(T::constant(SLOWEST));
+            if MEASURED {
+                let step = speed - self.speed[j];
+                change = change + step * step;
+            }
+            self.speed[j] = speed;
+            gained = gained + <T as PhaseNodes<N>>::WHOLE[j] * self.loss[j] * speed;
+        }
+        (half * gained, change)
+    }
+
+    /// One of Newton's steps for the peak whose potential, with what was lost on the way, is the energy; the energy there.
+    #[inline]
+    pub(super) fn correct_peak(&mut self, law: &impl NormalLaw<T>, energy: T, lost: T) -> T {
+        let excess = law.potential(self.peak) + lost - energy;
+        // Losses grow with the fifth power of the peak.
+        let growth = T::constant(5.0) * lost / self.peak;
+        let step = excess / (law.slope(self.peak) + growth);
+        self.peak = self.peak - step;
+        energy - (lost - growth * step)
+    }
+
+    /// What the nodes cannot represent of the losses, as a share of the energy, and of the reciprocal speed, which is smooth
+    /// except near the slow end of a phase.
+    pub(super) fn tails(&self, energy: T) -> Tails<T> {
+        let (mut power_tail, mut lost, mut slowness_tail, mut slowness) = (T::ZERO, T::ZERO, T::ZERO, T::ZERO);
+        for k in 0..N {
+            let (power, inverse) = (self.loss[k] * self.speed[k], T::ONE / self.speed[k]);
+            power_tail = power_tail + T::TAIL[k] * power;
+            lost = lost + T::WHOLE[k] * power;
+            slowness_tail = slowness_tail + T::TAIL[k] * inverse;
+            slowness = slowness + T::WHOLE[k] * inverse;
+        }
+        let half = T::constant(0.5);
+        let lost = half * lost.abs() / energy;
+        Tails { lost, power: half * power_tail.abs() / energy, slowness: slowness_tail.abs() / slowness }
+    }
+
+    /// The loss as c0 + c1 m^2.
+    #[inline]
+    fn powers(&self) -> (T, T) {
+        let (first, last) = (&T::SHARES[0], &T::SHARES[N - 1]);
+        let (at_first, at_last) = (self.loss[0], self.loss[N - 1]);
+        let slope = (at_first - at_last) / (first.square - last.square);
+        (at_last - slope * last.square, slope)
+    }
+
+    /// What losses c0 + c1 m^2 add to the speed at node j, to first order and as if the speed were the same everywhere.
+    #[inline]
+    fn gain((constant, square): (T, T), j: usize) -> T {
+        let (of_one, of_square) = T::RUNNING_POWERS[j];
+        T::constant(0.5) * (constant * of_one + square * of_square)
+    }
+
+    /// The whole phase at Radau's nodes, for what is integrated along it; z runs against time on approach.
+    pub(super) fn samples<const M: usize>(&self, law: &impl NormalLaw<T>, rebound: bool) -> Stretch<T, M>
+    where
+        T: PhaseSamples<N, M>,
+    {
+        let two = T::constant(2.0);
+        let shares = &<T as PhaseSamples<N, M>>::SHARES;
+        let mut square = [T::ZERO; M];
+        for q in 0..M {
+            square[q] = two * law.fall(self.peak, &shares[q]);
+        }
+        for k in 0..N {
+            let power = self.loss[k] * self.speed[k];
+            for q in 0..M {
+                square[q] = square[q] + <T as PhaseSamples<N, M>>::RUNNING[k][q] * power;
+            }
+        }
+        let (mut s, mut y, mut rate) = ([T::ZERO; M], [T::ZERO; M], [T::ZERO; M]);
+        for q in 0..M {
+            let speed = square[q].max(T::constant(SLOWEST * SLOWEST)).sqrt();
+            s[q] = self.peak * shares[q].radius;
+            y[q] = speed * <T as Nodes<M>>::Z[q];
+            rate[q] = two * self.peak * law.indentation_slope(s[q]) / speed;
+        }
+        let end = Point { s: T::ZERO, energy: T::ZERO, speed_squared: T::ZERO };
+        Stretch { s, y, rate, end, accepted: true, error: T::ZERO, forward: rebound }
+    }
+
+    /// Gains over z as a polynomial, in those of Legendre, from which [`part`](Self::part) reads the phase anywhere.
+    pub(super) fn gains<const M: usize>(&self) -> [T; M]
+    where
+        T: PhaseSamples<N, M>,
+    {
+        let (mut gains, mut series) = ([T::ZERO; M], [T::ZERO; M]);
+        for k in 0..N {
+            let power = self.loss[k] * self.speed[k];
+            for q in 0..M {
+                gains[q] = gains[q] + <T as PhaseSamples<N, M>>::RUNNING[k][q] * power;
+            }
+        }
+        for q in 0..M {
+            gains[q] = gains[q] / <T as Nodes<M>>::Z[q];
+        }
+        // The integral of N powers of z under the weight, over z^3.
+        for i in 0..M.min(N + 4) {
+            series[i] = dot(&<T as Nodes<M>>::LEGENDRE[i], &gains);
+        }
+        series
+    }
+
+    /// The phase between two places z, in the order of time.
+    pub(super) fn part<const M: usize>(&self, law: &impl NormalLaw<T>, gains: &[T; M], from: T, to: T) -> Stretch<T, M>
+    where
+        T: PhaseSamples<N, M>,
+    {
+        let two = T::constant(2.0);
+        let (mut z, mut x) = ([T::ZERO; M], [T::ZERO; M]);
+        for q in 0..M {
+            z[q] = from + (to - from) * <T as Nodes<M>>::Z[q];
+            x[q] = two * z[q] - T::ONE;
+        }
+        // Clenshaw's recurrence.
+        let (mut now, mut before) = ([T::ZERO; M], [T::ZERO; M]);
+        for i in (0..M.min(N + 4)).rev() {
+            let (up, down) = ((2 * i + 1) as f64 / (i + 1) as f64, (i + 1) as f64 / (i + 2) as f64);
+            let (up, down) = (T::constant(up), T::constant(down));
+            for q in 0..M {
+                let next = gains[i] + up * x[q] * now[q] - down * before[q];
+                before[q] = now[q];
+                now[q] = next;
+            }
+        }
+        let length = (to - from).abs();
+        let (mut s, mut y, mut rate) = ([T::ZERO; M], [T::ZERO; M], [T::ZERO; M]);
+        for q in 0..M {
+            let share = Share::new(T::ONE - z[q] * z[q]);
+            let square = two * law.fall(self.peak, &share) + z[q] * now[q];
+            let speed = square.max(T::constant(SLOWEST * SLOWEST)).sqrt();
+            s[q] = self.peak * share.radius;
+            y[q] = speed * z[q];
+            rate[q] = two * length * self.peak * law.indentation_slope(s[q]) / speed;
+        }
+        let end = Point { s: s[M - 1], energy: T::ZERO, speed_squared: T::ZERO };
+        Stretch { s, y, rate, end, accepted: true, error: T::ZERO, forward: true }
+    }
+}
