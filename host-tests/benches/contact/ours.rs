@@ -1,0 +1,152 @@
+//! The methods of this library, from a scene and a motion in SI units.
+
+use std::hint::black_box;
+
+use host_tests::Case;
+use microimpact::simulation::{
+    Collocation, ContactImpulses, ContactTimes, FixedCost, HystereticDamping, Nodes, NormalContact, PhaseNodes, Ring,
+    RungeKuttaGill, SimulatedImpact, Simulation, SteppedImpact,
+};
+use microimpact::{NormalMotion, Real, Sphere, Stiffness};
+
+use crate::contestant::{Answer, Contestant, tolerances};
+
+/// The method that the others are compared with.
+pub const COLLOCATION: &str = "Collocation";
+const SINGLE_PRECISION: &str = "Collocation, f32";
+const FIXED_COST: &str = "FixedCost";
+const PAPER: &str = "the paper's method";
+
+type NormalScene<T> = Simulation<T, HystereticDamping<T>, Ring<T>>;
+type Outputs<T> = (ContactTimes<T>, ContactImpulses<T>);
+
+/// The normal motion.
+pub fn normal(case: &Case) -> Vec<Contestant> {
+    let mut all = collocation::<5, f64>(COLLOCATION, case);
+    all.extend(collocation::<6, f64>(COLLOCATION, case));
+    all.extend(collocation::<7, f64>(COLLOCATION, case));
+    all.extend(collocation::<8, f64>(COLLOCATION, case));
+    all.extend(collocation::<9, f64>(COLLOCATION, case));
+    all.extend(collocation::<10, f64>(COLLOCATION, case));
+    all.extend(collocation::<12, f64>(COLLOCATION, case));
+    all.extend(collocation::<14, f64>(COLLOCATION, case));
+    all.extend(collocation::<6, f32>(SINGLE_PRECISION, case));
+    all.extend(collocation::<8, f32>(SINGLE_PRECISION, case));
+    all.extend(fixed_cost::<5>(case));
+    all.extend(fixed_cost::<6>(case));
+    all.extend(fixed_cost::<7>(case));
+    all.extend(fixed_cost::<8>(case));
+    all.extend(paper_method(case));
+    all
+}
+
+/// The same impact with friction and spin.
+pub fn oblique(case: &Case) -> Vec<Contestant> {
+    let mut all = oblique_collocation::<6>(case);
+    all.extend(oblique_collocation::<7>(case));
+    all.extend(oblique_collocation::<9>(case));
+    all.extend(oblique_collocation::<12>(case));
+    all.extend(oblique_paper_method(case));
+    all
+}
+
+fn normal_scene<T: Real>(case: &Case) -> (NormalScene<T>, NormalMotion<T>) {
+    let number = |column| T::constant(case.number(column));
+    let sphere = Sphere::solid(number("radius_m"), number("density_kg_m3")).unwrap();
+    let scene = Simulation::new(sphere, Stiffness::new(number("stiffness_pa")).unwrap())
+        .with_damping(number("zeta_h"))
+        .unwrap()
+        .with_ring(number("adhesion_n_m"), number("zeta_a"))
+        .unwrap();
+    (scene, NormalMotion::new(number("speed_normal_m_s")).unwrap())
+}
+
+fn answer<T: Into<f64> + Real>(
+    normal: &NormalContact<T>,
+    (times, impulses): &Outputs<T>,
+    effort: (u32, &'static str),
+) -> Option<Answer> {
+    Some(Answer {
+        restitution: normal.overall_restitution().into(),
+        contact_time: times.contact.map(Into::into),
+        impulse: Some(impulses.elastic.into()),
+        effort: Some((effort.0 as usize, effort.1)),
+    })
+}
+
+fn collocation<const N: usize, T: Nodes<N> + Into<f64>>(entry: &'static str, case: &Case) -> Vec<Contestant> {
+    let contestant = |tolerance: f64| {
+        let (scene, motion) = normal_scene::<T>(case);
+        let method = Collocation::<N, T>::new(T::constant(tolerance)).ok()?;
+        Some(Contestant::new(entry, format!("{N} nodes"), format!("{tolerance:.0e}"), move || {
+            let impact: SimulatedImpact<_, _, Outputs<T>> =
+                black_box(&scene).observe(&method, black_box(&motion)).ok()?;
+            answer(&impact.normal, &impact.outputs, (impact.run.sweeps, "sweeps"))
+        }))
+    };
+    tolerances().filter_map(contestant).collect()
+}
+
+fn oblique_collocation<const N: usize>(case: &Case) -> Vec<Contestant>
+where
+    f64: Nodes<N>,
+{
+    let contestant = |tolerance: f64| {
+        let (scene, motion) = (case.scene().unwrap(), case.motion().unwrap());
+        let method = Collocation::<N, f64>::new(tolerance).ok()?;
+        Some(Contestant::new(COLLOCATION, format!("{N} nodes"), format!("{tolerance:.0e}"), move || {
+            let impact: SimulatedImpact<_, _, Outputs<f64>> =
+                black_box(&scene).observe(&method, black_box(&motion)).ok()?;
+            answer(&impact.normal, &impact.outputs, (impact.run.sweeps, "sweeps"))
+        }))
+    };
+    tolerances().filter_map(contestant).collect()
+}
+
+/// It gives no times or impulses.
+fn fixed_cost<const N: usize>(case: &Case) -> Vec<Contestant>
+where
+    f64: PhaseNodes<N>,
+{
+    let contestant = |sweeps: u32| {
+        let (scene, motion) = normal_scene::<f64>(case);
+        let method = FixedCost::<N>::new(sweeps).unwrap();
+        Contestant::new(FIXED_COST, format!("{N} nodes"), format!("{sweeps} sweeps"), move || {
+            let contact = black_box(&scene).normal_impact(&method, black_box(&motion)).ok()?;
+            let effort = Some((2 * sweeps as usize, "sweeps"));
+            Some(Answer { restitution: contact.overall_restitution(), contact_time: None, impulse: None, effort })
+        })
+    };
+    (2..=10).map(contestant).collect()
+}
+
+/// Numbers of steps in the duration of Hertz's impact.
+fn steps() -> impl Iterator<Item = u32> {
+    (0..=14).map(|half_octaves| (250.0 * 2f64.powf(0.5 * f64::from(half_octaves))) as u32)
+}
+
+fn paper_method(case: &Case) -> Vec<Contestant> {
+    let contestant = |steps: u32| {
+        let (scene, motion) = normal_scene::<f64>(case);
+        let method = RungeKuttaGill::new(steps);
+        Contestant::new(PAPER, "Runge-Kutta-Gill", format!("{steps} steps"), move || {
+            let impact: SteppedImpact<_, _, Outputs<f64>> =
+                black_box(&scene).stepped_impact(&method, black_box(&motion)).ok()?;
+            answer(&impact.normal, &impact.outputs, (4 * impact.run.steps, "evaluations"))
+        })
+    };
+    steps().map(contestant).collect()
+}
+
+fn oblique_paper_method(case: &Case) -> Vec<Contestant> {
+    let contestant = |steps: u32| {
+        let (scene, motion) = (case.scene::<f64>().unwrap(), case.motion().unwrap());
+        let method = RungeKuttaGill::new(steps);
+        Contestant::new(PAPER, "Runge-Kutta-Gill", format!("{steps} steps"), move || {
+            let impact: SteppedImpact<_, _, Outputs<f64>> =
+                black_box(&scene).stepped_impact(&method, black_box(&motion)).ok()?;
+            answer(&impact.normal, &impact.outputs, (4 * impact.run.steps, "evaluations"))
+        })
+    };
+    steps().map(contestant).collect()
+}
