@@ -4,12 +4,14 @@ use std::hint::black_box;
 
 use host_tests::Case;
 use microimpact::simulation::{
-    Collocation, ContactImpulses, ContactTimes, FixedCost, HystereticDamping, Nodes, NormalContact, PhaseNodes, Ring,
-    RungeKuttaGill, SimulatedImpact, Simulation, SteppedImpact,
+    Collocation, ContactImpulses, ContactTimes, FixedCost, Nodes, NormalContact, PhaseNodes, RungeKuttaGill,
+    SimulatedImpact, SteppedImpact,
 };
-use microimpact::{NormalMotion, Real, Sphere, Stiffness};
+use microimpact::{Real, Stiffness};
 
-use crate::contestant::{Answer, Contestant, tolerances};
+use crate::common::contestant::{Answer, Contestant, tolerances};
+use crate::common::regularised::Regularised;
+use crate::common::scene::{normal_scene, solved};
 
 /// The method that the others are compared with.
 pub const COLLOCATION: &str = "Collocation";
@@ -17,7 +19,6 @@ const SINGLE_PRECISION: &str = "Collocation, f32";
 const FIXED_COST: &str = "FixedCost";
 const PAPER: &str = "the paper's method";
 
-type NormalScene<T> = Simulation<T, HystereticDamping<T>, Ring<T>>;
 type Outputs<T> = (ContactTimes<T>, ContactImpulses<T>);
 
 /// The normal motion.
@@ -50,15 +51,11 @@ pub fn oblique(case: &Case) -> Vec<Contestant> {
     all
 }
 
-fn normal_scene<T: Real>(case: &Case) -> (NormalScene<T>, NormalMotion<T>) {
-    let number = |column| T::constant(case.number(column));
-    let sphere = Sphere::solid(number("radius_m"), number("density_kg_m3")).unwrap();
-    let scene = Simulation::new(sphere, Stiffness::new(number("stiffness_pa")).unwrap())
-        .with_damping(number("zeta_h"))
-        .unwrap()
-        .with_ring(number("adhesion_n_m"), number("zeta_a"))
-        .unwrap();
-    (scene, NormalMotion::new(number("speed_normal_m_s")).unwrap())
+/// The equations in the units of the scene.
+pub fn equations(case: &Case) -> Regularised {
+    let (scene, motion) = normal_scene(case);
+    let stiffness = Stiffness::new(case.number("stiffness_pa")).unwrap();
+    Regularised::new(&scene.groups(&motion).unwrap(), scene.sphere(), stiffness, &motion)
 }
 
 fn answer<T: Into<f64> + Real>(
@@ -67,7 +64,7 @@ fn answer<T: Into<f64> + Real>(
     effort: (u32, &'static str),
 ) -> Option<Answer> {
     Some(Answer {
-        restitution: normal.overall_restitution().into(),
+        restitution: solved(normal.overall_restitution(), normal.status())?.into(),
         contact_time: times.contact.map(Into::into),
         impulse: Some(impulses.elastic.into()),
         effort: Some((effort.0 as usize, effort.1)),
@@ -113,8 +110,8 @@ where
         let method = FixedCost::<N>::new(sweeps).unwrap();
         Contestant::new(FIXED_COST, format!("{N} nodes"), format!("{sweeps} sweeps"), move || {
             let contact = black_box(&scene).normal_impact(&method, black_box(&motion)).ok()?;
-            let effort = Some((2 * sweeps as usize, "sweeps"));
-            Some(Answer { restitution: contact.overall_restitution(), contact_time: None, impulse: None, effort })
+            let restitution = solved(contact.overall_restitution(), contact.status())?;
+            Some(Answer::of_restitution(restitution, Some((2 * sweeps as usize, "sweeps"))))
         })
     };
     (2..=10).map(contestant).collect()

@@ -1,5 +1,5 @@
-//! The crate differential-equations. Its own search for events does not follow the tolerance, so they are located on its
-//! interpolation, or by a last step.
+//! The crate differential-equations. Its own search for events does not follow the tolerance, so they are located on
+//! its interpolation, or by a last step.
 
 use std::cell::Cell;
 use std::hint::black_box;
@@ -11,8 +11,9 @@ use differential_equations::prelude::ExplicitRungeKutta;
 use differential_equations::solout::Solout;
 use differential_equations::solution::Solution;
 
-use crate::contestant::{Contestant, tolerances};
-use crate::regularised::{Regularised, Vector, sign_change};
+use super::sign_change;
+use crate::common::contestant::{Contestant, tolerances};
+use crate::common::regularised::{Regularised, Vector};
 
 // A solver counts its steps over all runs, so each run has its own; it lives on the stack.
 

@@ -6,8 +6,8 @@ use std::rc::Rc;
 
 use diffsol::{NalgebraMat, NalgebraVec, OdeBuilder, OdeEquations, OdeSolverMethod, OdeSolverStopReason, Op};
 
-use crate::contestant::{Contestant, tolerances};
-use crate::regularised::{Regularised, Variable, Vector};
+use crate::common::contestant::{Contestant, tolerances};
+use crate::common::regularised::{Regularised, Variable, Vector};
 
 /// Settings with the events of the solver.
 pub fn with_events(equations: Regularised) -> Vec<Contestant> {

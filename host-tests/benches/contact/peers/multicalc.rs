@@ -5,8 +5,8 @@ use std::hint::black_box;
 use multicalc::linear_algebra::Vector;
 use multicalc::ode::Rk45;
 
-use crate::contestant::{Contestant, tolerances};
-use crate::regularised::Regularised;
+use crate::common::contestant::{Contestant, tolerances};
+use crate::common::regularised::Regularised;
 
 /// The settings: tolerances, and first steps of its own choice or of half a leg.
 pub fn contestants(equations: Regularised, places: [f64; 2]) -> Vec<Contestant> {

@@ -5,8 +5,9 @@ use std::hint::black_box;
 use numeris::Vector;
 use numeris::ode::{AdaptiveSettings, RKAdaptive, RKF45, RKTS54, RKV65, RKV87, RKV98, RKV98Efficient, RKV98NoInterp};
 
-use crate::contestant::{Contestant, tolerances};
-use crate::regularised::{Regularised, sign_change};
+use super::sign_change;
+use crate::common::contestant::{Contestant, tolerances};
+use crate::common::regularised::Regularised;
 
 type State = Vector<f64, 4>;
 
@@ -73,8 +74,10 @@ pub fn with_dense_output(equations: Regularised, places: [f64; 2]) -> Vec<Contes
                         let dense = solution.dense.as_ref()?;
                         let step = dense.y.iter().skip(1).position(|state| state[index] <= 0.0);
                         let step = step.unwrap_or(dense.y.len() - 1);
-                        let after = dense.t.get(step + 1).map_or((to, solution.y[index]), |&z| (z, dense.y[step + 1][index]));
-                        sign_change((dense.t[step], dense.y[step][index]), after, |place| {
+                        let places = dense.t.iter().copied().chain([to]);
+                        let values = dense.y.iter().chain([&solution.y]).map(|state| state[index]);
+                        let mut ends = places.zip(values).skip(step);
+                        sign_change(ends.next()?, ends.next()?, |place| {
                             state = $method::interpolate(place, &solution).unwrap_or(state);
                             state[index]
                         });

@@ -4,8 +4,8 @@ use std::hint::black_box;
 
 use ode_solvers::{Dop853, Dopri5, OutputType, SVector, System};
 
-use crate::contestant::{Contestant, tolerances};
-use crate::regularised::Regularised;
+use crate::common::contestant::{Contestant, tolerances};
+use crate::common::regularised::Regularised;
 
 impl System<f64, SVector<f64, 4>> for Regularised {
     fn system(&self, _z: f64, state: &SVector<f64, 4>, rates: &mut SVector<f64, 4>) {

@@ -4,19 +4,20 @@
 //!
 //! with g = 0 on approach.
 
-use std::f64::consts::PI;
+use microimpact::simulation::Groups;
+use microimpact::{NormalMotion, Sphere, Stiffness};
 
-use host_tests::Case;
-
-use crate::contestant::Answer;
+use super::contestant::Answer;
 
 /// The equations, with the variable that they are solved against.
+///
+/// A, B, h and g are `elastic`, `adhesion`, `material_damping` and `adhesion_damping`.
 #[derive(Clone, Copy)]
 pub struct Regularised {
-    elastic: f64,
-    adhesion: f64,
-    material_damping: f64,
-    adhesion_damping: f64,
+    pub elastic: f64,
+    pub adhesion: f64,
+    pub material_damping: f64,
+    pub adhesion_damping: f64,
     /// Whether the sphere is on its way out.
     pub rebound: bool,
     /// The independent variable.
@@ -43,29 +44,37 @@ struct Units {
 }
 
 impl Regularised {
-    pub fn of(case: &Case) -> Self {
-        let (elastic, adhesion) = (case.number("group_a"), case.number("group_b"));
+    pub fn new(
+        groups: &Groups<f64>,
+        sphere: &Sphere<f64>,
+        stiffness: Stiffness<f64>,
+        motion: &NormalMotion<f64>,
+    ) -> Self {
         let mut equations = Self {
-            elastic,
-            adhesion,
-            material_damping: case.number("group_h"),
-            adhesion_damping: case.number("group_g"),
+            elastic: groups.elasticity,
+            adhesion: groups.adhesion,
+            material_damping: groups.material_damping,
+            adhesion_damping: groups.adhesion_damping,
             rebound: false,
             against: Variable::Stretched,
             units: Units { time: 1.0, impulse: 1.0 },
         };
-        let radius = case.number("radius_m");
-        let mass = 4.0 / 3.0 * PI * radius.powi(3) * case.number("density_kg_m3");
-        let speed = case.number("speed_normal_m_s") / equations.start()[1];
+        let speed = motion.speed() / equations.start()[1];
         // A is sqrt(r) K length^(5/2)/(m speed^2).
-        let length = (elastic * mass * speed * speed / (radius.sqrt() * case.number("stiffness_pa"))).powf(0.4);
-        equations.units = Units { time: length / speed, impulse: mass * speed };
+        let stiffness = sphere.radius().sqrt() * stiffness.pascals();
+        let length = (equations.elastic * sphere.mass() * speed * speed / stiffness).powf(0.4);
+        equations.units = Units { time: length / speed, impulse: sphere.mass() * speed };
         equations
     }
 
     /// The equations on the way out.
     pub fn on_rebound(self) -> Self {
         Self { rebound: true, ..self }
+    }
+
+    /// The equations with another independent variable.
+    pub fn against(self, variable: Variable) -> Self {
+        Self { against: variable, ..self }
     }
 
     /// Speed at first touch: the scale of length is the undamped peak, where this energy is spent.
@@ -87,22 +96,6 @@ impl Regularised {
         rates.map(|rate| rate * share)
     }
 
-    /// The contact by a solver that finds no events: from a state at one value of the variable to another, four times.
-    ///
-    /// `places` are values of z shortly before the peak and the separation.
-    #[inline]
-    pub fn without_events(
-        self,
-        places: [f64; 2],
-        mut leg: impl FnMut(Self, f64, Vector, f64) -> Option<Vector>,
-    ) -> Option<Vector> {
-        let short = leg(self, 0.0, self.start(), places[0])?;
-        let peak = leg(Self { against: Variable::Speed, ..self }, short[1], short, 0.0)?;
-        let back = self.on_rebound();
-        let short = leg(back, 0.0, peak, places[1])?;
-        leg(Self { against: Variable::Radius, ..back }, short[0], short, 0.0)
-    }
-
     /// What the state at separation says.
     #[inline]
     pub fn answer(&self, [_, y, time, impulse]: Vector, evaluations: Option<usize>) -> Answer {
@@ -113,24 +106,4 @@ impl Regularised {
             effort: evaluations.map(|count| (count, "evaluations")),
         }
     }
-}
-
-/// Place of a sign change of `value` between two places, by the Illinois method.
-pub fn sign_change(mut low: (f64, f64), mut high: (f64, f64), mut value: impl FnMut(f64) -> f64) -> f64 {
-    let mut place = high.0;
-    for _ in 0..12 {
-        place = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
-        let value = value(place);
-        if value.abs() < 1e-15 {
-            break;
-        }
-        if value > 0.0 {
-            low = (place, value);
-            high.1 *= 0.5;
-        } else {
-            high = (place, value);
-            low.1 *= 0.5;
-        }
-    }
-    place
 }

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 /// Turns of each contestant.
-const TURNS: u32 = 30;
+const TURNS: u32 = 50;
 
 /// A turn repeats a run until it takes about this long, s.
 const TURN: f64 = 1e-4;

@@ -1,7 +1,5 @@
 //! A method with one setting, and what it answers.
 
-use host_tests::Case;
-
 /// What a method says of a contact, as far as it does.
 #[derive(Clone, Copy)]
 pub struct Answer {
@@ -15,13 +13,18 @@ pub struct Answer {
 }
 
 impl Answer {
+    /// e alone.
+    pub fn of_restitution(restitution: f64, effort: Option<(usize, &'static str)>) -> Self {
+        Self { restitution, contact_time: None, impulse: None, effort }
+    }
+
     /// Error of e, and relative errors of contact time and impulse.
-    pub fn errors(&self, case: &Case) -> [Option<f64>; 3] {
-        let relative = |value: Option<f64>, column| Some((value? / case.number(column) - 1.0).abs());
+    pub fn errors(&self, exact: &Self) -> [Option<f64>; 3] {
+        let relative = |value: Option<f64>, exact: Option<f64>| Some((value? / exact? - 1.0).abs());
         [
-            Some((self.restitution - case.number("restitution")).abs()),
-            relative(self.contact_time, "contact_time_s"),
-            relative(self.impulse, "impulse_hertz_n_s"),
+            Some((self.restitution - exact.restitution).abs()),
+            relative(self.contact_time, exact.contact_time),
+            relative(self.impulse, exact.impulse),
         ]
     }
 }
