@@ -79,6 +79,10 @@ pub enum Parameter {
     Tolerance,
     /// Sweeps of a method of fixed cost for each phase.
     Sweeps,
+    /// Energy of a captured sphere at rest, above the bottom of the well, over the depth of the well.
+    RestEnergy,
+    /// Turning points up to which a captured sphere is followed.
+    TurningPoints,
     /// (5/3) of the equilibrium indentation over the peak indentation of Hertz's impact: adhesion against inertia.
     AdhesionRatio,
     /// External force over elastic force at the peak indentation, times 5/4.
@@ -95,7 +99,7 @@ impl Parameter {
     ///
     /// assert!(Parameter::ALL.iter().all(|parameter| parameter.range().0 < parameter.range().1));
     /// ```
-    pub const ALL: [Self; 33] = [
+    pub const ALL: [Self; 35] = [
         Self::Radius,
         Self::Thickness,
         Self::Density,
@@ -126,6 +130,8 @@ impl Parameter {
         Self::PeelingMoment,
         Self::Tolerance,
         Self::Sweeps,
+        Self::RestEnergy,
+        Self::TurningPoints,
         Self::AdhesionRatio,
         Self::ForceRatio,
         Self::DampingRatio,
@@ -190,6 +196,8 @@ impl Parameter {
             Self::PeelingMoment => ("peeling moment", "N m", (0.0, 1e3)),
             Self::Tolerance => ("tolerance", "1", (1e-13, 1e-2)),
             Self::Sweeps => ("number of sweeps", "1", (1.0, 40.0)),
+            Self::RestEnergy => ("energy at rest over depth of the well", "1", (1e-12, 0.5)),
+            Self::TurningPoints => ("number of turning points", "1", (1.0, 1e5)),
             Self::AdhesionRatio => ("adhesion over inertia", "1", (0.0, 1e10)),
             Self::ForceRatio => ("external force over elasticity", "1", (-1e6, 1e6)),
             Self::DampingRatio => ("damping over elasticity", "1", (0.0, 1e9)),

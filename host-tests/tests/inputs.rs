@@ -1,7 +1,7 @@
 //! Every input has a range, and every value outside it is an error that names the input.
 
 use microimpact::rigid::{AdhesionCoefficient, Departure, WorkOfAdhesion, infer, infer_with_spins};
-use microimpact::simulation::{Collocation, FixedCost, Simulation};
+use microimpact::simulation::{Collocation, FixedCost, RestCriterion, Simulation};
 use microimpact::{
     ConstantRestitution, Coulomb, Fault, ImpactError, InputError, Material, NormalMotion, Parameter, PlanarMotion,
     Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
@@ -93,6 +93,7 @@ fn supply<T: Real>(parameter: Parameter, value: T) -> Checked {
             .and_then(|scene| scene.with_peeling(value))
             .map(drop),
         Parameter::Tolerance => Collocation::<7, T>::new(value).map(drop),
+        Parameter::RestEnergy => RestCriterion::new(value, 100).map(drop),
         other => panic!("{other:?} is not tested"),
     };
     Ok(checked?)
@@ -105,8 +106,13 @@ fn beyond(bound: f64, outwards: bool) -> f64 {
 }
 
 /// Parameters that follow from others, or are counted: tested one by one below.
-const DERIVED: [Parameter; 4] =
-    [Parameter::AdhesionRatio, Parameter::ForceRatio, Parameter::DampingRatio, Parameter::Sweeps];
+const DERIVED: [Parameter; 5] = [
+    Parameter::AdhesionRatio,
+    Parameter::ForceRatio,
+    Parameter::DampingRatio,
+    Parameter::Sweeps,
+    Parameter::TurningPoints,
+];
 
 fn assert_bounds_hold<T: Real>(not_a_number: [T; 3]) {
     for parameter in Parameter::ALL.into_iter().filter(|parameter| !DERIVED.contains(parameter)) {
@@ -169,6 +175,9 @@ fn ratios_of_forces() {
     assert!(scene.with_damping(1e3).unwrap().normal_impact(&method, &motion(1.0)).is_ok());
     for (sweeps, expected) in [(0, Fault::TooSmall), (41, Fault::TooLarge)] {
         assert_eq!(FixedCost::<5>::new(sweeps).err(), fault(Parameter::Sweeps, expected));
+    }
+    for (turning_points, expected) in [(0, Fault::TooSmall), (100_001, Fault::TooLarge)] {
+        assert_eq!(RestCriterion::new(0.1, turning_points).err(), fault(Parameter::TurningPoints, expected));
     }
 }
 

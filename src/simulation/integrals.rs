@@ -6,7 +6,7 @@
 use super::law::NormalLaw;
 use super::nodes::Nodes;
 use super::observer::Observer;
-use super::stretch::Stretch;
+use super::stretch::{Stretch, dot};
 use crate::Real;
 
 /// Quantities that are integrated together; none at all is `()`.
@@ -122,7 +122,9 @@ impl<T: Real> Quantities<T> for Times<T> {
 impl<T: Real> Integrals<T> for Times<T> {
     #[inline]
     fn growth(&self, _law: &impl NormalLaw<T>, _s: T, _y: T, rebound: bool) -> Self {
-        Self { now: T::ONE, peak: if rebound { T::ZERO } else { T::ONE } }
+        // Only until the sphere turns back for the first time.
+        let approaches = !rebound && self.peak == self.now;
+        Self { now: T::ONE, peak: if approaches { T::ONE } else { T::ZERO } }
     }
 
     #[inline]
@@ -131,7 +133,20 @@ impl<T: Real> Integrals<T> for Times<T> {
     }
 }
 
-observe_by_integrals!(Times, timed: true);
+impl<T: Real> Observer<T> for Times<T> {
+    const TIMED: bool = true;
+
+    // As all that follows a motion in time adds it up, to the last digit.
+    #[inline]
+    fn observe<const N: usize>(&mut self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>, rebound: bool)
+    where
+        T: Nodes<N>,
+    {
+        let duration = dot(&T::WHOLE, &stretch.rate);
+        let growth = self.growth(law, T::ZERO, T::ZERO, rebound);
+        *self = self.combine(growth, |sum, rate| sum + duration * rate);
+    }
+}
 
 /// Impulses of the elastic force and of adhesion on rebound, in units of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -18,11 +18,13 @@ mod outcome;
 mod outputs;
 mod paper;
 mod phase;
+mod rest;
 mod ring;
 mod run;
 mod scaled;
 mod stretch;
 mod tangential;
+mod trajectory;
 
 pub use adaptive::{Adaptive, AdaptiveNodes};
 pub use damping::{HystereticDamping, NoDamping};
@@ -34,14 +36,17 @@ pub use nodes::{Nodes, PhaseNodes, PhaseSamples, Share};
 pub use outcome::{NormalContact, SurfaceState, TangentialContact, TangentialVelocities};
 pub use outputs::{ContactImpulses, ContactTimes, ContactWorks, Everything, Output};
 pub use paper::RungeKuttaGill;
+pub use rest::{MotionToRest, RestCriterion, SettledImpact};
 pub use ring::Ring;
 pub use run::{RunReport, Status};
 pub use scaled::{Groups, Scale};
 pub use tangential::{NoPeeling, Peeling, Tangential, TangentialScene};
+pub use trajectory::{Sample, Trajectory};
 
 use crate::{Approach, Coulomb, InputError, NoAdhesion, NoFriction, Parameter, Real, Sphere, Stiffness};
+use integrals::Times;
 use law::HertzLaw;
-use motion::{MOST_STRETCHES, NormalPath, follow};
+use motion::{End, Follower, MOST_STRETCHES, NormalPath, follow};
 use observer::Observer;
 use scaled::Scaled;
 use stretch::Control;
@@ -281,7 +286,7 @@ where
 {
     /// The impact of a sphere that arrives with `motion`, with everything there is to know of it.
     ///
-    /// A captured sphere is followed until it first turns back.
+    /// A captured sphere is followed until it first turns back; [`observe_to_rest`](Self::observe_to_rest) goes on.
     ///
     /// # Errors
     /// A ratio of the scene's forces outside its range, so that the motion cannot be represented.
@@ -319,7 +324,7 @@ where
     }
 
     /// The impact of a sphere that arrives with `motion`, with what the type of the result names: outputs `O`
-    /// ([`ContactTimes`], [`ContactImpulses`], [`ContactWorks`], pairs of them, or `()` for none) and a tangential side `G`.
+    /// ([`ContactTimes`], [`ContactImpulses`], [`ContactWorks`], [`Trajectory`], pairs of them, or `()` for none) and a tangential side `G`.
     /// What is not named is not computed.
     ///
     /// # Errors
@@ -355,6 +360,63 @@ where
             outputs: O::finish(observer, &path, &self.sphere, &units),
             run: RunReport::new(&path),
         })
+    }
+
+    /// The impact of a sphere that arrives with `motion`, with outputs as of [`observe`](Self::observe). A captured sphere
+    /// is followed until it rests, as the `criterion` defines it, with all that is observed.
+    ///
+    /// # Errors
+    /// As [`impact`](Self::impact).
+    ///
+    /// ```
+    /// use microimpact::simulation::{Collocation, RestCriterion, SettledImpact, Simulation, TangentialContact};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness, SurfaceMotion};
+    ///
+    /// let scene = Simulation::new(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+    ///     .with_damping(10.5)?
+    ///     .with_ring(250.0, 6.25)?
+    ///     .with_friction(0.1)?;
+    /// let (method, criterion) = (Collocation::<9, f64>::new(1e-9)?, RestCriterion::new(1e-6, 1000)?);
+    /// let motion = NormalMotion::new(1.0)?.with_tangential(70.0)?;
+    /// // It still slides where it first turns back. At rest along the normal it rolls, with 5/7 of its velocity.
+    /// assert_eq!(scene.impact(&method, &motion)?.tangential.motion(), SurfaceMotion::Sliding);
+    /// let settled: SettledImpact<_, TangentialContact<f64>> = scene.observe_to_rest(&method, &motion, &criterion)?;
+    /// assert_eq!(settled.impact.tangential.motion(), SurfaceMotion::Rolling);
+    /// assert!((settled.impact.tangential.velocity() - 50.0).abs() < 1e-9);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn observe_to_rest<const N: usize, M, G, O>(
+        &self,
+        method: &Collocation<N, T>,
+        motion: &M,
+        criterion: &RestCriterion<T>,
+    ) -> Result<SettledImpact<T, G, O>, InputError>
+    where
+        T: Nodes<N>,
+        M: Approach<T>,
+        F: TangentialScene<T, M, A, P, G, Observer: Observer<T>>,
+        O: Output<T>,
+    {
+        let approach = motion.normal().speed();
+        let units = self.units(approach)?;
+        let tangential = self.friction.start(&self.sphere, &self.adhesion, &self.peeling, motion, &units)?;
+        let mut observer = (Times::new(), (O::begin(), tangential));
+        let law = self.law(&units)?;
+        let mut follower = Follower::arriving(&law, units.energy, method.control(true), &mut observer);
+        let mut path = follower.contact::<N>(true);
+        let settling = (path.end == End::Capture).then(|| follower.settle::<N>(&mut path, criterion));
+        let (times, (observer, tangential)) = observer;
+        let mut run = RunReport::new(&path);
+        if settling.as_ref().is_some_and(|settling| !settling.at_rest) {
+            run.status = Status::BudgetSpent;
+        }
+        let impact = SimulatedImpact {
+            normal: NormalContact::new(&path, approach, &self.sphere, self.stiffness, &units),
+            tangential: F::finish(tangential, &path, &self.sphere, &units),
+            outputs: O::finish(observer, &path, &self.sphere, &units),
+            run,
+        };
+        Ok(SettledImpact { impact, motion: settling.map(|settling| settling.in_units(times.now, &units)) })
     }
 
     /// The normal motion alone, by any method: how it ends and how fast, without times, impulses, works or anything tangential.

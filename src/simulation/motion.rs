@@ -62,6 +62,15 @@ pub(super) struct Effort<T> {
     pub(super) error: T,
 }
 
+impl<T: Real> Effort<T> {
+    pub(super) fn add(&mut self, other: &Self) {
+        self.stretches += other.stretches;
+        self.refused += other.refused;
+        self.sweeps += other.sweeps;
+        self.error = self.error.max(other.error);
+    }
+}
+
 /// Times that a stretch may be solved anew to find where the sphere begins to roll.
 const MOST_SPLITS: u32 = 40;
 
@@ -75,8 +84,8 @@ pub(super) struct Follower<'a, T, L, O> {
     observer: &'a mut O,
     pub(super) at: Point<T>,
     /// Where the barrier stands that holds the sphere, and the energy to pass it; zero without an external force.
-    brink: (T, T),
-    effort: Effort<T>,
+    pub(super) brink: (T, T),
+    pub(super) effort: Effort<T>,
 }
 
 /// Follows the normal motion of a sphere that arrives with a kinetic energy of `energy`.
@@ -89,32 +98,7 @@ pub(super) fn follow<T: Nodes<N>, const N: usize, L: NormalLaw<T>, O: Observer<T
     to_turning_point: bool,
     observer: &mut O,
 ) -> NormalPath<T> {
-    let at = Point { s: T::ZERO, energy, speed_squared: energy + energy };
-    let mut follower = Follower::from(law, control, observer, at);
-    // A sphere that comes slower than a barrier is high turns back in front of it and has none to pass on its way out.
-    let barrier = brink(law);
-    if energy > barrier.1 {
-        follower.brink = barrier;
-    }
-    follower.effort.nodes = N as u32;
-    let effort = follower.effort;
-    let mut path = NormalPath { end: End::Budget, energy, peak: T::ZERO, turning: T::ZERO, effort };
-    path.end = match follower.approach::<N>() {
-        Err(end) => end,
-        Ok(()) => {
-            path.peak = follower.at.s;
-            match follower.rebound::<N>(to_turning_point) {
-                Ok(turning) => {
-                    path.turning = turning;
-                    End::Capture
-                }
-                Err(end) => end,
-            }
-        }
-    };
-    path.energy = follower.at.energy;
-    path.effort = follower.effort;
-    path
+    Follower::arriving(law, energy, control, observer).contact::<N>(to_turning_point)
 }
 
 /// Share of a stretch at which the sphere begins to roll, the part up to there, and what is left of the error, as a share of
@@ -158,6 +142,44 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         Self { law, control, observer, at, brink: (T::ZERO, T::ZERO), effort }
     }
 
+    /// At first touch, with a kinetic energy.
+    pub(super) fn arriving(law: &'a L, energy: T, control: Control<T>, observer: &'a mut O) -> Self {
+        let at = Point { s: T::ZERO, energy, speed_squared: energy + energy };
+        let mut follower = Self::from(law, control, observer, at);
+        // A sphere that comes slower than a barrier is high turns back in front of it and has none to pass on its way out.
+        let barrier = brink(law);
+        if energy > barrier.1 {
+            follower.brink = barrier;
+        }
+        follower
+    }
+
+    /// From first touch to separation or capture.
+    pub(super) fn contact<const N: usize>(&mut self, to_turning_point: bool) -> NormalPath<T>
+    where
+        T: Nodes<N>,
+    {
+        self.effort.nodes = N as u32;
+        let (energy, effort) = (self.at.energy, self.effort);
+        let mut path = NormalPath { end: End::Budget, energy, peak: T::ZERO, turning: T::ZERO, effort };
+        path.end = match self.approach::<N>() {
+            Err(end) => end,
+            Ok(()) => {
+                path.peak = self.at.s;
+                match self.rebound::<N>(to_turning_point) {
+                    Ok(turning) => {
+                        path.turning = turning;
+                        End::Capture
+                    }
+                    Err(end) => end,
+                }
+            }
+        };
+        path.energy = self.at.energy;
+        path.effort = self.effort;
+        path
+    }
+
     /// Whether the sphere cannot escape any more.
     #[inline]
     fn is_held(&self) -> bool {
@@ -171,6 +193,8 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     {
         let half = T::constant(0.5);
         let beyond = self.undamped_peak();
+        // Without an external force no peak lies beyond one.
+        let farthest = if L::MAY_REPEL { beyond } else { T::ONE };
         let mut length = half;
         loop {
             if self.at.s > T::ZERO {
@@ -197,7 +221,7 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 );
                 let factor = self.length_factor(N, &stretch);
                 if self.take(&stretch, Course::APPROACH, None)? {
-                    length = (length * factor).min(T::ONE - self.at.s * half);
+                    length = (length * factor).min(farthest - self.at.s * half);
                     break;
                 }
                 length = length * factor.min(T::constant(0.7));
@@ -305,23 +329,33 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     }
 
     /// The first stretch of the rebound, no deeper than `deepest`; its depth.
+    #[inline]
     pub(super) fn leave_peak<const N: usize>(&mut self, deepest: T) -> Result<T, End>
     where
         T: Nodes<N>,
     {
-        let peak = self.at.s;
-        let mut depth = deepest;
+        self.leave_turning_point::<N>(deepest, Course::REBOUND)
+    }
+
+    /// The first stretch from a turning point, no longer than `longest`; its length.
+    pub(super) fn leave_turning_point<const N: usize>(&mut self, longest: T, course: Course) -> Result<T, End>
+    where
+        T: Nodes<N>,
+    {
+        let signed = |length: T| if course.rebound { length } else { -length };
+        let from = self.at.s;
+        let mut depth = longest;
         // What a sweep leaves of an error grows with the root of the depth.
-        let reach = T::constant(0.68) * self.law.loss(peak, true);
-        let stiffness = T::constant(0.2) * self.law.slope(peak);
+        let reach = T::constant(0.68) * self.law.loss(from, course.rebound);
+        let stiffness = T::constant(0.2) * signed(self.law.slope(from));
         if reach * reach * depth > stiffness {
             depth = stiffness / (reach * reach);
         }
         loop {
-            let stretch: Stretch<T, N> =
-                leave(self.law, peak, depth, self.at.energy, Course::REBOUND, &self.control, &mut self.effort.sweeps);
+            let (energy, sweeps) = (self.at.energy, &mut self.effort.sweeps);
+            let stretch: Stretch<T, N> = leave(self.law, from, signed(depth), energy, course, &self.control, sweeps);
             let factor = self.length_factor(N, &stretch);
-            if self.take(&stretch, Course::REBOUND, Some(peak))? {
+            if self.take(&stretch, course, Some(from))? {
                 return Ok(depth);
             }
             depth = depth * factor.min(T::constant(0.7));
@@ -347,7 +381,7 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     }
 
     /// Where the potential equals the energy of a captured sphere, at its outermost point.
-    fn outer_turning_point(&self) -> T {
+    pub(super) fn outer_turning_point(&self) -> T {
         let (s, energy) = (self.at.s, self.at.energy);
         let (mut below, mut above) = (T::ZERO, s);
         for _ in 0..12 {
@@ -359,6 +393,11 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             }
         }
         let mut turning = above;
+        if self.law.slope(turning) > T::ZERO {
+            // Too close to the bottom to be told apart by halving: as far on its other side.
+            let curvature = self.law.curvature(turning).max(T::SMALLEST);
+            turning = turning - T::constant(2.0) * self.law.slope(turning) / curvature;
+        }
         for _ in 0..3 {
             let slope = self.law.slope(turning);
             if slope < T::ZERO {
@@ -435,7 +474,7 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             Some(peak) => {
                 let back = Course { reversed: true, ..course };
                 let back = leave(law, peak, peak - middle.s, whole.end.energy, back, &control, sweeps);
-                Stretch { forward: false, ..back }
+                Stretch { forward: false, end: whole.end, ..back }
             }
             None => pass(law, &middle, (to - middle.s, T::ZERO), course, &control, sweeps),
         };
@@ -477,7 +516,7 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     /// The line y = (d/2) |x_eq - x| with d^2 >= 4 k, d the least damping and k the greatest stiffness on the way, can be
     /// crossed towards the equilibrium only.
     #[inline(never)]
-    fn creeps(&self, s: T, y: T, course: Course) -> bool {
+    pub(super) fn creeps(&self, s: T, y: T, course: Course) -> bool {
         let law = self.law;
         // On the way out the equilibrium lies nearer than first touch, so the secant below is at least this steep.
         let strength = law.damping(s, course.rebound);
@@ -501,9 +540,18 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     }
 
     /// Contact radius at which the forces balance: the minimum of the potential, by Newton's method from above.
-    fn equilibrium(&self) -> Option<T> {
+    pub(super) fn equilibrium(&self) -> Option<T> {
         let mut s = T::constant(2.0);
-        for _ in 0..40 {
+        if L::MAY_REPEL {
+            // An external force may also hold the sphere beyond.
+            for _ in 0..60 {
+                if self.law.slope(s) > T::ZERO {
+                    break;
+                }
+                s = s + s;
+            }
+        }
+        for _ in 0..100 {
             let curvature = self.law.curvature(s);
             if curvature <= T::ZERO {
                 return None;

@@ -198,7 +198,8 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
             y[q] = speed * <T as Nodes<M>>::Z[q];
             rate[q] = two * self.peak * law.indentation_slope(s[q]) / speed;
         }
-        let end = Point { s: T::ZERO, energy: T::ZERO, speed_squared: T::ZERO };
+        let (place, speed) = if rebound { (T::ZERO, y[M - 1]) } else { (self.peak, T::ZERO) };
+        let end = Point { s: place, energy: T::ZERO, speed_squared: speed * speed };
         Stretch { s, y, rate, end, accepted: true, error: T::ZERO, forward: rebound }
     }
 
@@ -256,7 +257,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
             y[q] = speed * z[q];
             rate[q] = two * length * self.peak * law.indentation_slope(s[q]) / speed;
         }
-        let end = Point { s: s[M - 1], energy: T::ZERO, speed_squared: T::ZERO };
+        let end = Point { s: s[M - 1], energy: T::ZERO, speed_squared: y[M - 1] * y[M - 1] };
         Stretch { s, y, rate, end, accepted: true, error: T::ZERO, forward: true }
     }
 }

@@ -6,9 +6,7 @@
 use core::hint::black_box;
 
 use microimpact::simulation::{
-    Attraction, Collocation, ConstantForce, ContactImpulses, ContactTimes, ContactWorks, Damping, Everything,
-    FixedCost, HystereticDamping, Method, NoPeeling, Nodes, NormalContact, Peeling, PhaseSamples, Ring, RunReport,
-    RungeKuttaGill, Scale, SimulatedImpact, Simulation, TangentialContact, TangentialScene, TangentialVelocities,
+    Attraction, Collocation, ConstantForce, ContactImpulses, ContactTimes, ContactWorks, Damping, Everything, FixedCost, HystereticDamping, Method, NoPeeling, Nodes, NormalContact, Peeling, PhaseSamples, RestCriterion, Ring, RunReport, RungeKuttaGill, Scale, SettledImpact, SimulatedImpact, Simulation, TangentialContact, TangentialScene, TangentialVelocities, Trajectory,
 };
 use microimpact::{Approach, InputError, NoFriction, Real, Sphere, Stiffness};
 
@@ -71,6 +69,11 @@ fn with_every_term<const N: usize, T: Nodes<N>>(scene: &Simulation<T>) -> Result
     report(&impact.run);
     contact(&impact.normal);
     tangential(&impact.tangential);
+    let recorded: SimulatedImpact<T, _, Trajectory<T, 16>> = planar.observe(&method, &motion)?;
+    trajectory(&recorded.outputs);
+    let criterion = RestCriterion::new(any(), black_box(1000))?;
+    let settled: SettledImpact<T, _, Trajectory<T, 16>> = planar.observe_to_rest(&method, &motion, &criterion)?;
+    keep(settled.motion);
     Ok(())
 }
 
@@ -179,6 +182,14 @@ fn tangential<T: Real>(contact: &TangentialContact<T>) {
     keep((contact.motion(), contact.velocity(), contact.spin()));
     keep((contact.rotation(), contact.rotation_degrees()));
     keep((contact.displacement(), contact.rolls_from()));
+}
+
+#[inline(never)]
+fn trajectory<T: Real>(trajectory: &Trajectory<T, 16>) {
+    for sample in trajectory.samples().rev() {
+        keep(sample);
+    }
+    keep((trajectory.dimensionless(), trajectory.units(), trajectory.peak(), trajectory.roll()));
 }
 
 #[inline(never)]

@@ -1,0 +1,297 @@
+//! The motion of a captured sphere after its capture: in and out about the equilibrium until it rests, or creeping there.
+//!
+//! Energies are counted from the bottom of the well, as (V(s) - V(b))/(s - b) (s - b): close to rest nothing cancels, so
+//! that the decay is as exact after hundreds of swings as in the first.
+
+use super::law::NormalLaw;
+use super::motion::{Effort, End, Follower, NormalPath};
+use super::nodes::Nodes;
+use super::observer::Observer;
+use super::scaled::Scaled;
+use super::stretch::{Course, Stretch, arrive, pass};
+use super::{Everything, SimulatedImpact};
+use crate::{InputError, Parameter, Real};
+
+/// When a captured sphere counts as at rest, and how long it is followed until then.
+///
+/// ```
+/// use microimpact::simulation::{Collocation, Everything, RestCriterion, Simulation};
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
+///
+/// let scene = Simulation::new(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+///     .with_damping(10.5)?
+///     .with_ring(250.0, 6.25)?;
+/// let (method, motion) = (Collocation::<9, f64>::new(1e-9)?, NormalMotion::new(1.0)?);
+/// let time = |share| {
+///     let settled = scene.observe_to_rest::<9, _, _, ()>(&method, &motion, &RestCriterion::new(share, 1000)?)?;
+///     Ok::<f64, microimpact::InputError>(settled.motion.unwrap().time)
+/// };
+/// assert!(time(1e-6)? > time(1e-3)?);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RestCriterion<T> {
+    share: T,
+    turning_points: u32,
+}
+
+impl<T: Real> RestCriterion<T> {
+    /// At rest with an energy above the bottom of the well of at most `share` times the depth of the well, 1e-12 to 0.5;
+    /// followed over at most so many `turning_points`, 1 to 100000.
+    ///
+    /// The depth of the well is the energy that takes the sphere from its equilibrium off the surface. Without an external
+    /// force a sphere at rest swings by less than 0.73 sqrt(share) of its equilibrium indentation. A number type's rounding
+    /// limits the share from below.
+    ///
+    /// # Errors
+    /// A value outside its range.
+    ///
+    /// ```
+    /// use microimpact::simulation::RestCriterion;
+    ///
+    /// assert!(RestCriterion::new(1e-6, 1000).is_ok());
+    /// assert!(RestCriterion::new(1e-6, 0).is_err());
+    /// assert!(RestCriterion::new(0.0, 1000).is_err());
+    /// ```
+    pub fn new(share: T, turning_points: u32) -> Result<Self, InputError> {
+        let share = Parameter::RestEnergy.check(share)?;
+        Parameter::TurningPoints.check(f64::from(turning_points))?;
+        // The way left has some thousand roundings of the contact radius.
+        Ok(Self { share: share.max(T::constant(1e6) * T::EPSILON * T::EPSILON), turning_points })
+    }
+}
+
+/// The result of a simulation that follows a captured sphere to rest.
+///
+/// ```
+/// use microimpact::simulation::{Collocation, RestCriterion, SettledImpact, Simulation, Status};
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
+///
+/// let scene = Simulation::new(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+///     .with_damping(10.5)?
+///     .with_ring(250.0, 6.25)?;
+/// let (method, criterion) = (Collocation::<9, f64>::new(1e-9)?, RestCriterion::new(1e-6, 1000)?);
+/// let captured: SettledImpact<f64, _> = scene.observe_to_rest(&method, &NormalMotion::new(1.0)?, &criterion)?;
+/// assert_eq!(captured.impact.run.status, Status::Solved);
+/// assert!(captured.motion.is_some());
+/// let rebound: SettledImpact<f64, _> = scene.observe_to_rest(&method, &NormalMotion::new(8.0)?, &criterion)?;
+/// assert!(rebound.motion.is_none());
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SettledImpact<T, G, O = Everything<T>> {
+    /// The impact; of a captured sphere, its outputs and the motion along the surface are those until it rests. Where it
+    /// does not come to rest over as many turning points as were allowed, the status of the run says that they are spent.
+    pub impact: SimulatedImpact<T, G, O>,
+    /// How a captured sphere came to where it was left; `None` for a rebound.
+    pub motion: Option<MotionToRest<T>>,
+}
+
+/// How a captured sphere came to rest along the normal.
+///
+/// ```
+/// use core::f64::consts::PI;
+/// use microimpact::simulation::{Collocation, RestCriterion, SettledImpact, Simulation};
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
+///
+/// let scene = Simulation::new(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+///     .with_damping(10.5)?
+///     .with_ring(250.0, 6.25)?;
+/// let (method, criterion) = (Collocation::<9, f64>::new(1e-9)?, RestCriterion::new(1e-6, 1000)?);
+/// let settled: SettledImpact<_, _, ()> = scene.observe_to_rest(&method, &NormalMotion::new(1.0)?, &criterion)?;
+/// let motion = settled.motion.unwrap();
+/// assert!(!motion.creeps && motion.turning_points > 1);
+/// let equilibrium = 2.0 * PI * 250.0 / 7.5e10;
+/// assert!((motion.indentation / equilibrium - 1.0).abs() < 0.73e-3);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotionToRest<T> {
+    /// Time from first touch to rest, s: to the first turning point with an energy of at most the share that counts as
+    /// rest, or of a sphere that creeps, to where its energy is that share. Where the damping is critical but for some
+    /// percent, so that the next turning point is out of sight and creeping not yet sure, it is a later time.
+    pub time: T,
+    /// Turning points after the peak, the last included.
+    pub turning_points: u32,
+    /// Whether the sphere ends its motion creeping towards its equilibrium, which it never passes.
+    pub creeps: bool,
+    /// Indentation where the sphere rests, m.
+    pub indentation: T,
+}
+
+/// The motion after capture, in units of the scene.
+pub(super) struct Settling<T> {
+    turning_points: u32,
+    creeps: bool,
+    contact_radius: T,
+    pub(super) at_rest: bool,
+}
+
+impl<T: Real> Settling<T> {
+    pub(super) fn in_units(&self, time: T, units: &Scaled<T>) -> MotionToRest<T> {
+        let Self { turning_points, creeps, contact_radius: s, .. } = *self;
+        MotionToRest { time: time * units.time(), turning_points, creeps, indentation: units.length * s * s }
+    }
+}
+
+/// The well in which a captured sphere moves.
+#[derive(Clone, Copy)]
+struct Well<T> {
+    /// Contact radius at the bottom.
+    bottom: T,
+    /// Energy above the bottom that counts as rest.
+    rest: T,
+}
+
+impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
+    /// Follows a captured sphere from where its `path` ends to rest; what it takes is added to the path.
+    pub(super) fn settle<const N: usize>(
+        &mut self,
+        path: &mut NormalPath<T>,
+        criterion: &RestCriterion<T>,
+    ) -> Settling<T>
+    where
+        T: Nodes<N>,
+    {
+        let mut settling = Settling { turning_points: 0, creeps: false, contact_radius: self.at.s, at_rest: false };
+        let Some(bottom) = self.equilibrium() else {
+            return settling;
+        };
+        let brink = self.brink.0;
+        let depth = self.law.divided(brink, bottom) * (brink - bottom);
+        let well = Well { bottom, rest: criterion.share * depth };
+        // Where the sphere would turn back without losses, ahead and behind; it never comes as far again.
+        let mut course = if path.peak > T::ZERO { Course::REBOUND } else { Course::APPROACH };
+        let outermost = if path.turning > T::ZERO { path.turning } else { self.outer_turning_point() };
+        let innermost = if path.peak > T::ZERO { path.peak } else { self.undamped_peak() };
+        let (mut ahead, mut behind) = if course.rebound { (outermost, innermost) } else { (innermost, outermost) };
+        let mut turned = path.turning > T::ZERO;
+        settling.turning_points = turned.into();
+        loop {
+            settling.at_rest = self.rests(&well);
+            if settling.at_rest || settling.turning_points >= criterion.turning_points {
+                break;
+            }
+            if turned {
+                course = if course.rebound { Course::APPROACH } else { Course::REBOUND };
+                (ahead, behind) = (behind, self.at.s);
+            }
+            self.effort = Effort { stretches: 0, refused: 0, sweeps: 0, nodes: N as u32, error: T::ZERO };
+            let swing = self.swing::<N>(&well, ahead, course, &mut settling.creeps);
+            path.effort.add(&self.effort);
+            turned = swing == Ok(true);
+            if turned && path.peak == T::ZERO {
+                path.peak = self.at.s;
+            } else if turned {
+                settling.turning_points += 1;
+                path.turning = if settling.turning_points == 1 { self.at.s } else { path.turning };
+            }
+            if swing.is_err() {
+                settling.at_rest = self.rests(&well);
+                break;
+            }
+        }
+        settling.contact_radius = self.at.s;
+        path.energy = self.at.energy;
+        settling
+    }
+
+    fn rests(&self, well: &Well<T>) -> bool {
+        self.excess(well) <= well.rest * (T::ONE + T::constant(3.0) * T::EPSILON.sqrt())
+    }
+
+    /// Energy above the bottom of the well.
+    fn excess(&self, well: &Well<T>) -> T {
+        let (s, bottom) = (self.at.s, well.bottom);
+        T::constant(0.5) * self.at.speed_squared + self.law.divided(s, bottom) * (s - bottom)
+    }
+
+    /// To the next turning point (`true`), which does not lie as far as `beyond`, or creeping to rest.
+    fn swing<const N: usize>(
+        &mut self,
+        well: &Well<T>,
+        beyond: T,
+        course: Course,
+        creeps: &mut bool,
+    ) -> Result<bool, End>
+    where
+        T: Nodes<N>,
+    {
+        let along = |way: T| if course.rebound { -way } else { way };
+        *creeps = self.creeps(self.at.s, self.at.speed_squared.sqrt(), course);
+        if self.at.speed_squared <= T::ZERO {
+            self.leave_turning_point::<N>(along(well.bottom - self.at.s), course)?;
+        }
+        let mut length = T::ONE;
+        loop {
+            if !*creeps {
+                let arrival: Stretch<T, N> =
+                    arrive(self.law, &self.at, beyond, course, &self.control, &mut self.effort.sweeps);
+                if self.take(&arrival, course, Some(arrival.end.s))? {
+                    return Ok(true);
+                }
+                // Not beyond the turning point without losses from here, or else that of the swing before.
+                let undamped = along(arrival.end.s - self.at.s);
+                let ahead = if undamped > T::ZERO { undamped } else { along(beyond - self.at.s) };
+                length = length.min(T::constant(0.7) * ahead);
+            }
+            loop {
+                let step = if *creeps { length.min(self.creeping_length(well)) } else { length };
+                let polynomial = (along(step), T::ZERO);
+                let stretch: Stretch<T, N> =
+                    pass(self.law, &self.at, polynomial, course, &self.control, &mut self.effort.sweeps);
+                let factor = self.length_factor(N, &stretch);
+                if self.take(&stretch, course, None)? {
+                    length = step * factor.max(T::ONE);
+                    break;
+                }
+                length = step * factor.min(T::constant(0.7));
+                if length <= T::EPSILON * T::EPSILON {
+                    return Err(End::Budget);
+                }
+            }
+            *creeps = *creeps || self.creeps(self.at.s, self.at.speed_squared.sqrt(), course);
+            if *creeps && self.rests(well) {
+                return Ok(false);
+            }
+        }
+    }
+
+    /// To the place where a creeping sphere counts as at rest, or half way to the equilibrium if that is nearer: the time
+    /// has a singularity there.
+    fn creeping_length(&self, well: &Well<T>) -> T {
+        // Close to the bottom the energy goes with the square of the distance.
+        let share = (well.rest / self.excess(well)).sqrt().max(T::constant(0.5));
+        let length = (self.at.s - well.bottom).abs() * (T::ONE - share);
+        length.max(T::constant(4.0) * T::EPSILON * self.at.s)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::force::NoForce;
+    use super::super::law::HertzLaw;
+    use super::super::ring::ScaledRing;
+    use super::super::stretch::{Control, Point};
+    use super::super::{Collocation, NoDamping};
+    use super::*;
+
+    /// Nothing takes energy, so that the sphere turns at the same places for ever.
+    #[test]
+    fn undamped_swings_do_not_drift() -> Result<(), InputError> {
+        let law = HertzLaw { damping: NoDamping, adhesion: ScaledRing { strength: 0.5, damping: 0.0 }, force: NoForce };
+        let control: Control<f64> = Collocation::<12, f64>::new(1e-12)?.control(true);
+        for turning in [0.05, 0.3, 0.5, 0.547] {
+            let energy = law.potential(turning);
+            let at = Point { s: turning, energy, speed_squared: 0.0 };
+            let effort = Effort { stretches: 0, refused: 0, sweeps: 0, nodes: 0, error: 0.0 };
+            let mut path = NormalPath { end: End::Capture, energy, peak: 1.0, turning, effort };
+            let mut observer = ();
+            let mut follower = Follower::from(&law, control, &mut observer, at);
+            let settling = follower.settle::<12>(&mut path, &RestCriterion::new(1e-12, 1001)?);
+            assert_eq!((settling.turning_points, settling.at_rest, settling.creeps), (1001, false, false));
+            assert!((settling.contact_radius - turning).abs() < 1e-11, "{turning}: {}", settling.contact_radius);
+        }
+        Ok(())
+    }
+}
