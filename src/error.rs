@@ -89,6 +89,14 @@ pub enum Parameter {
     ForceRatio,
     /// Damping c_H U or c_A U: what the largest speed U of the undamped motion adds to a force, over that force.
     DampingRatio,
+    /// Critical speed in a table, m/s. Too small where every speed rebounds, too large where none does.
+    CriticalSpeed,
+    /// Relative margin of a boundary table.
+    BoundaryMargin,
+    /// Largest speed of a restitution table over the critical speed.
+    SpeedRatio,
+    /// Elastic impulse over the momentum before the impact, I/(m v).
+    ImpulseOverMomentum,
 }
 
 impl Parameter {
@@ -99,7 +107,7 @@ impl Parameter {
     ///
     /// assert!(Parameter::ALL.iter().all(|parameter| parameter.range().0 < parameter.range().1));
     /// ```
-    pub const ALL: [Self; 35] = [
+    pub const ALL: [Self; 39] = [
         Self::Radius,
         Self::Thickness,
         Self::Density,
@@ -135,6 +143,10 @@ impl Parameter {
         Self::AdhesionRatio,
         Self::ForceRatio,
         Self::DampingRatio,
+        Self::CriticalSpeed,
+        Self::BoundaryMargin,
+        Self::SpeedRatio,
+        Self::ImpulseOverMomentum,
     ];
 
     /// Name, in the words of the field.
@@ -201,6 +213,10 @@ impl Parameter {
             Self::AdhesionRatio => ("adhesion over inertia", "1", (0.0, 1e10)),
             Self::ForceRatio => ("external force over elasticity", "1", (-1e6, 1e6)),
             Self::DampingRatio => ("damping over elasticity", "1", (0.0, 1e9)),
+            Self::CriticalSpeed => ("critical speed", "m/s", (1e-12, 1e6)),
+            Self::BoundaryMargin => ("margin of a boundary table", "1", (0.0, 0.05)),
+            Self::ImpulseOverMomentum => ("elastic impulse over momentum", "1", (0.0, 1e6)),
+            Self::SpeedRatio => ("largest over critical speed", "1", (1.1, 1e4)),
         }
     }
 

@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 #![warn(clippy::panic, clippy::unwrap_used, clippy::expect_used, clippy::indexing_slicing)]
 
+pub mod boundary;
 mod classify;
 mod error;
 mod hertz;

@@ -1,10 +1,11 @@
 //! Every input has a range, and every value outside it is an error that names the input.
 
+use microimpact::boundary::{BoundaryTable, Rebound, RestitutionTable, Single};
 use microimpact::rigid::{AdhesionCoefficient, Departure, WorkOfAdhesion, infer, infer_with_spins};
 use microimpact::simulation::{Collocation, FixedCost, RestCriterion, Simulation};
 use microimpact::{
-    ConstantRestitution, Coulomb, Fault, ImpactError, InputError, Material, NormalMotion, Parameter, PlanarMotion,
-    Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
+    ConstantRestitution, Coulomb, CriticalSpeed, Fault, ImpactError, InputError, Material, NormalMotion, Parameter,
+    PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
 };
 
 type Checked = Result<(), ImpactError>;
@@ -26,8 +27,16 @@ fn perfect<T: Real>() -> ConstantRestitution<T> {
     ConstantRestitution::new(T::ONE).unwrap()
 }
 
+/// A table of impacts that keep all of their speed.
+fn restitution_table<T: Single>(ratio: T, impulse: T) -> Result<(), InputError> {
+    let micrometre = T::constant(1e-6);
+    let boundary = BoundaryTable::<1>::new(micrometre, |_| Ok(CriticalSpeed::At(micrometre)))?;
+    let source = |_, _| Ok(Rebound { restitution: T::ONE, impulse });
+    RestitutionTable::<T, 1, 3, 4>::new(boundary, ratio, source).map(drop)
+}
+
 /// Supplies a value where the parameter is asked for; all other inputs are valid.
-fn supply<T: Real>(parameter: Parameter, value: T) -> Checked {
+fn supply<T: Single>(parameter: Parameter, value: T) -> Checked {
     let c = T::constant;
     let scene = RigidBody::new(sphere(), perfect());
     let departure = |normal, tangential| Departure { normal, tangential };
@@ -94,6 +103,9 @@ fn supply<T: Real>(parameter: Parameter, value: T) -> Checked {
             .map(drop),
         Parameter::Tolerance => Collocation::<7, T>::new(value).map(drop),
         Parameter::RestEnergy => RestCriterion::new(value, 100).map(drop),
+        Parameter::CriticalSpeed => BoundaryTable::<1>::new(c(1e-6), |_| Ok(CriticalSpeed::At(value))).map(drop),
+        Parameter::SpeedRatio => restitution_table(value, T::ONE),
+        Parameter::ImpulseOverMomentum => restitution_table(c(10.0), value),
         other => panic!("{other:?} is not tested"),
     };
     Ok(checked?)
@@ -105,16 +117,17 @@ fn beyond(bound: f64, outwards: bool) -> f64 {
     if outwards { bound + step } else { bound - step }
 }
 
-/// Parameters that follow from others, or are counted: tested one by one below.
-const DERIVED: [Parameter; 5] = [
+/// Parameters that follow from others, or are counted: tested one by one below, and the margin with its tables.
+const DERIVED: [Parameter; 6] = [
     Parameter::AdhesionRatio,
     Parameter::ForceRatio,
     Parameter::DampingRatio,
     Parameter::Sweeps,
     Parameter::TurningPoints,
+    Parameter::BoundaryMargin,
 ];
 
-fn assert_bounds_hold<T: Real>(not_a_number: [T; 3]) {
+fn assert_bounds_hold<T: Single>(not_a_number: [T; 3]) {
     for parameter in Parameter::ALL.into_iter().filter(|parameter| !DERIVED.contains(parameter)) {
         let (smallest, largest) = parameter.range();
         let fault = |value: T, fault| {

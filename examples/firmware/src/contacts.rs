@@ -67,7 +67,7 @@ setting!(
 setting!(Oblique<Collocation<7, f32>>, "simulation/oblique", Setting::new().map(Self));
 setting!(Oblique<Collocation<9, f64>>, "simulation/oblique", Setting::new().map(Self));
 
-type Surface<T, F = NoFriction> = Simulation<T, HystereticDamping<T>, Ring<T>, F>;
+pub(super) type Surface<T, F = NoFriction> = Simulation<T, HystereticDamping<T>, Ring<T>, F>;
 
 /// Normal impacts only.
 pub struct NormalContacts<T, M> {
@@ -142,7 +142,12 @@ where
 }
 
 fn surface<T: Number>() -> Result<Surface<T>, InputError> {
-    let sphere = Sphere::solid(given(RADIUS_M), given(DENSITY_KG_M3))?;
+    surface_of(given(RADIUS_M))
+}
+
+/// The surface, and a sphere of the same material with another radius.
+pub(super) fn surface_of<T: Number>(radius: T) -> Result<Surface<T>, InputError> {
+    let sphere = Sphere::solid(radius, given(DENSITY_KG_M3))?;
     Simulation::new(sphere, Stiffness::new(given(STIFFNESS_PA))?)
         .with_damping(given(MATERIAL_DAMPING))?
         .with_ring(given(RING_N_M), given(RING_DAMPING))

@@ -6,6 +6,7 @@
 
 use core::hint::black_box;
 
+use microimpact::boundary::Single;
 use microimpact::rigid::{
     AdhesionCoefficient, Departure, Microforce, MicroforceTerm, NoMicroforce, NoRollingDissipation, Phases,
     ReboundAdhesion, RollingDissipation, RollingTerm, TangentialOutcome, TangentialTerm, WorkOfAdhesion, infer,
@@ -18,11 +19,13 @@ use microimpact::{
     TangentialImpact,
 };
 
+mod boundary;
 mod simulation;
 
 /// Calls everything, with one number type.
-pub fn call_all<T: simulation::AnyNodes>() {
+pub fn call_all<T: simulation::AnyNodes + Single>() {
     call_rigid_body::<T>();
+    keep(boundary::call_all::<T>());
     keep(simulation::call_all::<T>());
 }
 

@@ -1,8 +1,8 @@
 //! What the firmware binaries share: the impacts, the scenes that classify
 //! them, and calls of all of the library.
 //!
-//! `impacts`, `scenes` and `contacts` know nothing of a microcontroller; the
-//! runner `cargo qemu` compiles the same three files for the host and compares.
+//! `impacts`, `scenes`, `contacts` and `tables` know nothing of a microcontroller; the
+//! runner `cargo qemu` compiles the same four files for the host and compares.
 
 #![no_std]
 
@@ -11,3 +11,4 @@ pub mod entries;
 pub mod flash;
 pub mod impacts;
 pub mod scenes;
+pub mod tables;

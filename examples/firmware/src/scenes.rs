@@ -12,6 +12,7 @@ use microimpact::{
 
 use super::contacts::visit_contacts;
 use super::impacts::{IMPACTS, Impact};
+use super::tables::visit_tables;
 
 // The sphere of Brach & Dunn (1995), Table 1.
 pub(super) const RADIUS_M: f64 = 5.06e-6;
@@ -227,6 +228,7 @@ pub fn visit_scenes(visitor: &mut impl Visitor) {
     visit_scenes_of::<f32>(visitor);
     visit_scenes_of::<f64>(visitor);
     visit_contacts(visitor);
+    visit_tables(visitor);
 }
 
 fn visit_scenes_of<T: Number>(visitor: &mut impl Visitor) {

@@ -15,6 +15,9 @@ mod impacts;
 #[expect(unreachable_pub, reason = "part of the firmware, and public there")]
 #[path = "../../../../examples/firmware/src/scenes.rs"]
 mod scenes;
+#[expect(unreachable_pub, reason = "part of the firmware, and public there")]
+#[path = "../../../../examples/firmware/src/tables.rs"]
+mod tables;
 
 /// One impact in one scene with one number type.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -164,7 +167,7 @@ pub(crate) fn expected() -> Result<BTreeMap<Case, Verdict>, String> {
         Ok(host.verdicts)
     } else {
         Err(format!(
-            "the library refuses {}; correct impacts.rs, scenes.rs or contacts.rs in examples/firmware/src",
+            "the library refuses {}; correct impacts.rs, scenes.rs, contacts.rs or tables.rs in examples/firmware/src",
             host.refused.join(", ")
         ))
     }

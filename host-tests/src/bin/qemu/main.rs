@@ -107,6 +107,7 @@ fn run(arguments: &Arguments) -> Result<Vec<String>, String> {
     }
     let checked = limits::check(&figures);
     failures.extend(limits::broken(&checked));
+    failures.extend(limits::broken_elsewhere(&figures));
 
     match arguments.format {
         Format::Table => {

@@ -45,17 +45,21 @@ fn cost(protocol: &Protocol, case: &Case) -> String {
     })
 }
 
-/// The promises and what became of them, then the simulation, for which there are none; a column for each scene.
+/// The promises and what became of them, the rigid body's first, then those of the simulation and of tables; a column
+/// for each scene.
 pub(crate) fn footprint(checked: &[Checked]) -> String {
-    let (simulated, rigid): (Vec<_>, Vec<_>) =
+    let (simulated, others): (Vec<_>, Vec<_>) =
         checked.iter().partition(|checked| limits::is_simulated(&checked.subject.scene));
+    let (tables, rigid): (Vec<_>, Vec<_>) =
+        others.into_iter().partition(|checked| limits::is_table(&checked.subject.scene));
     format!(
-        "Footprint on {REFERENCE_CORE}, {}\n{}\n\n{}\n\
+        "Footprint on {REFERENCE_CORE}, {}\n{}\n\n{}\n\n{}\n\
          Instructions are not cycles. Flash and static memory: a firmware that validates a scene and\n\
          motions and classifies them, less the same firmware without that.\n",
         limits::SCALAR,
         footprint_table(&rigid),
         footprint_table(&simulated),
+        footprint_table(&tables),
     )
 }
 

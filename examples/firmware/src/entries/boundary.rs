@@ -1,0 +1,49 @@
+//! Calls of the tables.
+
+use core::hint::black_box;
+
+use microimpact::boundary::{BoundaryTable, Reading, Rebound, RestitutionTable, Single};
+use microimpact::{Coulomb, CriticalSpeed, InputError, Sphere};
+
+use super::{any, keep, motions};
+
+/// Calls everything, with one number type.
+pub(super) fn call_all<T: Single>() -> Result<(), InputError> {
+    keep(any::<T>().single());
+    keep(T::from_single(any()));
+    boundary::<1, T>()?;
+    boundary::<31, T>()?;
+    restitution::<1, 3, 4, T>()?;
+    restitution::<12, 7, 10, T>()
+}
+
+fn boundary<const N: usize, T: Single>() -> Result<(), InputError> {
+    let cells = black_box([[1; 4]; N]);
+    let parts = BoundaryTable::from_parts(any(), black_box(1), cells);
+    let source = |_| Ok(black_box(CriticalSpeed::At(any::<T>())));
+    let table = parts.or(BoundaryTable::<N>::new(any::<T>(), source))?;
+    let (normal, oblique, planar) = motions(&Sphere::solid(any::<T>(), any())?)?;
+    keep(table.classify(any::<T>(), &normal));
+    keep(table.classify(any::<T>(), &oblique));
+    keep(table.classify(any::<T>(), &planar));
+    keep((table.critical_speed(any::<T>()), table.radii::<T>(), table.margin::<T>()));
+    keep(table.parts());
+    Ok(())
+}
+
+fn restitution<const N: usize, const R: usize, const S: usize, T: Single>() -> Result<(), InputError> {
+    let boundary = BoundaryTable::<N>::new(any::<T>(), |_| Ok(black_box(CriticalSpeed::At(any::<T>()))))?;
+    let source = |_, _| Ok(Rebound { restitution: any::<T>(), impulse: any() });
+    let table = RestitutionTable::<T, N, R, S>::new(boundary, any(), source)?;
+    keep((table.error(), table.impulse_error(), table.boundary()));
+    let (normal, oblique, planar) = motions(&Sphere::solid(any::<T>(), any())?)?;
+    let friction = Coulomb::new(any::<T>())?;
+    for reading in [table.read(any(), &normal), table.read(any(), &oblique), table.read(any(), &planar)] {
+        keep(reading);
+        if let Reading::Rebound { rebound, .. } = reading {
+            keep(rebound.separation(&friction, any(), &oblique));
+            keep(rebound.separation(&friction, any(), &planar));
+        }
+    }
+    Ok(())
+}
