@@ -21,6 +21,8 @@ use crate::Real;
 pub enum Parameter {
     /// Outer radius r of a sphere, m.
     Radius,
+    /// Contact radius of a resting sphere over its radius.
+    ContactRadiusRatio,
     /// Wall of a hollow sphere or coating of a coated one, m; at most the radius.
     Thickness,
     /// Density of a material, kg/m^3.
@@ -45,6 +47,8 @@ pub enum Parameter {
     ReboundSpeed,
     /// Standard error of the measured velocities, m/s.
     VelocityError,
+    /// Standard error of any input, in its own unit.
+    StandardError,
     /// Kinetic restitution R, without adhesion.
     Restitution,
     /// Speed k of the restitution law R = k/(k + v), m/s.
@@ -107,8 +111,9 @@ impl Parameter {
     ///
     /// assert!(Parameter::ALL.iter().all(|parameter| parameter.range().0 < parameter.range().1));
     /// ```
-    pub const ALL: [Self; 39] = [
+    pub const ALL: [Self; 41] = [
         Self::Radius,
+        Self::ContactRadiusRatio,
         Self::Thickness,
         Self::Density,
         Self::GyrationRatio,
@@ -121,6 +126,7 @@ impl Parameter {
         Self::PeripheralVelocity,
         Self::ReboundSpeed,
         Self::VelocityError,
+        Self::StandardError,
         Self::Restitution,
         Self::RestitutionSpeed,
         Self::AdhesionCoefficient,
@@ -179,6 +185,7 @@ impl Parameter {
     const fn describe(self) -> (&'static str, &'static str, (f64, f64)) {
         match self {
             Self::Radius => ("radius", "m", (1e-10, 1.0)),
+            Self::ContactRadiusRatio => ("contact radius over radius", "1", (0.0, 1.0)),
             Self::Thickness => ("thickness", "m", (1e-12, 1.0)),
             Self::Density => ("density", "kg/m^3", (1e-2, 1e6)),
             Self::GyrationRatio => ("gyration ratio", "1", (1e-3, 1.0)),
@@ -191,6 +198,7 @@ impl Parameter {
             Self::PeripheralVelocity => ("peripheral velocity", "m/s", (-1e7, 1e7)),
             Self::ReboundSpeed => ("rebound speed", "m/s", (0.0, 1e6)),
             Self::VelocityError => ("velocity error", "m/s", (0.0, 1e6)),
+            Self::StandardError => ("standard error", "in the unit of its quantity", (0.0, 1e30)),
             Self::Restitution => ("restitution", "1", (0.0, 1.0)),
             Self::RestitutionSpeed => ("restitution speed", "m/s", (1e-6, 1e12)),
             Self::AdhesionCoefficient => ("adhesion coefficient", "1", (0.0, 1.0)),

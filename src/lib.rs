@@ -4,7 +4,9 @@
 #![warn(clippy::panic, clippy::unwrap_used, clippy::expect_used, clippy::indexing_slicing)]
 
 pub mod boundary;
+pub mod calibrate;
 mod classify;
+mod dual;
 mod error;
 mod hertz;
 mod motion;
@@ -14,8 +16,10 @@ mod scene;
 pub mod simulation;
 mod sphere;
 mod surface;
+pub mod uncertainty;
 
 pub use classify::{Class, Classification, ContactClass, CriticalSpeed, Outcome, SurfaceMotion};
+pub use dual::Dual;
 pub use error::{Fault, ImpactError, InputError, Parameter};
 pub use hertz::Hertz;
 pub use motion::{Approach, NormalMotion, Oblique, ObliqueMotion, PlanarMotion};

@@ -1,5 +1,7 @@
 //! What several tests need: the reference solutions, as scenes, and the examples, run as a person runs them.
 
+pub mod fit;
+
 use std::collections::HashMap;
 use std::io::Write;
 use std::path::PathBuf;

@@ -5,7 +5,7 @@ use std::process::Command;
 use host_tests::run_example;
 use microimpact::boundary::{BoundaryTable, Reading, Rebound, RestitutionTable, Single, Verdict};
 use microimpact::simulation::{
-    Collocation, ContactImpulses, HystereticDamping, Nodes, Ring, SimulatedImpact, Simulation,
+    Collocation, ContactImpulses, HystereticDamping, Nodes, Ring, SimulatedImpact, Simulation, TangentialContact,
 };
 use microimpact::{
     Coulomb, CriticalSpeed, Fault, InputError, NormalMotion, Outcome, Parameter, Real, RigidBody, SpeedRestitution,
@@ -328,7 +328,7 @@ fn tangential_motion_is_that_of_the_simulation() {
             let motion = motion.with_peripheral_velocity((0.3 - slip) * speed).unwrap();
             let Reading::Rebound { rebound, .. } = table.read(radius, &motion) else { continue };
             let after = rebound.separation(&coulomb, 0.4, &motion);
-            let simulated: SimulatedImpact<_, _, ()> = scene.observe(&method, &motion).unwrap();
+            let simulated: SimulatedImpact<_, TangentialContact<_>, ()> = scene.observe(&method, &motion).unwrap();
             let allowed = speed * friction * table.impulse_error();
             assert!((after.tangential - simulated.tangential.velocity()).abs() <= allowed);
             assert!((after.peripheral - simulated.tangential.spin() * radius).abs() <= 2.5 * allowed);

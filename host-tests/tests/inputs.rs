@@ -1,11 +1,13 @@
 //! Every input has a range, and every value outside it is an error that names the input.
 
 use microimpact::boundary::{BoundaryTable, Rebound, RestitutionTable, Single};
+use microimpact::calibrate::ring_strength;
 use microimpact::rigid::{AdhesionCoefficient, Departure, WorkOfAdhesion, infer, infer_with_spins};
 use microimpact::simulation::{Collocation, FixedCost, RestCriterion, Simulation};
+use microimpact::uncertainty::{NormalDistribution, rebound_probability};
 use microimpact::{
-    ConstantRestitution, Coulomb, CriticalSpeed, Fault, ImpactError, InputError, Material, NormalMotion, Parameter,
-    PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
+    ConstantRestitution, Coulomb, CriticalSpeed, Dual, Fault, ImpactError, InputError, Material, NormalMotion,
+    Parameter, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
 };
 
 type Checked = Result<(), ImpactError>;
@@ -36,7 +38,7 @@ fn restitution_table<T: Single>(ratio: T, impulse: T) -> Result<(), InputError> 
 }
 
 /// Supplies a value where the parameter is asked for; all other inputs are valid.
-fn supply<T: Single>(parameter: Parameter, value: T) -> Checked {
+fn supply<T: Single + NormalDistribution>(parameter: Parameter, value: T) -> Checked {
     let c = T::constant;
     let scene = RigidBody::new(sphere(), perfect());
     let departure = |normal, tangential| Departure { normal, tangential };
@@ -102,6 +104,13 @@ fn supply<T: Single>(parameter: Parameter, value: T) -> Checked {
             .and_then(|scene| scene.with_peeling(value))
             .map(drop),
         Parameter::Tolerance => Collocation::<7, T>::new(value).map(drop),
+        Parameter::ContactRadiusRatio => {
+            let sphere = sphere::<T>();
+            ring_strength(&sphere, stiffness(), value * sphere.radius()).map(drop)
+        }
+        Parameter::StandardError => {
+            rebound_probability(Dual::variables([T::ONE])[0], &CriticalSpeed::AlwaysRebounds, &[value]).map(drop)
+        }
         Parameter::RestEnergy => RestCriterion::new(value, 100).map(drop),
         Parameter::CriticalSpeed => BoundaryTable::<1>::new(c(1e-6), |_| Ok(CriticalSpeed::At(value))).map(drop),
         Parameter::SpeedRatio => restitution_table(value, T::ONE),
@@ -127,7 +136,7 @@ const DERIVED: [Parameter; 6] = [
     Parameter::BoundaryMargin,
 ];
 
-fn assert_bounds_hold<T: Single>(not_a_number: [T; 3]) {
+fn assert_bounds_hold<T: Single + NormalDistribution>(not_a_number: [T; 3]) {
     for parameter in Parameter::ALL.into_iter().filter(|parameter| !DERIVED.contains(parameter)) {
         let (smallest, largest) = parameter.range();
         let fault = |value: T, fault| {

@@ -20,13 +20,15 @@ use microimpact::{
 };
 
 mod boundary;
+mod calibrate;
 mod simulation;
 
 /// Calls everything, with one number type.
-pub fn call_all<T: simulation::AnyNodes + Single>() {
+pub fn call_all<T: simulation::AnyNodes + Single + microimpact::uncertainty::NormalDistribution>() {
     call_rigid_body::<T>();
     keep(boundary::call_all::<T>());
     keep(simulation::call_all::<T>());
+    calibrate::call_all::<T>();
 }
 
 /// Calls everything but the contact simulation, with one number type.

@@ -4,7 +4,7 @@
 use core::hint::black_box;
 
 use microimpact::boundary::{BoundaryTable, Reading, Rebound, RestitutionTable, Separation, Single, Verdict};
-use microimpact::simulation::{Collocation, Nodes, SimulatedImpact};
+use microimpact::simulation::{Collocation, Nodes, SimulatedImpact, TangentialContact};
 use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, SurfaceMotion};
 
 use super::contacts::surface_of;
@@ -90,7 +90,7 @@ fn surface<T: Number + Nodes<7> + Single>() -> Result<Surface<T>, InputError> {
         let scene = surface_of::<T>(radius)?.with_friction(T::ONE)?;
         let along = T::constant(10.0) * speed;
         let motion = NormalMotion::new(speed)?.with_tangential(along)?.with_peripheral_velocity(T::ZERO)?;
-        let impact: SimulatedImpact<_, _, ()> = scene.observe(&method, &motion)?;
+        let impact: SimulatedImpact<_, TangentialContact<_>, ()> = scene.observe(&method, &motion)?;
         let impulse = (along - impact.tangential.velocity()) / speed;
         Ok(Rebound { restitution: impact.normal.overall_restitution(), impulse })
     })

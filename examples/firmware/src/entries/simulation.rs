@@ -6,7 +6,10 @@
 use core::hint::black_box;
 
 use microimpact::simulation::{
-    Attraction, Collocation, ConstantForce, ContactImpulses, ContactTimes, ContactWorks, Damping, Everything, FixedCost, HystereticDamping, Method, NoPeeling, Nodes, NormalContact, Peeling, PhaseSamples, RestCriterion, Ring, RunReport, RungeKuttaGill, Scale, SettledImpact, SimulatedImpact, Simulation, TangentialContact, TangentialScene, TangentialVelocities, Trajectory,
+    Attraction, Collocation, ConstantForce, ContactImpulses, ContactTimes, ContactWorks, Damping, Everything,
+    FixedCost, HystereticDamping, Method, NoPeeling, Nodes, NormalContact, Peeling, PhaseSamples, RestCriterion, Ring,
+    RunReport, RungeKuttaGill, Scale, SettledImpact, SimulatedImpact, Simulation, TangentialContact, TangentialScene,
+    TangentialVelocities, Trajectory,
 };
 use microimpact::{Approach, InputError, NoFriction, Real, Sphere, Stiffness};
 

@@ -1,0 +1,89 @@
+//! Calls of what turns measurements into parameters, of dual numbers, and of the probabilities of classes.
+
+use core::hint::black_box;
+
+use microimpact::calibrate::{
+    CalibrationError, ImpulseRatios, Location, Rebound, RestitutionFit, adhesion_damping, friction, material_damping,
+    parameter, ring_strength, rolling_motion,
+};
+use microimpact::simulation::{Collocation, FixedCost, Method, Simulation};
+use microimpact::uncertainty::{ClassProbabilities, NormalDistribution, rebound_probability, stopped_slip};
+use microimpact::{
+    Approach, Class, Coulomb, CriticalSpeed, Dual, InputError, NormalMotion, Parameter, Real, Sphere, Stiffness,
+};
+
+use super::simulation::AnyNodes;
+use super::{any, keep, motions};
+
+/// Calls everything, with one number type.
+pub(super) fn call_all<T: AnyNodes + NormalDistribution>() {
+    keep(contact(&FixedCost::<5>::new(black_box(3)), &Collocation::<7, T>::new(any())));
+    keep(many::<T>());
+    keep(duals::<T>());
+    keep(probabilities::<T>());
+    keep(CalibrationError::from(InputError { parameter: Parameter::Radius, fault: microimpact::Fault::TooLarge }));
+}
+
+fn contact<T: AnyNodes>(
+    fixed: &Result<FixedCost<5>, InputError>,
+    exact: &Result<Collocation<7, T>, InputError>,
+) -> Result<(), CalibrationError> {
+    one_impact::<T>(&(*fixed)?)?;
+    one_impact::<T>(&(*exact)?)
+}
+
+fn one_impact<T: Real>(method: &impl Method<T, ()>) -> Result<(), CalibrationError> {
+    let scene = Simulation::<T>::new(Sphere::solid(any(), any())?, Stiffness::new(any())?);
+    let rebound = Rebound::from_speeds(any(), any())?;
+    keep(material_damping(&scene.with_ring(any(), any())?, method, &rebound, any()));
+    keep(adhesion_damping(&scene.with_damping(any())?, any(), method, &rebound, any()));
+    keep(ring_strength(scene.sphere(), Stiffness::new(any())?, any()));
+    let of_radius = |radius| Ok(Simulation::new(Sphere::solid(radius, any())?, Stiffness::new(any())?));
+    keep(parameter((any(), any()), of_radius, method, &rebound, any()));
+    Ok(())
+}
+
+fn many<T: Real>() -> Result<(), CalibrationError> {
+    let sphere = Sphere::solid(any(), any())?;
+    let rebounds = black_box([Rebound { speed: any::<T>(), restitution: any() }; 8]);
+    let fit = RestitutionFit::of(&sphere, &rebounds)?;
+    keep((fit.critical_speed(), fit.adhesion_coefficient(any())));
+    let impacts = black_box([ImpulseRatios { measured: any::<T>(), rolling: any() }; 8]);
+    keep(friction(&impacts));
+    keep(Location::of(black_box(Parameter::Spin), black_box([any::<T>(); 8]).into_iter()));
+    let (_, oblique, _) = motions(&sphere)?;
+    keep(rolling_motion(&sphere, &oblique, any(), any()).ok());
+    Ok(())
+}
+
+/// Results with their derivatives, by both models.
+fn duals<T: AnyNodes>() -> Result<(), InputError> {
+    let [radius, strength] = Dual::variables([any::<T>(), any()]);
+    let fixed = || Dual::fixed(any::<T>());
+    let scene = Simulation::new(Sphere::solid(radius, fixed())?, Stiffness::new(fixed())?)
+        .with_damping(fixed())?
+        .with_ring(strength, fixed())?;
+    let method = Collocation::<5, Dual<T, 2>>::new(fixed())?;
+    let contact = scene.normal_impact(&method, &NormalMotion::new(fixed())?)?;
+    let e = contact.overall_restitution();
+    keep((e, e.standard_error(&[any(), any()])));
+    keep(scene.critical_speed(&method)?);
+    keep(scene.normal_impact(&FixedCost::<5>::new(black_box(3))?, &NormalMotion::new(fixed())?)?.rebound_speed());
+    keep([e.two_fifths_power(), e.exp(), e.saturating_div(radius), -e, e.abs(), e.min(radius)]);
+    keep(e.is_finite());
+    Ok(())
+}
+
+fn probabilities<T: NormalDistribution>() -> Result<(), InputError> {
+    keep((any::<T>().below(), any::<T>().both_below(any(), any())));
+    let [speed, slip] = Dual::variables([any::<T>(), any()]);
+    let sphere = Sphere::solid(Dual::fixed(any()), Dual::fixed(any()))?;
+    let stopped = stopped_slip(&sphere, &Coulomb::new(Dual::fixed(any()))?, speed);
+    let motion = NormalMotion::new(speed)?.with_tangential(slip)?;
+    let critical = CriticalSpeed::At(Dual::fixed(any()));
+    let errors = [any(), any()];
+    keep(rebound_probability(motion.normal().speed(), &critical, &errors));
+    let probabilities = ClassProbabilities::new(&motion, &critical, stopped, &errors)?;
+    keep((probabilities.of(black_box(Class::CapturedSliding)), probabilities.rebound()));
+    Ok(())
+}

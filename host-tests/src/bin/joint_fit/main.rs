@@ -1,0 +1,89 @@
+//! Fits f0, both dampings and the distribution of diameters to a cloud of impacts.
+//!
+//! `cargo run --release -p host-tests --bin joint_fit -- FILE.csv --diameter 8.6e-6 --diameter-error 2e-7`
+
+use std::error::Error;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+use comfy_table::Table;
+use host_tests::fit::{Impact, JointFit, Known, NAMES, figures};
+
+/// Fit f0, zeta_H, zeta_A, mean and spread of diameters to a table of speeds and restitutions.
+///
+/// Columns read: speed_normal_m_s, restitution (zero for a capture).
+#[derive(Parser)]
+#[command(name = "joint_fit", verbatim_doc_comment)]
+struct Options {
+    /// Table of impacts.
+    file: PathBuf,
+    /// Hertz stiffness, Pa.
+    #[arg(long, default_value_t = 7.5e10)]
+    stiffness: f64,
+    /// Density, kg/m^3.
+    #[arg(long, default_value_t = 2600.0)]
+    density: f64,
+    /// Standard error of a restitution.
+    #[arg(long, default_value_t = 0.01)]
+    noise: f64,
+    /// Mean diameter as measured by other means, m; impacts tell only f0 over diameter.
+    #[arg(long)]
+    diameter: f64,
+    /// Its standard error, m.
+    #[arg(long)]
+    diameter_error: f64,
+    /// First values of f0, zeta_H, zeta_A and the relative spread.
+    #[arg(long, num_args = 4, default_values_t = [250.0, 10.0, 6.0, 0.1])]
+    first: Vec<f64>,
+    /// Figure to draw (SVG).
+    #[arg(long)]
+    figure: Option<PathBuf>,
+}
+
+fn main() -> ExitCode {
+    match run(&Options::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("joint_fit: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run(options: &Options) -> Result<(), Box<dyn Error>> {
+    let mut reader = csv::Reader::from_path(&options.file)?;
+    let names = reader.headers()?.clone();
+    let column = |name: &str| names.iter().position(|other| other == name).ok_or(format!("no column {name}"));
+    let (speed, restitution) = (column("speed_normal_m_s")?, column("restitution")?);
+    let mut impacts = Vec::new();
+    for row in reader.records() {
+        let row = row?;
+        let number = |index: usize| row.get(index).unwrap_or_default().trim().parse::<f64>();
+        impacts.push(Impact { speed: number(speed)?, restitution: number(restitution)? });
+    }
+    let known = Known {
+        stiffness: options.stiffness,
+        density: options.density,
+        noise: options.noise,
+        diameter: (options.diameter, options.diameter_error),
+    };
+    let [f0, zeta_h, zeta_a, spread] = options.first[..] else {
+        return Err("--first takes four numbers".into());
+    };
+    let fit = JointFit::of(&known, &impacts, [f0, zeta_h, zeta_a, options.diameter, spread])?;
+    let mut table = Table::new();
+    table.set_header(["parameter", "value", "95 % from", "to", "unit"]);
+    for (index, (name, unit)) in NAMES.into_iter().enumerate() {
+        let (low, high) = fit.interval(index);
+        let cells = [fit.parameters[index], low, high].map(|number| format!("{number:.4e}"));
+        table.add_row([[name.to_owned()].as_slice(), &cells, &[unit.to_owned()]].concat());
+    }
+    println!("{table}");
+    let mean_square = fit.residuals().map(|(_, residual)| residual * residual).sum::<f64>() / impacts.len() as f64;
+    println!("impacts: {}, mean square of the residuals in their variance: {mean_square:.3}", impacts.len());
+    if let Some(figure) = &options.figure {
+        figures::draw(&fit, figure)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,117 @@
+//! The friction coefficient from impacts that slide, and the spin from those that roll.
+
+use super::{CalibrationError, Location};
+use crate::rigid::{Departure, infer_assuming_rolling};
+use crate::{
+    Approach, ConstantRestitution, ImpactError, Oblique, ObliqueMotion, Parameter, PlanarMotion, Real, Sphere,
+    TangentialImpact,
+};
+
+/// The impulse ratio of a measured impact and the one with which it would have rolled.
+///
+/// ```
+/// use microimpact::calibrate::ImpulseRatios;
+/// use microimpact::rigid::{Departure, infer};
+/// use microimpact::{ConstantRestitution, NormalMotion, Sphere};
+///
+/// let sphere = Sphere::solid(5e-6, 2600.0)?;
+/// let before = NormalMotion::new(2.0)?.with_tangential(4.0)?.with_spin(&sphere, 0.0)?;
+/// let after = Departure { normal: 1.5, tangential: 3.5 };
+/// let impact = infer(&sphere, &ConstantRestitution::new(0.9_f64)?, &before, &after, 0.01)?;
+/// let ratios = ImpulseRatios::from(&impact.tangential);
+/// assert!(ratios.measured.abs() < ratios.rolling.abs()); // it slides
+/// # Ok::<(), microimpact::ImpactError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImpulseRatios<T> {
+    /// mu = P_t/P_n.
+    pub measured: T,
+    /// mu_0, with which the sphere rolls at separation (A27).
+    pub rolling: T,
+}
+
+impl<T: Real> From<&TangentialImpact<T>> for ImpulseRatios<T> {
+    fn from(impact: &TangentialImpact<T>) -> Self {
+        Self { measured: impact.impulse_ratio(), rolling: impact.rolling_ratio() }
+    }
+}
+
+/// How far beyond the friction coefficient mu_0 has to lie for a sphere to slide for certain.
+const CLEAR: f64 = 1.25;
+
+/// Coulomb's coefficient f: the plateau of the sizes of mu where mu_0 lies clearly beyond it.
+///
+/// Which impacts these are follows from f itself, and not from mu, whose errors would select the lower ones.
+///
+/// # Errors
+/// A ratio outside its range, or fewer than three impacts that slide.
+///
+/// ```
+/// use microimpact::calibrate::{ImpulseRatios, friction};
+///
+/// // |mu| = min(f, |mu_0|) with f = 0.2, towards glancing incidence.
+/// let impacts = [0.05, 0.1, 0.15, 0.3, 0.6, 0.9, 1.2, 1.5, 2.0].map(|rolling: f64| ImpulseRatios {
+///     measured: -rolling.min(0.2),
+///     rolling: -rolling,
+/// });
+/// let plateau = friction(&impacts)?;
+/// assert!((plateau.estimate.value - 0.2).abs() < 1e-12);
+/// assert_eq!(plateau.count, 6);
+/// # Ok::<(), microimpact::calibrate::CalibrationError>(())
+/// ```
+pub fn friction<T: Real>(impacts: &[ImpulseRatios<T>]) -> Result<Location<T>, CalibrationError> {
+    for ratios in impacts {
+        Parameter::ImpulseRatio.check(ratios.measured)?;
+        Parameter::ImpulseRatio.check(ratios.rolling)?;
+    }
+    let clear = T::constant(CLEAR);
+    let plateau = |slides: &dyn Fn(T, T) -> bool| {
+        let sizes = impacts.iter().map(|ratios| (ratios.measured.abs(), ratios.rolling.abs()));
+        Location::of(Parameter::Friction, sizes.filter(|(mu, rolling)| slides(*mu, *rolling)).map(|(mu, _)| mu))
+    };
+    let mut found = plateau(&|mu, rolling| clear * mu < rolling)?;
+    for _ in 0..20 {
+        let least = clear * found.estimate.value;
+        let next = plateau(&|_, rolling| rolling > least)?;
+        let settled = next.count == found.count && next.estimate == found.estimate;
+        found = next;
+        if settled {
+            break;
+        }
+    }
+    Ok(found)
+}
+
+/// The motion, spin included, of a sphere that must have been spinning to leave with an impulse ratio mu after it arrived
+/// as `before`: that with mu = mu_0, rolling at separation (eq. 1).
+///
+/// Means and standard errors over many impacts are those of [`Location::of`] with the peripheral velocities.
+///
+/// # Errors
+/// A value outside its range.
+///
+/// ```
+/// use microimpact::calibrate::rolling_motion;
+/// use microimpact::{NormalMotion, Oblique, Sphere};
+///
+/// // Figure 4 of the paper: ratios up to 0.12 at straight incidence are spins of up to r w = 1.54 m/s.
+/// let sphere = Sphere::solid(25e-6, 7800.0)?;
+/// let before = NormalMotion::new(2.3)?.with_tangential(0.0)?;
+/// let motion = rolling_motion(&sphere, &before, 0.601, 0.12)?;
+/// assert!((motion.peripheral() - 1.54_f64).abs() < 0.01);
+/// # Ok::<(), microimpact::ImpactError>(())
+/// ```
+pub fn rolling_motion<T: Real>(
+    sphere: &Sphere<T>,
+    before: &ObliqueMotion<T>,
+    restitution: T,
+    impulse_ratio: T,
+) -> Result<PlanarMotion<T>, ImpactError> {
+    let restitution = Parameter::Restitution.check(restitution)?;
+    let ratio = Parameter::ImpulseRatio.check(impulse_ratio)?;
+    let approach = before.normal().speed();
+    let tangential = before.tangential() + ratio * (T::ONE + restitution) * approach;
+    let after = Departure { normal: restitution * approach, tangential };
+    let impact = infer_assuming_rolling(sphere, &ConstantRestitution::new(T::ONE)?, before, &after)?;
+    Ok(before.with_spin(sphere, impact.tangential.spin_before(sphere))?)
+}
