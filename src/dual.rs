@@ -29,6 +29,7 @@ use crate::simulation::{Nodes, PhaseNodes, PhaseSamples, Share};
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Dual<T, const N: usize> {
     /// The value.
     pub value: T,

@@ -17,6 +17,8 @@ use crate::Real;
 /// assert_eq!(Parameter::Radius.range(), (1e-10, 1.0));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Parameter {
     /// Outer radius r of a sphere, m.
@@ -272,6 +274,8 @@ impl Parameter {
 /// assert_eq!(ConstantRestitution::new(1.5).unwrap_err().fault, Fault::TooLarge);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Fault {
     /// NaN or infinite.
@@ -294,6 +298,8 @@ pub enum Fault {
 /// assert_eq!(error.to_string(), "radius is below its range, 1e-10 to 1 m");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct InputError {
     /// The quantity at fault.
     pub parameter: Parameter,
@@ -346,6 +352,8 @@ impl fmt::Display for Bound {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum ImpactError {
     /// An input lies outside its range.

@@ -18,6 +18,8 @@ use crate::{Approach, Real, Sphere, Stiffness};
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Hertz<T> {
     /// Peak indentation delta_max, m.
     pub indentation: T,

@@ -9,6 +9,8 @@ mod classify;
 mod dual;
 mod error;
 mod hertz;
+#[cfg(feature = "instrument")]
+pub mod instrument;
 mod motion;
 mod real;
 pub mod rigid;

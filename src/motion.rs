@@ -53,6 +53,8 @@ pub trait Oblique<T: Real>: Approach<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NormalMotion<T> {
     speed: T,
 }
@@ -134,6 +136,8 @@ impl<T: Real> Approach<T> for NormalMotion<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ObliqueMotion<T> {
     normal: NormalMotion<T>,
     tangential: T,
@@ -210,6 +214,8 @@ impl<T: Real> Oblique<T> for ObliqueMotion<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PlanarMotion<T> {
     oblique: ObliqueMotion<T>,
     peripheral: T,

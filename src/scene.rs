@@ -8,6 +8,8 @@ use crate::{InputError, Parameter, Real};
 /// assert_eq!(size_of::<microimpact::NoAdhesion>(), 0);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NoAdhesion;
 
 /// No friction: the tangential motion and the spin stay as they are and are neither read nor computed.
@@ -16,6 +18,8 @@ pub struct NoAdhesion;
 /// assert_eq!(size_of::<microimpact::NoFriction>(), 0);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NoFriction;
 
 /// Coulomb's friction between sphere and surface.
@@ -28,6 +32,8 @@ pub struct NoFriction;
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Coulomb<T> {
     coefficient: T,
 }

@@ -17,6 +17,8 @@ use crate::{InputError, Parameter, Real, error::Fault};
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Sphere<T> {
     radius: T,
     density: T,

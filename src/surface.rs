@@ -16,6 +16,8 @@ use crate::{InputError, Parameter, Real};
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Material<T> {
     youngs_modulus: T,
     poisson_ratio: T,
@@ -61,6 +63,8 @@ impl<T: Real> Material<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Stiffness<T>(T);
 
 impl<T: Real> Stiffness<T> {

@@ -160,6 +160,8 @@ pub fn rebound_probability<T: NormalDistribution, const N: usize>(
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ClassProbabilities<T> {
     rebound: T,
     sliding: T,

@@ -14,6 +14,9 @@ MEMORY
 }
 ";
 
+/// Binaries that log by defmt, whose strings stay out of flash.
+const LOGGING: [&str; 1] = ["instrument"];
+
 fn main() {
     let manifest = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
@@ -31,6 +34,9 @@ fn main() {
         if let Some(name) = file.path().file_stem().and_then(OsStr::to_str) {
             let folder = if name.starts_with(PROBES) { &probe } else { &board };
             println!("cargo:rustc-link-arg-bin={name}=-L{}", folder.display());
+            if LOGGING.contains(&name) {
+                println!("cargo:rustc-link-arg-bin={name}=-Tdefmt.x");
+            }
         }
     }
 

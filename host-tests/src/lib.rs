@@ -1,6 +1,8 @@
 //! What several tests need: the reference solutions, as scenes, and the examples, run as a person runs them.
 
+pub mod c_results;
 pub mod fit;
+pub mod link;
 
 use std::collections::HashMap;
 use std::io::Write;

@@ -17,6 +17,8 @@ use crate::{Approach, Coulomb, Fault, InputError, Oblique, Parameter, Real, Surf
 /// assert_eq!(rebound.restitution * 2.0, 1.6); // m/s, of a sphere that came with 2 m/s
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Rebound<T> {
     /// Overall restitution e; zero for a capture.
     pub restitution: T,
@@ -32,6 +34,8 @@ pub struct Rebound<T> {
 /// assert_ne!(Reading::<f32>::TooCloseToCall, Reading::Capture);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Reading<T> {
     /// The sphere leaves the surface.
     Rebound {
@@ -62,6 +66,8 @@ pub enum Reading<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Separation<T> {
     /// Whether the sphere slides or rolls.
     pub motion: SurfaceMotion,
@@ -131,6 +137,7 @@ impl<T: Real> Rebound<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RestitutionTable<T, const N: usize, const R: usize, const S: usize> {
     boundary: BoundaryTable<N>,
     /// e/sqrt(d) and I/(m v), for each radius over all speeds.

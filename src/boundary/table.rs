@@ -47,6 +47,7 @@ type Cubic = [i32; 4];
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BoundaryTable<const N: usize> {
     cells: [Cubic; N],
     /// Bits of the radius in the middle of the first cell.

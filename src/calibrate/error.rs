@@ -20,6 +20,8 @@ use crate::InputError;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum CalibrationError {
     /// An input lies outside its range.
     Input(InputError),

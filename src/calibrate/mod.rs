@@ -30,6 +30,8 @@ use crate::{InputError, NormalMotion, Parameter, Real};
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Rebound<T> {
     /// Approach speed -v_n, m/s.
     pub speed: T,

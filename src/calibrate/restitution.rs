@@ -34,6 +34,8 @@ use crate::{CriticalSpeed, Dual, InputError, NormalMotion, Parameter, Real, Rigi
 /// # Ok::<(), microimpact::calibrate::CalibrationError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RestitutionFit<T> {
     /// Speed k of the restitution law, m/s.
     pub restitution_speed: Estimate<T>,

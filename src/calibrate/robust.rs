@@ -12,6 +12,8 @@ use crate::{Parameter, Real};
 /// assert!(friction.value > 3.0 * friction.standard_error);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Estimate<T> {
     /// The value.
     pub value: T,
@@ -32,6 +34,8 @@ pub struct Estimate<T> {
 /// # Ok::<(), microimpact::calibrate::CalibrationError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Location<T> {
     /// The centre.
     pub estimate: Estimate<T>,

@@ -23,6 +23,8 @@ use crate::{
 /// # Ok::<(), microimpact::ImpactError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ImpulseRatios<T> {
     /// mu = P_t/P_n.
     pub measured: T,

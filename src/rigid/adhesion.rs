@@ -39,6 +39,8 @@ impl<T: Real> ReboundAdhesion<T> for NoAdhesion {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct AdhesionCoefficient<T> {
     remainder: T,
 }
@@ -82,6 +84,8 @@ impl<T: Real> ReboundAdhesion<T> for AdhesionCoefficient<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct WorkOfAdhesion<T> {
     /// sqrt(2 W_A/m): the rebound whose whole energy adhesion takes, m/s.
     speed: T,

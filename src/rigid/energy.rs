@@ -18,6 +18,8 @@ use crate::{Impact, NormalImpact, Real, Sphere, TangentialImpact};
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NormalWorks<T> {
     /// Of the body's impulse during approach.
     pub body_approach: T,
@@ -49,6 +51,8 @@ pub struct NormalWorks<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EnergyLedger<T> {
     /// Kinetic energy before, J. Without friction only that of the normal motion counts, before and after.
     pub before: T,

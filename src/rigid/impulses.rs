@@ -10,6 +10,8 @@ use crate::{NormalImpact, Real, Sphere, TangentialImpact};
 /// assert_eq!(Phases { approach: 1.0, rebound: 0.5 }.total(), 1.5);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Phases<T> {
     /// During approach.
     pub approach: T,
@@ -49,6 +51,8 @@ impl<T: Real> Phases<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NormalImpulses<T> {
     /// P_D of the body's deformation (A5, A11).
     pub body: Phases<T>,
@@ -71,6 +75,8 @@ pub struct NormalImpulses<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TangentialImpulses<T> {
     /// P_t of friction (A6, A9, A12, A13).
     pub friction: Phases<T>,

@@ -16,6 +16,8 @@ use crate::{Impact, ImpactError, NormalImpact, Oblique, ObliqueMotion, Parameter
 /// assert!(after.normal > after.tangential);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Departure<T> {
     /// Normal velocity V_n, zero for a captured sphere.
     pub normal: T,

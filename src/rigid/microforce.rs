@@ -30,6 +30,8 @@ pub trait MicroforceTerm<T> {
 /// assert_eq!(size_of::<microimpact::rigid::NoMicroforce>(), 0);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NoMicroforce;
 
 impl<T: Real> MicroforceTerm<T> for NoMicroforce {
@@ -69,6 +71,8 @@ impl<T: Real> MicroforceTerm<T> for NoMicroforce {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Microforce<T> {
     approach: T,
     rebound: T,

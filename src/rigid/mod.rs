@@ -50,6 +50,8 @@ use crate::{
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RigidBody<T, L, A = NoAdhesion, F = NoFriction, D = NoRollingDissipation, E = NoMicroforce> {
     sphere: Sphere<T>,
     restitution: L,
@@ -70,6 +72,8 @@ pub struct RigidBody<T, L, A = NoAdhesion, F = NoFriction, D = NoRollingDissipat
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Impact<T, X> {
     /// Along the normal.
     pub normal: NormalImpact<T>,

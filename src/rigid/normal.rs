@@ -16,6 +16,8 @@ use crate::{Approach, ImpactError, NormalMotion, Parameter, Real};
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NormalImpact<T> {
     approach: T,
     restitution: T,

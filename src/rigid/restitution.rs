@@ -46,6 +46,8 @@ pub trait RestitutionLaw<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ConstantRestitution<T> {
     restitution: T,
 }
@@ -89,6 +91,8 @@ impl<T: Real> RestitutionLaw<T> for ConstantRestitution<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SpeedRestitution<T> {
     speed: T,
 }

@@ -79,6 +79,8 @@ pub trait RollingTerm<T> {
 /// assert_eq!(size_of::<microimpact::rigid::NoRollingDissipation>(), 0);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NoRollingDissipation;
 
 impl<T: Real> RollingTerm<T> for NoRollingDissipation {
@@ -102,6 +104,8 @@ impl<T: Real> RollingTerm<T> for NoRollingDissipation {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RollingDissipation<T> {
     /// mu_m a_c/r.
     ratio: T,
@@ -147,6 +151,8 @@ impl<T: Real> RollingTerm<T> for RollingDissipation<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TangentialImpact<T> {
     pub(super) gyration_ratio: T,
     pub(super) contact_inertia: T,

@@ -31,6 +31,8 @@ use crate::{InputError, Parameter, Real};
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Adaptive<T> {
     tolerance: T,
 }

@@ -9,6 +9,8 @@ use crate::{InputError, Parameter, Real};
 /// assert_eq!(size_of::<microimpact::simulation::NoDamping>(), 0);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NoDamping;
 
 /// Damping of Hunt and Crossley: the elastic force times 1 + c_H delta' (B1), with c_H = zeta_H C (B4).
@@ -20,6 +22,8 @@ pub struct NoDamping;
 /// assert!(HystereticDamping::new(-1.0).is_err());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct HystereticDamping<T> {
     pub(super) zeta: T,
 }

@@ -29,6 +29,8 @@ use crate::{InputError, Parameter};
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FixedCost<const N: usize, const M: usize = 0> {
     sweeps: u32,
 }

@@ -10,6 +10,8 @@ use crate::{InputError, Parameter, Real};
 /// assert_eq!(size_of::<microimpact::simulation::NoForce>(), 0);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NoForce;
 
 /// A constant external force, positive out of the surface.
@@ -20,6 +22,8 @@ pub struct NoForce;
 /// assert!(ConstantForce::new(-1e-9).is_ok());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ConstantForce<T> {
     pub(super) force: T,
 }

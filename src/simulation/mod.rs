@@ -62,6 +62,8 @@ use stretch::Control;
 /// assert!(Collocation::<9, f64>::new(0.0).is_err());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Collocation<const N: usize, T> {
     tolerance: T,
 }
@@ -119,6 +121,8 @@ impl<T: Nodes<N>, O: Observer<T>, const N: usize> Method<T, O> for Collocation<N
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Simulation<T, D = NoDamping, A = NoAdhesion, F = NoFriction, P = NoPeeling, X = NoForce> {
     sphere: Sphere<T>,
     stiffness: Stiffness<T>,
@@ -143,6 +147,8 @@ pub struct Simulation<T, D = NoDamping, A = NoAdhesion, F = NoFriction, P = NoPe
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SimulatedImpact<T, G, O = Everything<T>> {
     /// Along the normal.
     pub normal: NormalContact<T>,

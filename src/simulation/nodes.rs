@@ -239,6 +239,8 @@ const fn tail<const N: usize>(z: &[f64; N]) -> [f64; N] {
 /// assert_eq!((share.square, share.cubic, share.quintic), (0.25, 1.75, 1.9375));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Share<T> {
     /// m.
     pub radius: T,

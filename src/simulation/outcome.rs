@@ -25,6 +25,8 @@ use crate::{Class, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NormalContact<T> {
     status: Status,
     outcome: Option<Outcome>,
@@ -219,6 +221,8 @@ impl<T: Real> NormalContact<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TangentialContact<T> {
     motion: SurfaceMotion,
     /// Whether nothing moves any more.
@@ -388,6 +392,8 @@ impl<T: Real> TangentialContact<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TangentialVelocities<T> {
     /// Whether the sphere slides, rolls or, captured, rests.
     pub motion: SurfaceMotion,

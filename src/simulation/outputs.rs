@@ -58,6 +58,8 @@ impl<T: Real, A: Output<T>, B: Output<T>> Output<T> for (A, B) {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Everything<T> {
     /// When the peak and the separation came.
     pub times: ContactTimes<T>,
@@ -98,6 +100,8 @@ impl<T: Real> Output<T> for Everything<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactTimes<T> {
     /// Time of the peak; `None` where there is none.
     pub peak: Option<T>,
@@ -142,6 +146,8 @@ impl<T: Real> ContactTimes<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactImpulses<T> {
     /// Integral of the elastic force sqrt(r) K delta^(3/2).
     pub elastic: T,
@@ -183,6 +189,8 @@ impl<T: Real> ContactImpulses<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactWorks<T> {
     /// Lost to the damping in the materials.
     pub material: T,

@@ -30,6 +30,8 @@ use crate::{InputError, Parameter, Real};
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RestCriterion<T> {
     share: T,
     turning_points: u32,
@@ -79,6 +81,7 @@ impl<T: Real> RestCriterion<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SettledImpact<T, G, O = Everything<T>> {
     /// The impact; of a captured sphere, its outputs and the motion along the surface are those until it rests. Where it
     /// does not come to rest over as many turning points as were allowed, the status of the run says that they are spent.
@@ -106,6 +109,8 @@ pub struct SettledImpact<T, G, O = Everything<T>> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MotionToRest<T> {
     /// Time from first touch to rest, s: to the first turning point with an energy of at most the share that counts as
     /// rest, or of a sphere that creeps, to where its energy is that share. Where the damping is critical but for some

@@ -13,6 +13,8 @@ use crate::{InputError, Parameter, Real};
 /// assert!(Ring::new(-250.0, 6.25).is_err());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Ring<T> {
     pub(super) strength: T,
     pub(super) zeta: T,

@@ -83,6 +83,8 @@ impl<T: Real> Scaled<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Groups<T> {
     /// A, from 5/4 without adhesion to 6.72.
     pub elasticity: T,

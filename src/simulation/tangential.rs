@@ -27,6 +27,8 @@ use crate::{Coulomb, InputError, NoFriction, Oblique, Parameter, Real, Sphere};
 /// assert_eq!(size_of::<microimpact::simulation::NoPeeling>(), 0);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NoPeeling;
 
 /// The peeling moment g = -lambda c_A a theta' against the spin (B10).
@@ -38,6 +40,8 @@ pub struct NoPeeling;
 /// assert!(Peeling::new(-2e-12).is_err());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Peeling<T> {
     pub(super) lambda: T,
 }

@@ -32,6 +32,8 @@ use crate::{Real, Sphere};
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sample<T> {
     /// Time from first touch, s.
     pub time: T,
@@ -91,6 +93,8 @@ impl<T: Real> Sample<T> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Trajectory<T, const N: usize> {
     samples: Vec<Sample<T>, N>,
     unit: Sample<T>,

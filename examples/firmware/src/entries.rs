@@ -21,6 +21,8 @@ use microimpact::{
 
 mod boundary;
 mod calibrate;
+#[cfg(feature = "probe")]
+mod instrument;
 mod simulation;
 
 /// Calls everything, with one number type.
@@ -29,6 +31,8 @@ pub fn call_all<T: simulation::AnyNodes + Single + microimpact::uncertainty::Nor
     keep(boundary::call_all::<T>());
     keep(simulation::call_all::<T>());
     calibrate::call_all::<T>();
+    #[cfg(feature = "probe")]
+    keep(instrument::call_all::<T>());
 }
 
 /// Calls everything but the contact simulation, with one number type.

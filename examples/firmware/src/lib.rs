@@ -11,4 +11,6 @@ pub mod entries;
 pub mod flash;
 pub mod impacts;
 pub mod scenes;
+#[cfg(feature = "instrument")]
+pub mod station;
 pub mod tables;

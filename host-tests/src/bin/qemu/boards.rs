@@ -28,3 +28,11 @@ pub(crate) const BOARDS: [Board; 4] = [
         cpu: Some("cortex-m7"),
     },
 ];
+
+/// The board of the C example, with a processor whose arithmetic in software gives the host's results to the last bit.
+pub(crate) const C_BOARD: Board =
+    Board { core: "Cortex-M3", machine: "mps2-an385", triple: "thumbv7m-none-eabi", cpu: None };
+
+/// The board of the instrument, which has ports and a UART that its interrupts are named after.
+pub(crate) const INSTRUMENT_BOARD: Board =
+    Board { core: "Cortex-M3", machine: "lm3s6965evb", triple: "thumbv7m-none-eabi", cpu: None };

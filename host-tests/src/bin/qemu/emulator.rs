@@ -8,7 +8,7 @@ use crate::boards::Board;
 use crate::packages::{self, Permission};
 use crate::process;
 
-const QEMU: &str = "qemu-system-arm";
+pub(crate) const QEMU: &str = "qemu-system-arm";
 /// An instruction takes 2^8 ns of emulated time: several ticks of the boards' timers
 /// (40 and 62.5 ns), so that a tick more or less cannot change a count.
 const INSTRUCTION_TIME: &str = "shift=8";

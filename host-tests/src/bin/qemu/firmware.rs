@@ -11,6 +11,9 @@ use crate::toolchain::{Toolchain, target_variable};
 /// Generous: the first build on a slow machine compiles `core` too.
 const LIMIT: Duration = Duration::from_secs(900);
 
+/// The feature of the probes, which changes nothing in the other binaries.
+const PROBE: &str = "probe";
+
 /// The repository's top folder.
 pub(crate) fn repository() -> &'static Path {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -19,7 +22,17 @@ pub(crate) fn repository() -> &'static Path {
 
 /// Builds binaries of the firmware and returns the folder they are in.
 pub(crate) fn build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<PathBuf, String> {
-    let finished = try_build(toolchain, board, binaries)?;
+    build_with(toolchain, board, PROBE, binaries)
+}
+
+/// The same with a feature.
+pub(crate) fn build_with(
+    toolchain: &Toolchain,
+    board: &Board,
+    feature: &str,
+    binaries: &[&str],
+) -> Result<PathBuf, String> {
+    let finished = run_cargo(toolchain, board, feature, binaries)?;
     if finished.success() {
         Ok(target_folder(toolchain, board).join(board.triple).join("release"))
     } else {
@@ -35,10 +48,14 @@ pub(crate) fn build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> 
 
 /// Builds binaries that are allowed to fail.
 pub(crate) fn try_build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<Finished, String> {
+    run_cargo(toolchain, board, PROBE, binaries)
+}
+
+fn run_cargo(toolchain: &Toolchain, board: &Board, feature: &str, binaries: &[&str]) -> Result<Finished, String> {
     let mut cargo = toolchain.cargo(board.triple);
     cargo
         .current_dir(repository().join("examples/firmware"))
-        .args(["--release", "--features", "probe"])
+        .args(["--release", "--features", feature])
         .arg("--target-dir")
         .arg(target_folder(toolchain, board));
     for binary in binaries {
@@ -53,7 +70,7 @@ pub(crate) fn try_build(toolchain: &Toolchain, board: &Board, binaries: &[&str])
 
 /// One for each compiler and processor: targets share a folder without harm, and what
 /// is built for the host only once, but two processors of one target would not.
-fn target_folder(toolchain: &Toolchain, board: &Board) -> PathBuf {
+pub(crate) fn target_folder(toolchain: &Toolchain, board: &Board) -> PathBuf {
     let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| repository().join("target"), PathBuf::from);
     target.join("firmware").join(toolchain.folder()).join(board.cpu.unwrap_or("generic"))
 }

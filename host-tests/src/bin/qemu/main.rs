@@ -5,7 +5,7 @@
 use std::io;
 use std::process::ExitCode;
 
-use clap::{Parser, ValueEnum};
+use clap::{Parser, Subcommand, ValueEnum};
 
 use answers::Protocol;
 use boards::{BOARDS, Board, REFERENCE_CORE};
@@ -16,15 +16,18 @@ use toolchain::{Choice, Toolchain};
 
 mod answers;
 mod boards;
+mod c;
 mod emulator;
 mod figures;
 mod firmware;
 mod footprint;
+mod instrument;
 mod limits;
 mod packages;
 mod panics;
 mod process;
 mod report;
+mod session;
 mod toolchain;
 
 /// Runs the firmware on emulated Cortex-M0, M3, M4F and M7, and reports class and
@@ -36,18 +39,30 @@ mod toolchain;
 #[derive(Parser)]
 #[command(name = "cargo qemu", bin_name = "cargo qemu")]
 struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
     /// Form of the figures on standard output
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
     /// Compiler for the boards
-    #[arg(long, value_enum, default_value_t = Choice::Auto)]
+    #[arg(long, global = true, value_enum, default_value_t = Choice::Auto)]
     toolchain: Choice,
     /// Store the figures as those that later runs are compared with
     #[arg(long)]
     overwrite: bool,
     /// Install nothing; say what is missing
-    #[arg(long)]
+    #[arg(long, global = true)]
     no_install: bool,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Runs the instrument, sends it events and prints their classes
+    Instrument(instrument::Events),
+    /// Runs the C example and compares its results with those of Rust
+    C,
+    /// Puts the instrument on trial: full speed, damaged frames, a full queue and a reset
+    Load(instrument::Load),
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -57,7 +72,15 @@ enum Format {
 }
 
 fn main() -> ExitCode {
-    let failures = match run(&Arguments::parse()) {
+    let arguments = Arguments::parse();
+    let permission = if arguments.no_install { Permission::LookOnly } else { Permission::Install };
+    let result = match &arguments.command {
+        None => run(&arguments, permission),
+        Some(Command::Instrument(events)) => instrument::classify(events, arguments.toolchain, permission),
+        Some(Command::C) => c::compare(arguments.toolchain, permission),
+        Some(Command::Load(load)) => instrument::load(load, arguments.toolchain, permission),
+    };
+    let failures = match result {
         Ok(failures) => failures,
         Err(error) => vec![error],
     };
@@ -73,11 +96,12 @@ fn main() -> ExitCode {
 }
 
 /// Everything that went wrong although the run could go on; `Err` if it could not.
-fn run(arguments: &Arguments) -> Result<Vec<String>, String> {
-    let permission = if arguments.no_install { Permission::LookOnly } else { Permission::Install };
+fn run(arguments: &Arguments, permission: Permission) -> Result<Vec<String>, String> {
     let stored = Stored::read(&Stored::path())?;
     let expected = answers::expected()?;
-    let (toolchain, emulator) = match tools(arguments.toolchain, permission) {
+    let mut triples: Vec<&str> = BOARDS.iter().map(|board| board.triple).collect();
+    triples.dedup();
+    let (toolchain, emulator) = match tools(arguments.toolchain, &triples, permission) {
         Ok(tools) => tools,
         Err(missing) => return Ok(missing),
     };
@@ -133,10 +157,8 @@ fn run(arguments: &Arguments) -> Result<Vec<String>, String> {
 }
 
 /// Compiler and emulator, or everything that is missing.
-fn tools(choice: Choice, permission: Permission) -> Result<(Toolchain, String), Vec<String>> {
-    let mut triples: Vec<&str> = BOARDS.iter().map(|board| board.triple).collect();
-    triples.dedup();
-    let toolchain = Toolchain::find(choice, &triples, permission);
+fn tools(choice: Choice, triples: &[&str], permission: Permission) -> Result<(Toolchain, String), Vec<String>> {
+    let toolchain = Toolchain::find(choice, triples, permission);
     let emulator = emulator::find(permission);
     match (toolchain, emulator) {
         (Ok(toolchain), Ok(emulator)) => Ok((toolchain, emulator)),

@@ -1,0 +1,213 @@
+/* microimpact for C: impacts of microspheres. Made by cbindgen from examples/c/src; all units SI, all numbers float. */
+
+#ifndef MICROIMPACT_H
+#define MICROIMPACT_H
+
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+// How a function has ended.
+enum MicroimpactStatus
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // All is well, and the results are there.
+  MICROIMPACT_STATUS_OK,
+  // A pointer that is null or misaligned; nothing was written.
+  MICROIMPACT_STATUS_POINTER,
+  // A number outside its range: the error says which.
+  MICROIMPACT_STATUS_INPUT,
+  // The simulation did not come to an end within its budget; nothing was written for this motion.
+  MICROIMPACT_STATUS_UNSOLVED,
+  // Fewer results fit than there are motions; those that fit were written.
+  MICROIMPACT_STATUS_CAPACITY,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MicroimpactStatus MicroimpactStatus;
+#else
+typedef uint32_t MicroimpactStatus;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What became of the sphere.
+enum MicroimpactClass
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // Leaves the surface while its contact point slips.
+  MICROIMPACT_CLASS_REBOUND_SLIDING,
+  // Leaves the surface rolling.
+  MICROIMPACT_CLASS_REBOUND_ROLLING,
+  // Captured, and slides on.
+  MICROIMPACT_CLASS_CAPTURED_SLIDING,
+  // Captured, and rolls on.
+  MICROIMPACT_CLASS_CAPTURED_ROLLING,
+  // Captured and at rest.
+  MICROIMPACT_CLASS_CAPTURED_RESTING,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MicroimpactClass MicroimpactClass;
+#else
+typedef uint32_t MicroimpactClass;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// How a number misses its range.
+enum MicroimpactFault
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // No fault.
+  MICROIMPACT_FAULT_NONE,
+  // NaN or infinite.
+  MICROIMPACT_FAULT_NOT_FINITE,
+  // Below the smallest valid value.
+  MICROIMPACT_FAULT_TOO_SMALL,
+  // Above the largest valid value.
+  MICROIMPACT_FAULT_TOO_LARGE,
+  // Any other fault.
+  MICROIMPACT_FAULT_OTHER,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MicroimpactFault MicroimpactFault;
+#else
+typedef uint32_t MicroimpactFault;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// A rigid body with R = k/(k + v), a work of adhesion and friction.
+typedef struct MicroimpactRigidScene {
+  // Radius of the sphere, m.
+  float radius;
+  // Its density, kg/m^3.
+  float density;
+  // Speed k of the restitution law, m/s.
+  float restitution_speed;
+  // Work of adhesion, J.
+  float work_of_adhesion;
+  // Friction coefficient.
+  float friction;
+} MicroimpactRigidScene;
+
+// A motion before the impact.
+typedef struct MicroimpactMotion {
+  // Approach speed, positive, m/s.
+  float approach;
+  // Tangential velocity, m/s.
+  float tangential;
+  // Peripheral velocity, spin times radius, m/s.
+  float peripheral;
+} MicroimpactMotion;
+
+// The class of an impact, and what goes with it. A margin that does not exist is negative.
+typedef struct MicroimpactClassification {
+  // What became of the sphere.
+  MicroimpactClass impact_class;
+  // Approach speed over the critical speed.
+  float speed_over_critical;
+  // Friction over the least that ends sliding.
+  float friction_over_limit;
+  // Overall restitution, zero for a capture.
+  float restitution;
+  // Tangential velocity after the impact, m/s.
+  float tangential;
+  // Peripheral velocity after the impact, m/s.
+  float peripheral;
+} MicroimpactClassification;
+
+// What was wrong with a number.
+typedef struct MicroimpactError {
+  // Which number, for microimpact_parameter_name.
+  uint32_t parameter;
+  // What is wrong with it.
+  MicroimpactFault fault;
+  // Smallest valid value.
+  double smallest;
+  // Largest valid value.
+  double largest;
+} MicroimpactError;
+
+// A contact with Hertz's force, damping, a ring of adhesion and friction.
+typedef struct MicroimpactContactScene {
+  // Radius of the sphere, m.
+  float radius;
+  // Its density, kg/m^3.
+  float density;
+  // Hertz stiffness, Pa.
+  float stiffness;
+  // Strength of the damping in the materials.
+  float material_damping;
+  // Strength of the ring of adhesion, N/m.
+  float adhesion_strength;
+  // Strength of the damping of adhesion.
+  float adhesion_damping;
+  // Friction coefficient.
+  float friction;
+  // Tolerance of the square of the restitution; 1e-6 suits.
+  float tolerance;
+} MicroimpactContactScene;
+
+// A simulated impact. An indentation that does not exist is negative.
+typedef struct MicroimpactContact {
+  // What became of the sphere.
+  MicroimpactClass impact_class;
+  // Overall restitution, zero for a capture.
+  float restitution;
+  // Peak indentation, m.
+  float peak_indentation;
+  // Tangential velocity after the contact, m/s.
+  float tangential;
+  // Spin after the contact, rad/s.
+  float spin;
+} MicroimpactContact;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+// Classifies an impact of a rigid body. The error may be null.
+//
+// # Safety
+// Each pointer is null or points to what its type says, and nobody else uses it during the call.
+MicroimpactStatus microimpact_classify(const struct MicroimpactRigidScene *scene,
+                                       const struct MicroimpactMotion *motion,
+                                       struct MicroimpactClassification *result,
+                                       struct MicroimpactError *error);
+
+// Simulates `count` impacts into a buffer with room for `capacity` results, in the order of the motions, and writes how many
+// there are, of those before the first that fails. The error may be null.
+//
+// # Safety
+// Each pointer is null or points to what its type says, the motions to `count` of them and the results to room for
+// `capacity`, and nobody else uses them during the call.
+MicroimpactStatus microimpact_simulate(const struct MicroimpactContactScene *scene,
+                                       const struct MicroimpactMotion *motions,
+                                       size_t count,
+                                       struct MicroimpactContact *results,
+                                       size_t capacity,
+                                       size_t *written,
+                                       struct MicroimpactError *error);
+
+// Writes the name of a parameter and a zero byte to a buffer, cut off where it is too small, and returns the length of the
+// whole name, zero for a parameter that there is not.
+//
+// # Safety
+// The buffer is null or has room for `capacity` bytes.
+size_t microimpact_parameter_name(uint32_t parameter,
+                                  char *buffer,
+                                  size_t capacity);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* MICROIMPACT_H */

@@ -1,0 +1,108 @@
+//! The contact simulation.
+
+use microimpact::simulation::{Collocation, HystereticDamping, Ring, SimulatedImpact, Simulation, TangentialContact};
+use microimpact::{Coulomb, InputError, Sphere, Stiffness};
+
+use crate::memory;
+use crate::status::{Class, Error, Failure, Motion, Status, finish, followed};
+
+/// A contact with Hertz's force, damping, a ring of adhesion and friction.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactScene {
+    /// Radius of the sphere, m.
+    pub radius: f32,
+    /// Its density, kg/m^3.
+    pub density: f32,
+    /// Hertz stiffness, Pa.
+    pub stiffness: f32,
+    /// Strength of the damping in the materials.
+    pub material_damping: f32,
+    /// Strength of the ring of adhesion, N/m.
+    pub adhesion_strength: f32,
+    /// Strength of the damping of adhesion.
+    pub adhesion_damping: f32,
+    /// Friction coefficient.
+    pub friction: f32,
+    /// Tolerance of the square of the restitution; 1e-6 suits.
+    pub tolerance: f32,
+}
+
+type Scene = Simulation<f32, HystereticDamping<f32>, Ring<f32>, Coulomb<f32>>;
+
+impl ContactScene {
+    fn check(self) -> Result<(Scene, Collocation<7, f32>), InputError> {
+        let scene = Simulation::new(Sphere::solid(self.radius, self.density)?, Stiffness::new(self.stiffness)?)
+            .with_damping(self.material_damping)?
+            .with_ring(self.adhesion_strength, self.adhesion_damping)?
+            .with_friction(self.friction)?;
+        Ok((scene, Collocation::new(self.tolerance)?))
+    }
+}
+
+/// A simulated impact. An indentation that does not exist is negative.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// What became of the sphere.
+    pub impact_class: Class,
+    /// Overall restitution, zero for a capture.
+    pub restitution: f32,
+    /// Peak indentation, m.
+    pub peak_indentation: f32,
+    /// Tangential velocity after the contact, m/s.
+    pub tangential: f32,
+    /// Spin after the contact, rad/s.
+    pub spin: f32,
+}
+
+/// Simulates `count` impacts into a buffer with room for `capacity` results, in the order of the motions, and writes how many
+/// there are, of those before the first that fails. The error may be null.
+///
+/// # Safety
+/// Each pointer is null or points to what its type says, the motions to `count` of them and the results to room for
+/// `capacity`, and nobody else uses them during the call.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn microimpact_simulate(
+    scene: *const ContactScene,
+    motions: *const Motion,
+    count: usize,
+    results: *mut Contact,
+    capacity: usize,
+    written: *mut usize,
+    error: *mut Error,
+) -> Status {
+    // SAFETY: the contract of this function is that of the functions in `memory`; indices stay below count and capacity.
+    unsafe {
+        let mut done = 0;
+        let mut simulated = || -> Result<(), Failure> {
+            followed(memory::write(written, 0))?;
+            let (scene, method) = followed(memory::read(scene))?.check()?;
+            while done < count {
+                if done >= capacity {
+                    return Err(Failure::Status(Status::Capacity));
+                }
+                let motion = followed(memory::read(memory::element(motions, done)))?;
+                let contact = simulate(&scene, &method, motion)?;
+                followed(memory::write(memory::element_mut(results, done), contact))?;
+                done += 1;
+            }
+            Ok(())
+        };
+        let result = simulated();
+        let _ = memory::write(written, done);
+        finish(result, error)
+    }
+}
+
+fn simulate(scene: &Scene, method: &Collocation<7, f32>, motion: Motion) -> Result<Contact, Failure> {
+    let impact: SimulatedImpact<f32, TangentialContact<f32>, ()> = scene.observe(method, &motion.check()?)?;
+    let class = impact.class().ok_or(Failure::Status(Status::Unsolved))?;
+    Ok(Contact {
+        impact_class: class.into(),
+        restitution: impact.normal.overall_restitution(),
+        peak_indentation: impact.normal.peak_indentation().unwrap_or(-1.0),
+        tangential: impact.tangential.velocity(),
+        spin: impact.tangential.spin(),
+    })
+}

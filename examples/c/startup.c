@@ -1,0 +1,27 @@
+/* What runs before main on the microcontroller. */
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+extern char data_start[], data_end[], data_load[], bss_start[], bss_end[], stack_top[];
+extern void initialise_monitor_handles(void);
+extern int main(void);
+
+static void fault(void)
+{
+    _Exit(3);
+}
+
+static void reset(void)
+{
+    memcpy(data_start, data_load, (size_t)(data_end - data_start));
+    memset(bss_start, 0, (size_t)(bss_end - bss_start));
+    /* Standard output of newlib by semihosting. */
+    initialise_monitor_handles();
+    exit(main());
+}
+
+__attribute__((section(".vectors"), used)) static const uintptr_t VECTORS[] = {
+    (uintptr_t)stack_top, (uintptr_t)reset, (uintptr_t)fault, (uintptr_t)fault,
+};

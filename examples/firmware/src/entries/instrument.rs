@@ -1,0 +1,138 @@
+//! Calls of the way from an interrupt to a class, and of the link to a host.
+
+use core::convert::Infallible;
+use core::hint::black_box;
+
+use embedded_hal::digital::{ErrorType, OutputPin};
+use microimpact::instrument::link::{Decoder, Encoder, FrameFault, Inlet, PROTOCOL, Reply, Report, Request};
+use microimpact::instrument::{
+    ClassLines, ClassSet, Classified, Classifier, Instrument, NoLines, NormalReading, ObliqueReading, PlanarReading,
+    Queue, Reading, Rejection, Signal, Simulated, SpeedBins, Statistics, Tally, Verdict,
+};
+use microimpact::simulation::{Collocation, FixedCost, Simulation};
+use microimpact::{Approach, Class, InputError, Outcome, Real, RigidBody, SpeedRestitution, Sphere, Stiffness};
+
+use super::simulation::AnyNodes;
+use super::{any, keep};
+
+/// Calls everything, with one number type.
+pub(super) fn call_all<T: AnyNodes>() -> Result<(), InputError> {
+    let normal = NormalReading::<T> { approach: any() };
+    let oblique = ObliqueReading::<T> { approach: any(), tangential: any() };
+    let planar = PlanarReading::<T> { approach: any(), tangential: any(), peripheral: any() };
+    let sphere = Sphere::solid(any(), any())?;
+    let body = RigidBody::new(sphere, SpeedRestitution::new(any::<T>())?).with_work_of_adhesion(any())?;
+    let friction = body.with_friction(any())?;
+    let simulation = Simulation::new(sphere, Stiffness::new(any())?).with_ring(any(), any())?;
+    let fixed = Simulated { scene: simulation, method: FixedCost::<5>::new(black_box(3))? };
+    let exact = Simulated { scene: simulation.with_friction(any())?, method: Collocation::<5, T>::new(any())? };
+    keep(Classified::class(&body.classify(&normal.motion()?)));
+    keep(Classified::class(&friction.classify(&oblique.motion()?)));
+    process::<T, _, _, 2>(body, &normal, lines())?;
+    process::<T, _, _, 5>(friction, &oblique, lines())?;
+    process::<T, _, _, 5>(friction, &planar, lines())?;
+    process::<T, _, _, 2>(fixed, &normal, lines())?;
+    process::<T, _, _, 5>(exact, &oblique, lines())?;
+    keep(Signal::<Class>::show(&mut NoLines, black_box(None)));
+    link();
+    statistics::<T>()
+}
+
+/// A line whose switching cannot be foreseen.
+struct Line;
+
+impl ErrorType for Line {
+    type Error = Infallible;
+}
+
+impl OutputPin for Line {
+    fn set_low(&mut self) -> Result<(), Infallible> {
+        keep(false);
+        Ok(())
+    }
+
+    fn set_high(&mut self) -> Result<(), Infallible> {
+        keep(true);
+        Ok(())
+    }
+}
+
+fn lines<const CLASSES: usize>() -> ClassLines<Line, CLASSES> {
+    ClassLines::new(ClassLines::new([const { Line }; CLASSES]).release())
+}
+
+fn process<T, C, R, const CLASSES: usize>(
+    classifier: C,
+    reading: &R,
+    lines: ClassLines<Line, CLASSES>,
+) -> Result<(), InputError>
+where
+    T: Real,
+    R: Reading<Motion: Approach<T>> + Copy,
+    C: Classifier<T, R::Motion>,
+{
+    let mut instrument: Instrument<C, _, T, CLASSES, 3> =
+        Instrument::new(classifier, lines, SpeedBins::new([any(), any(), any()])?);
+    let mut queue = Queue::<R, 4>::default();
+    keep(queue.is_empty());
+    let (mut sender, mut receiver) = queue.split();
+    keep(sender.send(black_box(*reading)).is_ok());
+    while let Some(reading) = receiver.receive() {
+        let verdict = instrument.process(&reading);
+        keep(verdict.as_ref().is_ok_and(|verdict| verdict.restitution.is_some()));
+        if let Err(rejection) = verdict {
+            keep(rejection);
+        }
+    }
+    keep((receiver.is_empty(), receiver.lost()));
+    let mut tally = *instrument.tally();
+    keep(instrument.classifier().verdict(&reading.motion()?).is_ok());
+    for &class in C::Class::ALL {
+        keep(tally.count(class));
+    }
+    tally.reject(&black_box(Rejection::Unsolved));
+    tally.fail_signal();
+    keep((tally.classified(), tally.rejections().total(), tally.signal_failures()));
+    keep((*tally.bins().edges(), *tally.restitution(), *tally.restitution_beyond()));
+    Ok(())
+}
+
+fn statistics<T: Real>() -> Result<(), InputError> {
+    let mut statistics = Statistics::<T>::default();
+    statistics.add(any());
+    statistics.merge(&black_box(statistics));
+    keep((statistics.count(), statistics.mean(), statistics.variance()));
+    let mut tally = Tally::<T, 2, 1>::new(SpeedBins::new([any()])?);
+    tally.record(any(), &Verdict { class: black_box(Outcome::Rebound), restitution: Some(any()) });
+    keep(tally);
+    Ok(())
+}
+
+fn link() {
+    let mut encoder = Encoder::<160>::default();
+    let reading = PlanarReading { approach: any::<f32>(), tangential: any(), peripheral: any() };
+    let mut inlet = Inlet::<32>::default();
+    if let Ok(frame) = encoder.frame(&Request::Event { number: black_box(1), reading }) {
+        for &byte in frame {
+            keep(inlet.receive::<PlanarReading<f32>>(black_box(byte)));
+        }
+    }
+    let report = Report { arrivals: inlet.arrivals(), ..black_box(Report::default()) };
+    keep((report.is_complete(), report.arrivals.faults.total()));
+    let verdict = Verdict { class: black_box(Class::ReboundRolling), restitution: Some(any::<f32>()) };
+    let replies = [
+        Reply::Started { protocol: black_box(PROTOCOL) },
+        Reply::Classified { number: black_box(1), verdict },
+        Reply::Rejected { number: black_box(1), rejection: black_box(Rejection::Unsolved) },
+        Reply::Report { number: black_box(1), report },
+    ];
+    let mut decoder = Decoder::<160>::default();
+    let mut faults = report.arrivals.faults;
+    faults.add(black_box(FrameFault::Content));
+    keep(faults);
+    for reply in &replies {
+        for &byte in encoder.frame(reply).unwrap_or_default() {
+            keep(decoder.push::<Reply<f32, Class>>(black_box(byte)));
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! `cargo qemu instrument` and `cargo qemu load`: the instrument of `examples/firmware` on an emulated board, fed with events
+//! over its serial line.
+
+use std::error::Error;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use clap::Args;
+use host_tests::link::load::{self as trial, Judge, Trial};
+use host_tests::link::station::{self, Event};
+use host_tests::link::{Answer, Client};
+use microimpact::Class;
+use microimpact::instrument::{ClassSet, PlanarReading};
+
+use crate::boards::INSTRUMENT_BOARD as BOARD;
+use crate::firmware;
+use crate::packages::Permission;
+use crate::session::{Session, instructions};
+use crate::toolchain::{Choice, Toolchain};
+
+/// An emulated processor on a busy machine is slow.
+const PATIENCE: Duration = Duration::from_secs(30);
+/// The data register of the port with the class lines, all pins at once.
+const LINES: u32 = 0x4000_53fc;
+/// What an emulated second is taken for: the board's processor, if it did one instruction in each of its cycles.
+const INSTRUCTIONS_PER_SECOND: u64 = 50_000_000;
+
+/// Events from a table.
+#[derive(Args)]
+pub(crate) struct Events {
+    /// Table with the columns speed_normal_m_s (approach speed), speed_tangential_m_s and spin_rad_s (both 0 where empty or
+    /// absent), or - for standard input; without it, impacts of the paper
+    file: Option<PathBuf>,
+}
+
+/// A trial.
+#[derive(Args)]
+pub(crate) struct Load {
+    /// Events to be answered
+    #[arg(long, default_value_t = 100_000)]
+    events: usize,
+    /// Start of the random numbers
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+}
+
+/// Sends the events of a table and prints their classes.
+pub(crate) fn classify(events: &Events, choice: Choice, permission: Permission) -> Result<Vec<String>, String> {
+    let events = read(events).map_err(|error| error.to_string())?;
+    let toolchain = match toolchain(choice, permission) {
+        Ok(toolchain) => toolchain,
+        Err(missing) => return Ok(missing),
+    };
+    let (mut session, mut client) = start(&toolchain, "instrument")?;
+    let judge = Judge::new()?;
+    let mut failures = Vec::new();
+    println!("event,class,restitution,lines,reason");
+    for event in events {
+        let number = client.send(event).and_then(|number| client.settle().map(|()| number));
+        let number = number.map_err(|error| error.to_string())?;
+        let lines = session.word(LINES)?;
+        for (_, event, answer) in client.answers() {
+            println!("{}", row(number, &answer, lines));
+            failures.extend(judge.check(&event, &answer).err());
+            let high = answer.ok().map_or(0, |verdict| 1 << verdict.class.index());
+            if lines != high {
+                failures.push(format!("event {number}: lines {lines:05b} instead of {high:05b}"));
+            }
+        }
+    }
+    let report = client.report().map_err(|error| error.to_string())?;
+    if !report.is_complete() {
+        failures.push(format!("the counts do not add up: {report:?}"));
+    }
+    Ok(failures)
+}
+
+fn row(number: u32, answer: &Answer, lines: u32) -> String {
+    match answer {
+        Ok(verdict) => {
+            let restitution = verdict.restitution.map_or_else(String::new, |e| format!("{e:.4}"));
+            format!("{number},{},{restitution},{lines:05b},", verdict.class)
+        }
+        Err(rejection) => format!("{number},,,{lines:05b},\"{rejection}\""),
+    }
+}
+
+/// Puts the instrument on trial and says what it takes.
+pub(crate) fn load(load: &Load, choice: Choice, permission: Permission) -> Result<Vec<String>, String> {
+    let toolchain = match toolchain(choice, permission) {
+        Ok(toolchain) => toolchain,
+        Err(missing) => return Ok(missing),
+    };
+    let (mut session, mut client) = start(&toolchain, "instrument")?;
+    let begin = Instant::now();
+    let mut failures = Vec::new();
+    let trial = trial::run(&mut client, load.events, load.seed, || failures.extend(session.reset().err()))?;
+    let time = begin.elapsed().as_secs_f64();
+    drop(session);
+    // Otherwise the processor may be faster than its line, and would never have its queue full.
+    let (mut session, mut client) = start(&toolchain, "busy")?;
+    let overrun = trial::overrun(&mut client, load.seed, || failures.extend(session.reset().err()))?;
+    println!("At full speed, damaged frames, reset:\n{trial}");
+    println!("With a main loop slower than the line, full queue, reset:\n{overrun}");
+    let each = each_of(&trial);
+    println!("{each} instructions for an event, from the first byte of its frame to the last of its answer:");
+    println!(
+        "  {} events/s at {} million instructions/s; here {:.0} events/s of the host's time",
+        INSTRUCTIONS_PER_SECOND / each.max(1),
+        INSTRUCTIONS_PER_SECOND / 1_000_000,
+        trial.answered as f64 / time,
+    );
+    // The other work is known, which shows whether ticks are counted right.
+    let (other_work, expected) = (each_of(&overrun).saturating_sub(each), 2 * u64::from(station::OTHER_WORK));
+    if other_work.abs_diff(expected) > expected / 10 {
+        failures.push(format!("{other_work} instructions counted where there are {expected}"));
+    }
+    if let Some(class) = Class::ALL.iter().find(|class| trial.classes[class.index()] == 0) {
+        failures.push(format!("no event was {class}"));
+    }
+    Ok(failures)
+}
+
+/// Instructions for a request.
+fn each_of(trial: &Trial) -> u64 {
+    instructions(trial.spent.ticks) / trial.spent.requests.max(1)
+}
+
+/// The compiler, or everything that is missing.
+fn toolchain(choice: Choice, permission: Permission) -> Result<Toolchain, Vec<String>> {
+    let (toolchain, emulator) = crate::tools(choice, &[BOARD.triple], permission)?;
+    eprintln!("compiler: {}\nemulator: {emulator}", toolchain.compiler);
+    Ok(toolchain)
+}
+
+/// The running instrument.
+fn start(toolchain: &Toolchain, feature: &str) -> Result<(Session, Client), String> {
+    eprintln!("building for {} ({}) ...", BOARD.core, BOARD.triple);
+    let folder = firmware::build_with(toolchain, &BOARD, feature, &["instrument"])?;
+    eprintln!("running on {} ({}) ...", BOARD.core, BOARD.machine);
+    let (session, serial) = Session::start(&BOARD, &folder.join("instrument"))?;
+    let client = Client::new(serial, PATIENCE).map_err(|error| error.to_string())?;
+    Ok((session, client))
+}
+
+/// The events of a table, or those of the paper.
+fn read(events: &Events) -> Result<Vec<Event>, Box<dyn Error>> {
+    let input: Box<dyn Read> = match &events.file {
+        None => Box::new(include_str!("../../../../examples/classify/impacts.csv").as_bytes()),
+        Some(path) if path.as_os_str() == "-" => Box::new(io::stdin()),
+        Some(path) => Box::new(File::open(path).map_err(|error| format!("{}: {error}", path.display()))?),
+    };
+    let radius = station::scene::<f64>()?.sphere().radius();
+    let mut reader = csv::Reader::from_reader(input);
+    let names = reader.headers()?.clone();
+    let column = |name: &str| names.iter().position(|column| column.trim() == name);
+    let approach = column("speed_normal_m_s").ok_or("the table has no column speed_normal_m_s")?;
+    let (tangential, spin) = (column("speed_tangential_m_s"), column("spin_rad_s"));
+    let mut events = Vec::new();
+    for (row, record) in reader.records().enumerate() {
+        let record = record?;
+        let number = |column: Option<usize>| match column.and_then(|column| record.get(column)).map(str::trim) {
+            None | Some("") => Ok(0.0),
+            Some(text) => text.parse::<f64>().map_err(|_| format!("row {}: no number: {text}", row + 1)),
+        };
+        events.push(PlanarReading {
+            approach: number(Some(approach))? as f32,
+            tangential: number(tangential)? as f32,
+            peripheral: (number(spin)? * radius) as f32,
+        });
+    }
+    Ok(events)
+}

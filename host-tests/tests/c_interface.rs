@@ -1,0 +1,94 @@
+//! The interface for C: its header is current, misuse is harmless, and its results are those of Rust.
+
+use std::path::{Path, PathBuf};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/c")
+}
+
+fn header() -> String {
+    let mut text = Vec::new();
+    let config = cbindgen::Config::from_file(folder().join("cbindgen.toml")).unwrap();
+    let bindings = cbindgen::Builder::new().with_crate(folder()).with_config(config).generate().unwrap();
+    bindings.write(&mut text);
+    String::from_utf8(text).unwrap()
+}
+
+fn header_file() -> PathBuf {
+    folder().join("include/microimpact.h")
+}
+
+#[test]
+fn header_is_current() {
+    let stored = std::fs::read_to_string(header_file()).unwrap();
+    let write = "cargo test --package host-tests --test c_interface -- --ignored";
+    assert_eq!(stored, header(), "the interface has changed; `{write}` writes its header anew");
+}
+
+#[test]
+#[ignore = "writes the header anew"]
+fn write_header() {
+    std::fs::write(header_file(), header()).unwrap();
+}
+
+/// The C programs under the sanitizers; the library is built for that of addresses too, so that it sees what Rust writes.
+#[cfg(target_os = "linux")]
+mod sanitized {
+    use std::path::{Path, PathBuf};
+    use std::process::{Command, Output};
+    use std::sync::OnceLock;
+
+    use host_tests::c_results;
+
+    use super::folder;
+
+    const TEMPORARY: &str = env!("CARGO_TARGET_TMPDIR");
+
+    /// The static library, built once.
+    fn library() -> &'static Path {
+        static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
+        LIBRARY.get_or_init(|| {
+            let triple = format!("{}-unknown-linux-gnu", std::env::consts::ARCH);
+            let target = Path::new(TEMPORARY).join("c");
+            let mut cargo = Command::new(env!("CARGO"));
+            cargo.args(["build", "--release", "--locked", "--target", &triple]);
+            cargo.arg("--manifest-path").arg(folder().join("Cargo.toml")).arg("--target-dir").arg(&target);
+            cargo.env("RUSTC_BOOTSTRAP", "1").env("RUSTFLAGS", "-Zsanitizer=address");
+            assert!(cargo.status().unwrap().success());
+            target.join(triple).join("release/libmicroimpact_c.a")
+        })
+    }
+
+    /// Compiles a C program and runs it with arguments.
+    fn run(program: &str, name: &str, arguments: &[&str]) -> Output {
+        let executable = Path::new(TEMPORARY).join(name);
+        let mut compiler = Command::new("cc");
+        compiler.args(["-std=c11", "-Wall", "-Wextra", "-Werror", "-g"]);
+        compiler.args(["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]);
+        compiler.arg("-I").arg(folder().join("include")).arg(folder().join(program)).arg(library());
+        assert!(compiler.args(["-lm", "-o"]).arg(&executable).status().unwrap().success());
+        Command::new(executable).args(arguments).output().unwrap()
+    }
+
+    #[test]
+    fn misuse_is_reported_and_harmless() {
+        let output = run("check.c", "check", &[]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+
+    #[test]
+    fn the_sanitizer_sees_what_rust_writes() {
+        let output = run("check.c", "overflow", &["overflow"]);
+        let complaint = String::from_utf8_lossy(&output.stderr);
+        assert!(!output.status.success() && complaint.contains("heap-buffer-overflow"), "{complaint}");
+    }
+
+    #[test]
+    fn results_are_those_of_rust_to_the_last_bit() {
+        let output = run("results.c", "results", &[]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let printed = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(printed, c_results::expected().unwrap());
+        assert_eq!(printed.lines().count(), 2 * c_results::MOTIONS.len());
+    }
+}

@@ -1,0 +1,290 @@
+//! The way from an interrupt to a class: nothing is lost silently, and statistics stay exact.
+
+use std::thread;
+
+use embedded_hal_mock::eh1::MockError;
+use embedded_hal_mock::eh1::digital::{Mock, State, Transaction};
+use microimpact::instrument::{
+    ClassLines, ClassSet, Classifier, Instrument, NoLines, NormalReading, ObliqueReading, PlanarReading, Queue,
+    Reading, Rejection, Simulated, SpeedBins, Statistics, Tally, Verdict,
+};
+use microimpact::simulation::{Collocation, FixedCost, Simulation};
+use microimpact::{Class, Fault, NormalMotion, Outcome, Parameter, RigidBody, SpeedRestitution, Sphere, Stiffness};
+use proptest::prelude::*;
+
+type Scene = RigidBody<f64, SpeedRestitution<f64>, microimpact::rigid::WorkOfAdhesion<f64>, microimpact::Coulomb<f64>>;
+
+fn scene() -> Scene {
+    let sphere = Sphere::solid(5.06e-6, 2600.0).unwrap();
+    let scene = RigidBody::new(sphere, SpeedRestitution::new(130.0).unwrap());
+    scene.with_work_of_adhesion(2.22e-12).unwrap().with_friction(0.1).unwrap()
+}
+
+fn bins() -> SpeedBins<f64, 3> {
+    SpeedBins::new([1.0, 3.0, 10.0]).unwrap()
+}
+
+/// Readings good and bad.
+fn readings() -> impl Strategy<Value = PlanarReading<f64>> {
+    let number = prop_oneof![6 => -20.0..20.0, 1 => Just(f64::NAN), 1 => Just(1e300), 1 => Just(f64::NEG_INFINITY)];
+    let speed = prop_oneof![8 => 0.01..50.0, 1 => -1.0..0.0, 1 => Just(f64::INFINITY)];
+    (speed, number.clone(), number).prop_map(|(approach, tangential, peripheral)| PlanarReading {
+        approach,
+        tangential,
+        peripheral,
+    })
+}
+
+/// The class, or the parameter at fault, found without the pipeline.
+fn expected(reading: &PlanarReading<f64>) -> Result<Class, Parameter> {
+    let within = |parameter: Parameter, value: f64| {
+        let (smallest, largest) = parameter.range();
+        if (smallest..=largest).contains(&value) { Ok(value) } else { Err(parameter) }
+    };
+    let motion = NormalMotion::new(within(Parameter::ApproachSpeed, reading.approach)?).unwrap();
+    let motion = motion.with_tangential(within(Parameter::TangentialVelocity, reading.tangential)?).unwrap();
+    let velocity = within(Parameter::PeripheralVelocity, reading.peripheral)?;
+    Ok(scene().classify(&motion.with_peripheral_velocity(velocity).unwrap()).class())
+}
+
+proptest! {
+    #[test]
+    fn every_reading_is_counted_once(readings in prop::collection::vec(readings(), 1..200), room in 1usize..64) {
+        let mut instrument: Instrument<_, _, _, 5, 3> = Instrument::new(scene(), NoLines, bins());
+        let mut queue = Queue::<PlanarReading<f64>, 32>::new();
+        let (mut interrupt, mut main_loop) = queue.split();
+        let (mut classes, mut rejected, mut lost, mut fast) = ([0; 5], 0, 0, 0);
+        for burst in readings.chunks(room) {
+            for (sent, reading) in burst.iter().enumerate() {
+                // 31 find room.
+                prop_assert_eq!(interrupt.send(*reading).is_ok(), sent < 31);
+                match (sent < 31).then(|| expected(reading)) {
+                    None => lost += 1,
+                    Some(Err(_)) => rejected += 1,
+                    Some(Ok(class)) => {
+                        classes[class.index()] += 1;
+                        let rebounds = matches!(class, Class::ReboundSliding | Class::ReboundRolling);
+                        fast += u64::from(rebounds && reading.approach >= 10.0);
+                    }
+                }
+            }
+            let mut answered = burst.iter();
+            while let Some(reading) = main_loop.receive() {
+                let verdict = instrument.process(&reading);
+                prop_assert_eq!(
+                    verdict.map(|verdict| verdict.class).map_err(|rejection| match rejection {
+                        Rejection::Input(error) => error.parameter,
+                        other => panic!("{other}"),
+                    }),
+                    expected(answered.next().unwrap())
+                );
+            }
+        }
+        let tally = instrument.tally();
+        prop_assert_eq!(Class::ALL.iter().map(|&class| tally.count(class)).collect::<Vec<_>>(), classes);
+        prop_assert_eq!((tally.rejections().input, tally.rejections().unsolved), (rejected, 0));
+        prop_assert_eq!(main_loop.lost(), lost);
+        let counted: u64 = tally.restitution().iter().map(Statistics::count).sum();
+        prop_assert_eq!(counted + fast, tally.count(Class::ReboundSliding) + tally.count(Class::ReboundRolling));
+        prop_assert_eq!(tally.restitution_beyond().count(), fast);
+    }
+}
+
+/// Two threads in place of an interrupt and a main loop.
+#[test]
+fn events_cross_threads_in_order_or_are_counted_as_lost() {
+    const EVENTS: u32 = 1_000_000;
+    let mut queue = Queue::<u32, 8>::new();
+    let (mut interrupt, mut main_loop) = queue.split();
+    let (received, refused) = thread::scope(|scope| {
+        let sender = scope.spawn(move || (0..EVENTS).filter(|&event| interrupt.send(event).is_err()).count());
+        let mut received = Vec::new();
+        loop {
+            let finished = sender.is_finished();
+            match main_loop.receive() {
+                Some(event) => received.push(event),
+                None if finished => break,
+                None => thread::yield_now(),
+            }
+        }
+        (received, sender.join().unwrap())
+    });
+    assert!(received.is_sorted_by(|earlier, later| earlier < later));
+    assert_eq!(received.len() + refused, EVENTS as usize);
+    assert_eq!(main_loop.lost() as usize, refused);
+    assert!(main_loop.is_empty());
+}
+
+/// Every kind of scene gives the class and restitution that its own functions give.
+#[test]
+fn classifiers_answer_for_their_scenes() {
+    let sphere = Sphere::solid(5.06e-6, 2600.0).unwrap();
+    let normal = Simulation::new(sphere, Stiffness::new(7.5e10).unwrap());
+    let normal = normal.with_damping(10.5).unwrap().with_ring(250.0, 6.25).unwrap();
+    let oblique = normal.with_friction(0.1).unwrap();
+    let exact = Collocation::<9, f64>::new(1e-9).unwrap();
+    let fixed = FixedCost::<7>::new(4).unwrap();
+    let body = RigidBody::new(sphere, SpeedRestitution::new(130.0).unwrap()).with_work_of_adhesion(2.22e-12).unwrap();
+    let mut classes = Vec::new();
+    for speed in [0.3, 0.8, 1.7, 2.8, 9.0] {
+        let straight = NormalReading { approach: speed }.motion().unwrap();
+        let contact = normal.normal_impact(&fixed, &straight).unwrap();
+        let verdict = Simulated { scene: normal, method: fixed }.verdict(&straight).unwrap();
+        assert_eq!(verdict, Verdict { class: contact.outcome(), restitution: Some(contact.overall_restitution()) });
+        let verdict: Verdict<f64, Outcome> = body.verdict(&straight).unwrap();
+        assert_eq!(verdict.class, body.classify(&straight).outcome);
+        assert_eq!(verdict.restitution, Some(body.impact(&straight).normal.overall_restitution()));
+        for tangential in [0.0, 0.2, 30.0] {
+            let moving = ObliqueReading { approach: speed, tangential }.motion().unwrap();
+            let impact = oblique.impact(&exact, &moving).unwrap();
+            let verdict = Simulated { scene: oblique, method: exact }.verdict(&moving).unwrap();
+            assert_eq!(verdict.class, impact.class());
+            assert!((verdict.restitution.unwrap() - impact.normal.overall_restitution()).abs() < 1e-9);
+            let verdict = scene().verdict(&moving).unwrap();
+            assert_eq!(verdict.class, scene().classify(&moving).class());
+            classes.push(verdict.class);
+        }
+    }
+    assert!(Class::ALL.iter().all(|class| classes.contains(class)), "{classes:?}");
+}
+
+#[test]
+fn what_cannot_be_solved_is_rejected_by_name() {
+    let sphere = Sphere::solid(1e-6, 1000.0).unwrap();
+    let scene = Simulation::new(sphere, Stiffness::new(1e10).unwrap()).with_damping(1e4).unwrap();
+    let overdamped = Simulated { scene, method: FixedCost::<5>::new(3).unwrap() };
+    let mut instrument: Instrument<_, _, _, 2, 3> = Instrument::new(overdamped, NoLines, bins());
+    assert_eq!(instrument.process(&NormalReading { approach: 1.0 }), Err(Rejection::Unsolved));
+    let error = instrument.process(&NormalReading { approach: f64::NAN }).unwrap_err();
+    assert!(matches!(error, Rejection::Input(error) if error.fault == Fault::NotFinite), "{error}");
+    let rejections = instrument.tally().rejections();
+    assert_eq!((rejections.input, rejections.unsolved), (1, 1));
+}
+
+#[test]
+fn one_line_is_high_for_the_latest_class() {
+    let (low, high) = (|| Transaction::set(State::Low), || Transaction::set(State::High));
+    let stuck = || Transaction::set(State::Low).with_error(MockError::Io(std::io::ErrorKind::Other));
+    let mut rebound = Mock::new(&[high(), low(), low(), stuck()]);
+    let mut capture = Mock::new(&[low(), high(), low()]);
+    let lines = ClassLines::new([rebound.clone(), capture.clone()]);
+    let sphere = Sphere::solid(5.06e-6, 2600.0).unwrap();
+    let body = RigidBody::new(sphere, SpeedRestitution::new(130.0).unwrap()).with_work_of_adhesion(2.22e-12).unwrap();
+    let mut instrument: Instrument<_, _, _, 2, 3> = Instrument::new(body, lines, bins());
+    let mut class = |approach| instrument.process(&NormalReading { approach }).ok().map(|verdict| verdict.class);
+    assert_eq!(class(2.8), Some(Outcome::Rebound));
+    assert_eq!(class(0.5), Some(Outcome::Capture));
+    assert_eq!(class(f64::NAN), None);
+    // A line that stays high keeps the next one low, and the failure is counted; the class is answered all the same.
+    assert_eq!(class(0.5), Some(Outcome::Capture));
+    assert_eq!(instrument.tally().signal_failures(), 1);
+    rebound.done();
+    capture.done();
+}
+
+/// f32 against f64, for a thousand million numbers: sixty times as many as f32 can count.
+#[test]
+fn single_precision_statistics_do_not_stand_still() {
+    const NUMBERS: u32 = 1_000_000_000;
+    let (mut single, mut plain_mean) = (Statistics::<f32>::new(), 0.0_f32);
+    let (mut sum, mut squares) = (0.0_f64, 0.0_f64);
+    // Restitutions that drift upwards, so that a mean that stands still falls behind.
+    let restitution = |i: u32| 0.6 + 0.3 * (i as f32 / NUMBERS as f32) + 0.1 * ((i % 1000) as f32 / 1000.0 - 0.5);
+    for i in 0..NUMBERS {
+        let e = restitution(i);
+        single.add(e);
+        plain_mean += (e - plain_mean) / (i + 1) as f32;
+        sum += f64::from(e);
+        squares += f64::from(e).powi(2);
+    }
+    let mean = sum / f64::from(NUMBERS);
+    let variance = (squares - sum * mean) / f64::from(NUMBERS - 1);
+    assert_eq!(single.count(), u64::from(NUMBERS));
+    assert!((f64::from(single.mean()) - mean).abs() < 1e-7, "{} {mean}", single.mean());
+    assert!((f64::from(single.variance().unwrap()) / variance - 1.0).abs() < 1e-6);
+    // The same without what rounding drops.
+    assert!((f64::from(plain_mean) - mean).abs() > 1e-3, "{plain_mean} {mean}");
+}
+
+/// After a thousand million numbers every number still counts.
+#[test]
+fn statistics_hold_beyond_a_thousand_million_numbers() {
+    let mut single = Statistics::<f32>::new();
+    for i in 0..1000 {
+        single.add(0.7 + 0.2 * (i as f32 / 1000.0 - 0.5));
+    }
+    let start = (f64::from(single.mean()), f64::from(single.variance().unwrap()));
+    while single.count() < 1_000_000_000 {
+        let copy = single;
+        single.merge(&copy);
+    }
+    let before = single.count() as f64;
+    let population = start.1 * 999.0 / 1000.0;
+    assert!((f64::from(single.mean()) - start.0).abs() < 1e-7);
+    assert!((f64::from(single.variance().unwrap()) / population - 1.0).abs() < 1e-6);
+    // Two million numbers of 0.9 move a mean of 0.7 by 0.0004 and the variance with it.
+    let added = 2_000_000;
+    for _ in 0..added {
+        single.add(0.9);
+    }
+    let (x, added) = (f64::from(0.9_f32), f64::from(added));
+    let mean = (start.0 * before + x * added) / (before + added);
+    assert!((f64::from(single.mean()) - mean).abs() < 1e-7, "{} {mean}", single.mean());
+    let squares = population * before + (x - start.0).powi(2) * before * added / (before + added);
+    let variance = squares / (before + added - 1.0);
+    assert!((f64::from(single.variance().unwrap()) / variance - 1.0).abs() < 1e-6);
+}
+
+proptest! {
+    /// Merged statistics are those of all numbers together.
+    #[test]
+    fn statistics_merge(numbers in prop::collection::vec(0.0..1.0, 0..50), split in 0usize..50) {
+        let all = |numbers: &[f64]| numbers.iter().fold(Statistics::new(), |mut all, &x| { all.add(x); all });
+        let (first, second) = numbers.split_at(split.min(numbers.len()));
+        let (mut merged, whole) = (all(first), all(&numbers));
+        merged.merge(&all(second));
+        prop_assert_eq!(merged.count(), whole.count());
+        prop_assert!((merged.mean() - whole.mean()).abs() < 1e-14);
+        match (merged.variance(), whole.variance()) {
+            (Some(merged), Some(whole)) => prop_assert!((merged - whole).abs() < 1e-14),
+            (merged, whole) => prop_assert_eq!(merged, whole),
+        }
+    }
+}
+
+#[test]
+fn a_tally_survives_a_restart_and_its_bins_are_checked() {
+    let mut tally = Tally::<f64, 2, 3>::new(bins());
+    tally.record(2.0, &Verdict { class: Outcome::Rebound, restitution: Some(0.7) });
+    tally.reject(&Rejection::Unsolved);
+    let text = serde_json::to_string(&tally).unwrap();
+    assert_eq!(serde_json::from_str::<Tally<f64, 2, 3>>(&text).unwrap(), tally);
+    let descending = text.replace("[1.0,3.0,10.0]", "[1.0,3.0,2.0]");
+    assert_ne!(descending, text);
+    let error = serde_json::from_str::<Tally<f64, 2, 3>>(&descending).unwrap_err();
+    assert!(error.to_string().contains("approach speed"), "{error}");
+}
+
+/// Compiles only if the types that a host keeps can be written to a file.
+#[test]
+fn results_and_scenes_can_be_written() {
+    fn written(value: &impl serde::Serialize) -> serde_json::Value {
+        serde_json::to_value(value).unwrap()
+    }
+    let scene = scene();
+    let reading = PlanarReading { approach: 2.8, tangential: 1.0, peripheral: 0.0 };
+    let motion = reading.motion().unwrap();
+    let impact = scene.impact(&motion);
+    let simulation = Simulation::new(*scene.sphere(), Stiffness::new(7.5e10).unwrap()).with_friction(0.1).unwrap();
+    let contact = simulation.impact(&Collocation::<9, f64>::new(1e-9).unwrap(), &motion).unwrap();
+    assert_eq!(written(&scene)["sphere"]["radius"], 5.06e-6);
+    assert_eq!(written(&simulation)["friction"]["coefficient"], 0.1);
+    assert_eq!(written(&motion)["peripheral"], 0.0);
+    assert_eq!(written(&reading)["approach"], 2.8);
+    assert_eq!(written(&impact)["normal"]["rebound"], impact.normal.rebound_speed());
+    assert_eq!(written(&contact)["normal"]["approach"], 2.8);
+    assert_eq!(written(&impact.energy(scene.sphere()))["before"], impact.energy(scene.sphere()).before);
+    assert_eq!(written(&scene.classify(&motion))["outcome"], "Rebound");
+    let error = NormalMotion::new(-1.0).unwrap_err();
+    assert_eq!(serde_json::from_value::<microimpact::InputError>(written(&error)).unwrap(), error);
+}

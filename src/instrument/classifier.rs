@@ -1,0 +1,228 @@
+//! What turns a motion into a class: the rigid body, the simulation, or what a user brings.
+
+use core::fmt;
+
+use super::ClassSet;
+use crate::rigid::{MicroforceTerm, ReboundAdhesion, TangentialOutcome, TangentialTerm};
+use crate::simulation::{
+    Attraction, Damping, Method, NoPeeling, Scale, SimulatedImpact, Simulation, TangentialContact, TangentialScene,
+};
+use crate::{
+    Approach, Class, Classification, ContactClass, Coulomb, InputError, NoFriction, Outcome, Real, RestitutionLaw,
+    RigidBody,
+};
+
+/// Gives the class of a motion `M`, in numbers of type `T`.
+///
+/// ```
+/// use microimpact::instrument::{Classifier, Verdict};
+/// use microimpact::{Class, ConstantRestitution, NormalMotion, RigidBody, Sphere};
+///
+/// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.9)?).with_friction(0.1)?;
+/// let verdict = scene.verdict(&NormalMotion::new(1.0)?.with_tangential(5.0)?);
+/// assert_eq!(verdict, Ok(Verdict { class: Class::ReboundSliding, restitution: Some(0.9) }));
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+pub trait Classifier<T, M> {
+    /// What it tells apart.
+    type Class: ClassSet;
+
+    /// Class and restitution of an impact.
+    ///
+    /// # Errors
+    /// An impact that cannot be classified, with the reason.
+    ///
+    /// ```
+    /// use microimpact::instrument::{Classifier, Rejection, Simulated};
+    /// use microimpact::simulation::{FixedCost, Simulation};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1e4)?;
+    /// let overdamped = Simulated { scene, method: FixedCost::<5>::new(3)? };
+    /// assert_eq!(overdamped.verdict(&NormalMotion::new(1.0)?), Err(Rejection::Unsolved));
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    fn verdict(&self, motion: &M) -> Result<Verdict<T, Self::Class>, Rejection>;
+}
+
+/// What a classifier says of an impact.
+///
+/// ```
+/// use microimpact::instrument::{Classifier, Verdict};
+/// use microimpact::{ConstantRestitution, NormalMotion, Outcome, RigidBody, Sphere};
+///
+/// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.9)?);
+/// let verdict = scene.verdict(&NormalMotion::new(1.0)?);
+/// assert_eq!(verdict, Ok(Verdict { class: Outcome::Rebound, restitution: Some(0.9) }));
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Verdict<T, C> {
+    /// What became of the sphere.
+    pub class: C,
+    /// Overall restitution e, zero for a capture; `None` from a classifier that knows the class alone.
+    pub restitution: Option<T>,
+}
+
+/// Why a reading has no class.
+///
+/// ```
+/// use microimpact::instrument::{NormalReading, Reading, Rejection};
+///
+/// let rejection = Rejection::from(NormalReading { approach: -1.0 }.motion().unwrap_err());
+/// assert_eq!(rejection.to_string(), "approach speed is below its range, 1e-12 to 1e6 m/s");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum Rejection {
+    /// A value that no particle can have, or a ratio of forces that cannot be represented.
+    Input(InputError),
+    /// The method did not come to a solution.
+    Unsolved,
+}
+
+impl From<InputError> for Rejection {
+    fn from(error: InputError) -> Self {
+        Self::Input(error)
+    }
+}
+
+impl fmt::Display for Rejection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Input(error) => error.fmt(f),
+            Self::Unsolved => f.write_str("the method did not come to a solution"),
+        }
+    }
+}
+
+impl core::error::Error for Rejection {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::Input(error) => Some(error),
+            Self::Unsolved => None,
+        }
+    }
+}
+
+/// A [`Classification`] whose class is one word: an [`Outcome`] without friction, a [`Class`] with it.
+///
+/// ```
+/// use microimpact::instrument::Classified;
+/// use microimpact::{Classification, Outcome};
+///
+/// let classification = Classification { outcome: Outcome::Capture, speed_over_critical: Some(0.5), contact: () };
+/// assert_eq!(Classified::class(&classification), Outcome::Capture);
+/// ```
+pub trait Classified {
+    /// What is told apart.
+    type Class: ClassSet;
+
+    /// The class.
+    fn class(&self) -> Self::Class;
+}
+
+impl<T> Classified for Classification<T, ()> {
+    type Class = Outcome;
+
+    #[inline]
+    fn class(&self) -> Outcome {
+        self.outcome
+    }
+}
+
+impl<T> Classified for Classification<T, ContactClass<T>> {
+    type Class = Class;
+
+    #[inline]
+    fn class(&self) -> Class {
+        Self::class(self)
+    }
+}
+
+impl<T, M, L, A, F, D, E, S> Classifier<T, M> for RigidBody<T, L, A, F, D, E>
+where
+    T: Real,
+    M: Approach<T>,
+    L: RestitutionLaw<T>,
+    A: ReboundAdhesion<T>,
+    F: TangentialTerm<T, M, D, Impact: TangentialOutcome<T, Class = S>>,
+    E: MicroforceTerm<T>,
+    Classification<T, S>: Classified,
+{
+    type Class = <Classification<T, S> as Classified>::Class;
+
+    #[inline]
+    fn verdict(&self, motion: &M) -> Result<Verdict<T, Self::Class>, Rejection> {
+        let impact = self.impact(motion);
+        let class = Classified::class(&self.classify_impact(&impact));
+        Ok(Verdict { class, restitution: Some(impact.normal.overall_restitution()) })
+    }
+}
+
+/// A simulated scene and the method that solves it: any method without friction, one that
+/// follows the tangential motion with it.
+///
+/// ```
+/// use microimpact::instrument::{Classifier, Simulated};
+/// use microimpact::simulation::{FixedCost, Simulation};
+/// use microimpact::{NormalMotion, Outcome, Sphere, Stiffness};
+///
+/// let scene = Simulation::new(Sphere::solid(2.5e-6_f32, 2600.0)?, Stiffness::new(7.5e10)?)
+///     .with_damping(10.5)?
+///     .with_ring(250.0, 6.25)?;
+/// let classifier = Simulated { scene, method: FixedCost::<7>::new(4)? };
+/// assert!(classifier.verdict(&NormalMotion::new(8.0)?).is_ok_and(|verdict| verdict.class == Outcome::Rebound));
+/// assert!(classifier.verdict(&NormalMotion::new(5.0)?).is_ok_and(|verdict| verdict.class == Outcome::Capture));
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Simulated<S, N> {
+    /// The scene.
+    pub scene: S,
+    /// The method.
+    pub method: N,
+}
+
+impl<T, M, D, A, X, N> Classifier<T, M> for Simulated<Simulation<T, D, A, NoFriction, NoPeeling, X>, N>
+where
+    T: Real,
+    M: Approach<T>,
+    D: Scale<T, Scaled: Damping<T>>,
+    A: Scale<T, Scaled: Attraction<T>>,
+    X: Scale<T, Scaled: Attraction<T>>,
+    N: Method<T, ()>,
+{
+    type Class = Outcome;
+
+    fn verdict(&self, motion: &M) -> Result<Verdict<T, Outcome>, Rejection> {
+        let contact = self.scene.normal_impact(&self.method, motion)?;
+        let class = contact.outcome().ok_or(Rejection::Unsolved)?;
+        Ok(Verdict { class, restitution: Some(contact.overall_restitution()) })
+    }
+}
+
+impl<T, M, D, A, P, X, N> Classifier<T, M> for Simulated<Simulation<T, D, A, Coulomb<T>, P, X>, N>
+where
+    T: Real,
+    M: Approach<T>,
+    D: Scale<T, Scaled: Damping<T>>,
+    A: Scale<T, Scaled: Attraction<T>>,
+    X: Scale<T, Scaled: Attraction<T>>,
+    Coulomb<T>: TangentialScene<T, M, A, P, TangentialContact<T>>,
+    N: Method<T, ((), <Coulomb<T> as TangentialScene<T, M, A, P, TangentialContact<T>>>::Observer)>,
+{
+    type Class = Class;
+
+    fn verdict(&self, motion: &M) -> Result<Verdict<T, Class>, Rejection> {
+        let impact: SimulatedImpact<T, TangentialContact<T>, ()> = self.scene.observe(&self.method, motion)?;
+        let class = impact.class().ok_or(Rejection::Unsolved)?;
+        Ok(Verdict { class, restitution: Some(impact.normal.overall_restitution()) })
+    }
+}

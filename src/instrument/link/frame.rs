@@ -1,0 +1,198 @@
+//! Frames: a message and its checksum between two zero bytes.
+
+use core::fmt;
+
+use cobs::{CobsEncoder, DecodeResult, DecoderState};
+use crc::{CRC_32_ISO_HDLC, Crc, Digest, Table};
+use heapless::Vec;
+use serde::{Serialize, de::DeserializeOwned};
+
+static CHECKSUM: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
+const CHECKSUM_BYTES: usize = size_of::<u32>();
+const END: u8 = 0;
+
+/// What is wrong with a frame.
+///
+/// ```
+/// use microimpact::instrument::link::{Decoder, FrameFault};
+///
+/// let mut decoder = Decoder::<16>::new();
+/// let received: Vec<_> = [9, 2, 3, 0].iter().filter_map(|&byte| decoder.push::<u8>(byte)).collect();
+/// assert_eq!(received, [Err(FrameFault::Stuffing)]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
+pub enum FrameFault {
+    /// Longer than any message.
+    Oversized,
+    /// Cut off, or with a byte that COBS does not allow there.
+    Stuffing,
+    /// A checksum that does not fit, or none.
+    Checksum,
+    /// A right checksum, but no message of this kind.
+    Content,
+}
+
+impl fmt::Display for FrameFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Oversized => "frame longer than any message",
+            Self::Stuffing => "frame cut off or not stuffed by COBS",
+            Self::Checksum => "checksum of a frame does not fit",
+            Self::Content => "frame holds no known message",
+        })
+    }
+}
+
+impl core::error::Error for FrameFault {}
+
+/// Makes frames of up to `N` bytes.
+///
+/// ```
+/// use microimpact::instrument::link::{Decoder, Encoder};
+///
+/// let mut encoder = Encoder::<32>::new();
+/// let frame = encoder.frame(&(7_u8, 2.8_f32)).unwrap();
+/// let mut decoder = Decoder::<32>::new();
+/// assert_eq!(frame.iter().find_map(|&byte| decoder.push(byte)), Some(Ok((7_u8, 2.8_f32))));
+/// ```
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Encoder<const N: usize> {
+    message: [u8; N],
+    frame: [u8; N],
+}
+
+impl<const N: usize> Encoder<N> {
+    /// An encoder.
+    ///
+    /// ```
+    /// assert!(microimpact::instrument::link::Encoder::<16>::new().frame(&1_u32).is_ok());
+    /// ```
+    pub const fn new() -> Self {
+        Self { message: [0; N], frame: [0; N] }
+    }
+
+    /// The frame of a message, its two zero bytes included.
+    ///
+    /// # Errors
+    /// A message that is too long.
+    ///
+    /// ```
+    /// use microimpact::instrument::link::{Encoder, FrameFault};
+    ///
+    /// assert_eq!(Encoder::<8>::new().frame(&[1.0_f64; 2]), Err(FrameFault::Oversized));
+    /// ```
+    pub fn frame(&mut self, message: &impl Serialize) -> Result<&[u8], FrameFault> {
+        let message = postcard::to_slice(message, &mut self.message).map_err(|_| FrameFault::Oversized)?;
+        let checksum = CHECKSUM.checksum(message).to_le_bytes();
+        let (start, rest) = self.frame.split_first_mut().ok_or(FrameFault::Oversized)?;
+        *start = END;
+        let mut stuffed = CobsEncoder::new(rest);
+        stuffed.push(message).and_then(|()| stuffed.push(&checksum)).map_err(|_| FrameFault::Oversized)?;
+        let length = stuffed.finalize();
+        *rest.get_mut(length).ok_or(FrameFault::Oversized)? = END;
+        self.frame.get(..length + 2).ok_or(FrameFault::Oversized)
+    }
+}
+
+impl<const N: usize> Default for Encoder<N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Finds frames in a stream of bytes; `N` bytes hold a message and its checksum.
+///
+/// ```
+/// use microimpact::instrument::link::{Decoder, Encoder, FrameFault};
+///
+/// let mut encoder = Encoder::<32>::new();
+/// let mut stream = b"noise".to_vec();
+/// stream.extend(encoder.frame(&1_u32).unwrap());
+/// stream.extend(&encoder.frame(&2_u32).unwrap()[..4]);
+/// stream.extend(encoder.frame(&3_u32).unwrap());
+/// let mut decoder = Decoder::<32>::new();
+/// let received: Vec<_> = stream.iter().filter_map(|&byte| decoder.push::<u32>(byte)).collect();
+/// assert_eq!(received, [Err(FrameFault::Stuffing), Ok(1), Err(FrameFault::Stuffing), Ok(3)]);
+/// ```
+#[derive(Debug)]
+pub struct Decoder<const N: usize> {
+    stuffing: DecoderState,
+    message: Vec<u8, N>,
+    oversized: bool,
+}
+
+impl<const N: usize> Decoder<N> {
+    /// A decoder that has received nothing yet.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::instrument::link::Decoder::<16>::new().push::<u8>(0), None);
+    /// ```
+    pub const fn new() -> Self {
+        Self { stuffing: DecoderState::Idle, message: Vec::new(), oversized: false }
+    }
+
+    /// Takes a byte, and gives the message or the fault of the frame that it ends.
+    ///
+    /// # Errors
+    /// What is wrong with the frame.
+    ///
+    /// ```
+    /// use microimpact::instrument::link::{Decoder, Encoder};
+    ///
+    /// let mut encoder = Encoder::<16>::new();
+    /// let mut decoder = Decoder::<16>::new();
+    /// let (last, first) = encoder.frame(&5_u8).unwrap().split_last().unwrap();
+    /// assert!(first.iter().all(|&byte| decoder.push::<u8>(byte).is_none()));
+    /// assert_eq!(decoder.push::<u8>(*last), Some(Ok(5)));
+    /// ```
+    pub fn push<M: DeserializeOwned>(&mut self, byte: u8) -> Option<Result<M, FrameFault>> {
+        let end = match self.stuffing.feed(byte) {
+            Ok(DecodeResult::NoData) => return None,
+            Ok(DecodeResult::DataContinue(byte)) => {
+                self.oversized |= self.message.push(byte).is_err();
+                return None;
+            }
+            Ok(DecodeResult::DataComplete) => Ok(()),
+            Err(_) => Err(FrameFault::Stuffing),
+        };
+        let oversized = core::mem::take(&mut self.oversized);
+        let message = match end {
+            _ if oversized => Err(FrameFault::Oversized),
+            Ok(()) => message(&self.message),
+            Err(fault) => Err(fault),
+        };
+        self.message.clear();
+        Some(message)
+    }
+}
+
+/// The message in front of its checksum.
+fn message<M: DeserializeOwned>(frame: &[u8]) -> Result<M, FrameFault> {
+    let (message, checksum) = frame.split_last_chunk::<CHECKSUM_BYTES>().ok_or(FrameFault::Checksum)?;
+    let mut digest: Digest<'_, u32, Table<1>> = CHECKSUM.digest();
+    digest.update(message);
+    if digest.finalize() != u32::from_le_bytes(*checksum) {
+        return Err(FrameFault::Checksum);
+    }
+    match postcard::take_from_bytes(message) {
+        Ok((message, [])) => Ok(message),
+        _ => Err(FrameFault::Content),
+    }
+}
+
+impl<const N: usize> Default for Decoder<N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(feature = "defmt")]
+impl<const N: usize> defmt::Format for Decoder<N> {
+    fn format(&self, f: defmt::Formatter<'_>) {
+        defmt::write!(f, "Decoder {{ received: {=usize}, oversized: {=bool} }}", self.message.len(), self.oversized);
+    }
+}

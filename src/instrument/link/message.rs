@@ -1,0 +1,300 @@
+//! What the two ends say to each other, and the instrument's end of it.
+
+use serde::de::DeserializeOwned;
+
+use super::{Decoder, FrameFault};
+use crate::instrument::{Rejection, Rejections, Verdict};
+
+/// Version of the messages: both ends must have the same.
+///
+/// ```
+/// assert_eq!(microimpact::instrument::link::PROTOCOL, 1);
+/// ```
+pub const PROTOCOL: u16 = 1;
+
+/// From the host to the instrument: `R` is a [`Reading`](crate::instrument::Reading).
+///
+/// ```
+/// use microimpact::instrument::NormalReading;
+/// use microimpact::instrument::link::{Encoder, Request};
+///
+/// let request = Request::Event { number: 1, reading: NormalReading { approach: 2.8_f32 } };
+/// assert!(Encoder::<32>::new().frame(&request).is_ok_and(|frame| frame.len() == 13));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[derive(serde::Serialize, serde::Deserialize)]
+pub enum Request<R> {
+    /// A reading to be classified.
+    ///
+    /// Its number is used up even if its frame is damaged or the queue is full: a reading that is sent again gets a new one.
+    Event {
+        /// One above that of the reading before; after the largest number comes zero.
+        number: u32,
+        /// The reading.
+        reading: R,
+    },
+    /// Asks for a [`Report`], which follows the replies to all that was sent before.
+    Report {
+        /// Any number; it comes back with the report.
+        number: u32,
+    },
+}
+
+/// From the instrument to the host, for verdicts in numbers of type `T` and classes `C`.
+///
+/// ```
+/// use microimpact::Class;
+/// use microimpact::instrument::Verdict;
+/// use microimpact::instrument::link::{Encoder, Reply};
+///
+/// let verdict = Verdict { class: Class::ReboundRolling, restitution: Some(0.746_f32) };
+/// let reply = Reply::Classified { number: 1, verdict };
+/// assert!(Encoder::<32>::new().frame(&reply).is_ok_and(|frame| frame.len() <= 16));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[derive(serde::Serialize, serde::Deserialize)]
+pub enum Reply<T, C> {
+    /// The instrument has started, for the first time or anew: all counts are zero, and what it had not answered is lost.
+    Started {
+        /// Its [`PROTOCOL`].
+        protocol: u16,
+    },
+    /// The verdict on a reading.
+    Classified {
+        /// The reading's number.
+        number: u32,
+        /// The verdict.
+        verdict: Verdict<T, C>,
+    },
+    /// A reading without a class.
+    Rejected {
+        /// The reading's number.
+        number: u32,
+        /// Why it has none.
+        rejection: Rejection,
+    },
+    /// All counts.
+    Report {
+        /// The number of the request.
+        number: u32,
+        /// The counts.
+        report: Report,
+    },
+}
+
+/// What became of all that an instrument has received since it started.
+///
+/// ```
+/// use microimpact::instrument::link::{Arrivals, Report};
+///
+/// let arrivals = Arrivals { events: 10, reports: 1, ..Arrivals::default() };
+/// let report = Report { arrivals, lost: 2, classified: 8, reports: 1, ..Report::default() };
+/// assert!(report.is_complete());
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[derive(serde::Serialize, serde::Deserialize)]
+pub struct Report {
+    /// What came in.
+    pub arrivals: Arrivals,
+    /// Requests that found the queue full.
+    pub lost: u32,
+    /// Readings with a class.
+    pub classified: u64,
+    /// Readings without a class.
+    pub rejections: Rejections,
+    /// Reports, this one included.
+    pub reports: u64,
+    /// How often the class lines did not switch.
+    pub signal_failures: u64,
+    /// Ticks of its clock while it was awake, where it counts them; else zero.
+    pub ticks: u64,
+}
+
+impl Report {
+    /// Whether every request that came in whole was answered or found the queue full; while more come in, some still wait.
+    ///
+    /// ```
+    /// use microimpact::instrument::link::Report;
+    ///
+    /// assert!(!Report { classified: 1, ..Report::default() }.is_complete());
+    /// ```
+    pub fn is_complete(&self) -> bool {
+        let answered = self.classified.saturating_add(self.rejections.total()).saturating_add(self.reports);
+        answered.saturating_add(self.lost.into()) == self.arrivals.events.saturating_add(self.arrivals.reports)
+    }
+}
+
+/// What came in over the link.
+///
+/// ```
+/// assert_eq!(microimpact::instrument::link::Arrivals::default().faults.total(), 0);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[derive(serde::Serialize, serde::Deserialize)]
+pub struct Arrivals {
+    /// Readings that came in whole and for the first time.
+    pub events: u64,
+    /// Requests for a report.
+    pub reports: u64,
+    /// Readings whose number was not above that of the latest.
+    pub duplicates: u64,
+    /// Readings that did not come in: numbers that were passed over.
+    pub missing: u64,
+    /// Frames that were not understood.
+    pub faults: FrameFaults,
+}
+
+/// Frames that were not understood, by fault.
+///
+/// ```
+/// use microimpact::instrument::link::{FrameFault, FrameFaults};
+///
+/// let mut faults = FrameFaults::default();
+/// faults.add(FrameFault::Checksum);
+/// assert_eq!((faults.checksum, faults.total()), (1, 1));
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[derive(serde::Serialize, serde::Deserialize)]
+pub struct FrameFaults {
+    /// [`FrameFault::Oversized`].
+    pub oversized: u64,
+    /// [`FrameFault::Stuffing`].
+    pub stuffing: u64,
+    /// [`FrameFault::Checksum`].
+    pub checksum: u64,
+    /// [`FrameFault::Content`].
+    pub content: u64,
+}
+
+impl FrameFaults {
+    /// Counts a fault.
+    ///
+    /// ```
+    /// use microimpact::instrument::link::{FrameFault, FrameFaults};
+    ///
+    /// let mut faults = FrameFaults::default();
+    /// faults.add(FrameFault::Content);
+    /// assert_eq!(faults.content, 1);
+    /// ```
+    pub fn add(&mut self, fault: FrameFault) {
+        let count = match fault {
+            FrameFault::Oversized => &mut self.oversized,
+            FrameFault::Stuffing => &mut self.stuffing,
+            FrameFault::Checksum => &mut self.checksum,
+            FrameFault::Content => &mut self.content,
+        };
+        *count = count.saturating_add(1);
+    }
+
+    /// All of them.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::instrument::link::FrameFaults::default().total(), 0);
+    /// ```
+    pub fn total(&self) -> u64 {
+        [self.oversized, self.stuffing, self.checksum, self.content].iter().fold(0, |sum, &n| sum.saturating_add(n))
+    }
+}
+
+/// The instrument's end of the link: bytes in, requests out; `N` bytes hold a message and its checksum.
+///
+/// ```
+/// use microimpact::instrument::NormalReading;
+/// use microimpact::instrument::link::{Encoder, Inlet, Request};
+///
+/// let request = Request::Event { number: 1, reading: NormalReading { approach: 2.8 } };
+/// let mut encoder = Encoder::<32>::new();
+/// let frame = encoder.frame(&request).unwrap();
+/// let mut inlet = Inlet::<32>::new();
+/// let mut receive = |bytes: &[u8]| bytes.iter().find_map(|&byte| inlet.receive::<NormalReading<f32>>(byte));
+/// assert_eq!(receive(frame), Some(request));
+/// assert_eq!(receive(frame), None); // the same once more
+/// assert_eq!((inlet.arrivals().events, inlet.arrivals().duplicates), (1, 1));
+/// ```
+#[derive(Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Inlet<const N: usize> {
+    decoder: Decoder<N>,
+    latest: Option<u32>,
+    arrivals: Arrivals,
+}
+
+impl<const N: usize> Inlet<N> {
+    /// The end of a link on which nothing has come in yet.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::instrument::link::Inlet::<32>::new().arrivals().events, 0);
+    /// ```
+    pub const fn new() -> Self {
+        let faults = FrameFaults { oversized: 0, stuffing: 0, checksum: 0, content: 0 };
+        let arrivals = Arrivals { events: 0, reports: 0, duplicates: 0, missing: 0, faults };
+        Self { decoder: Decoder::new(), latest: None, arrivals }
+    }
+
+    /// Takes a byte, and gives the request that it completes; faults and duplicates are counted and give none.
+    ///
+    /// ```
+    /// use microimpact::instrument::link::{Encoder, Inlet, Request};
+    ///
+    /// let mut inlet = Inlet::<32>::new();
+    /// let request: Request<f32> = Request::Report { number: 9 };
+    /// let mut encoder = Encoder::<32>::new();
+    /// let frame = encoder.frame(&request).unwrap();
+    /// assert_eq!(frame.iter().find_map(|&byte| inlet.receive(byte)), Some(request));
+    /// ```
+    pub fn receive<R: DeserializeOwned>(&mut self, byte: u8) -> Option<Request<R>> {
+        let request = match self.decoder.push(byte)? {
+            Ok(request) => request,
+            Err(fault) => {
+                self.arrivals.faults.add(fault);
+                return None;
+            }
+        };
+        match request {
+            Request::Event { number, .. } => self.is_new(number).then_some(request),
+            Request::Report { .. } => {
+                self.arrivals.reports = self.arrivals.reports.saturating_add(1);
+                Some(request)
+            }
+        }
+    }
+
+    /// Serial-number arithmetic (RFC 1982): numbers up to half of their range ahead are new. Counting begins with the first.
+    fn is_new(&mut self, number: u32) -> bool {
+        let ahead = self.latest.map_or(1, |latest| number.wrapping_sub(latest));
+        let new = ahead != 0 && ahead <= u32::MAX / 2;
+        if new {
+            self.latest = Some(number);
+            self.arrivals.missing = self.arrivals.missing.saturating_add(u64::from(ahead - 1));
+            self.arrivals.events = self.arrivals.events.saturating_add(1);
+        } else {
+            self.arrivals.duplicates = self.arrivals.duplicates.saturating_add(1);
+        }
+        new
+    }
+
+    /// What has come in so far.
+    ///
+    /// ```
+    /// let mut inlet = microimpact::instrument::link::Inlet::<32>::new();
+    /// for byte in [0, 1, 2, 3, 0] {
+    ///     assert!(inlet.receive::<u8>(byte).is_none());
+    /// }
+    /// assert_eq!(inlet.arrivals().faults.total(), 1);
+    /// ```
+    #[inline]
+    pub fn arrivals(&self) -> Arrivals {
+        self.arrivals
+    }
+}
+
+impl<const N: usize> Default for Inlet<N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}

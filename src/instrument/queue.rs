@@ -1,0 +1,189 @@
+//! The way from an interrupt to the main loop, which counts what finds no room.
+
+use core::fmt;
+use core::sync::atomic::{AtomicU32, Ordering};
+
+use heapless::spsc;
+
+/// A queue with one sender and one receiver, for `N - 1` events at a time.
+///
+/// Neither side waits for the other, and no critical section is needed.
+///
+/// ```
+/// use microimpact::instrument::Queue;
+///
+/// let mut queue = Queue::<u32, 3>::new();
+/// let (mut interrupt, mut main_loop) = queue.split();
+/// assert_eq!((interrupt.send(1), interrupt.send(2), interrupt.send(3)), (Ok(()), Ok(()), Err(3)));
+/// assert_eq!((main_loop.receive(), main_loop.receive(), main_loop.receive()), (Some(1), Some(2), None));
+/// assert_eq!(main_loop.lost(), 1);
+/// ```
+#[derive(Debug)]
+pub struct Queue<E, const N: usize> {
+    events: spsc::Queue<E, N>,
+    lost: AtomicU32,
+}
+
+impl<E, const N: usize> Queue<E, N> {
+    /// An empty queue.
+    ///
+    /// ```
+    /// use microimpact::instrument::Queue;
+    ///
+    /// const EMPTY: Queue<f32, 16> = Queue::new();
+    /// assert!(EMPTY.is_empty());
+    /// ```
+    pub const fn new() -> Self {
+        const { assert!(N > 1, "a queue has room for one event at least") };
+        Self { events: spsc::Queue::new(), lost: AtomicU32::new(0) }
+    }
+
+    /// Whether no event waits.
+    ///
+    /// ```
+    /// assert!(microimpact::instrument::Queue::<u8, 2>::new().is_empty());
+    /// ```
+    pub fn is_empty(&self) -> bool {
+        self.events.is_empty()
+    }
+
+    /// One end for the interrupt and one for the main loop.
+    ///
+    /// ```
+    /// let mut queue = microimpact::instrument::Queue::<u8, 2>::new();
+    /// let (mut sender, mut receiver) = queue.split();
+    /// assert_eq!(sender.send(7), Ok(()));
+    /// assert_eq!(receiver.receive(), Some(7));
+    /// ```
+    pub fn split(&mut self) -> (Sender<'_, E>, Receiver<'_, E>) {
+        let Self { events, lost } = self;
+        let (producer, consumer) = events.split();
+        (Sender { producer, lost }, Receiver { consumer, lost })
+    }
+}
+
+impl<E, const N: usize> Default for Queue<E, N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// The end of a [`Queue`] that belongs to the interrupt.
+///
+/// ```
+/// use microimpact::instrument::{Queue, Sender};
+///
+/// fn interrupt(sender: &mut Sender<'_, f32>) -> bool {
+///     sender.send(2.8).is_ok()
+/// }
+/// assert!(interrupt(&mut Queue::<_, 4>::new().split().0));
+/// ```
+pub struct Sender<'a, E> {
+    producer: spsc::Producer<'a, E>,
+    lost: &'a AtomicU32,
+}
+
+impl<E> Sender<'_, E> {
+    /// Puts an event in the queue, or counts it as lost.
+    ///
+    /// # Errors
+    /// The event itself, if the queue is full.
+    ///
+    /// ```
+    /// let mut queue = microimpact::instrument::Queue::<u8, 2>::new();
+    /// let (mut sender, receiver) = queue.split();
+    /// assert_eq!((sender.send(1), sender.send(2)), (Ok(()), Err(2)));
+    /// assert_eq!(receiver.lost(), 1);
+    /// ```
+    #[inline]
+    pub fn send(&mut self, event: E) -> Result<(), E> {
+        self.producer.enqueue(event).inspect_err(|_| {
+            // This end alone writes the count, so that a load and a store suffice where there is no atomic addition.
+            self.lost.store(self.lost.load(Ordering::Relaxed).saturating_add(1), Ordering::Relaxed);
+        })
+    }
+}
+
+/// The end of a [`Queue`] that belongs to the main loop.
+///
+/// ```
+/// use microimpact::instrument::{Queue, Receiver};
+///
+/// fn main_loop(receiver: &mut Receiver<'_, f32>) -> Option<f32> {
+///     receiver.receive()
+/// }
+/// assert_eq!(main_loop(&mut Queue::<_, 4>::new().split().1), None);
+/// ```
+pub struct Receiver<'a, E> {
+    consumer: spsc::Consumer<'a, E>,
+    lost: &'a AtomicU32,
+}
+
+impl<E> Receiver<'_, E> {
+    /// Takes the oldest event, if there is one.
+    ///
+    /// ```
+    /// let mut queue = microimpact::instrument::Queue::<u8, 2>::new();
+    /// assert_eq!(queue.split().1.receive(), None);
+    /// ```
+    #[inline]
+    pub fn receive(&mut self) -> Option<E> {
+        self.consumer.dequeue()
+    }
+
+    /// Whether no event waits.
+    ///
+    /// ```
+    /// let mut queue = microimpact::instrument::Queue::<u8, 2>::new();
+    /// assert!(queue.split().1.is_empty());
+    /// ```
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        !self.consumer.ready()
+    }
+
+    /// Events that found the queue full, since it was made; held at the largest number of its type.
+    ///
+    /// ```
+    /// let mut queue = microimpact::instrument::Queue::<u8, 2>::new();
+    /// assert_eq!(queue.split().1.lost(), 0);
+    /// ```
+    #[inline]
+    pub fn lost(&self) -> u32 {
+        self.lost.load(Ordering::Relaxed)
+    }
+}
+
+impl<E> fmt::Debug for Sender<'_, E> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Sender").field("waiting", &self.producer.len()).finish()
+    }
+}
+
+impl<E> fmt::Debug for Receiver<'_, E> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Receiver").field("waiting", &self.consumer.len()).field("lost", &self.lost()).finish()
+    }
+}
+
+#[cfg(feature = "defmt")]
+impl<E, const N: usize> defmt::Format for Queue<E, N> {
+    fn format(&self, f: defmt::Formatter<'_>) {
+        let lost = self.lost.load(Ordering::Relaxed);
+        defmt::write!(f, "Queue {{ waiting: {=usize}, lost: {=u32} }}", self.events.len(), lost);
+    }
+}
+
+#[cfg(feature = "defmt")]
+impl<E> defmt::Format for Sender<'_, E> {
+    fn format(&self, f: defmt::Formatter<'_>) {
+        defmt::write!(f, "Sender {{ waiting: {=usize} }}", self.producer.len());
+    }
+}
+
+#[cfg(feature = "defmt")]
+impl<E> defmt::Format for Receiver<'_, E> {
+    fn format(&self, f: defmt::Formatter<'_>) {
+        defmt::write!(f, "Receiver {{ waiting: {=usize}, lost: {=u32} }}", self.consumer.len(), self.lost());
+    }
+}

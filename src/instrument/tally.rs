@@ -1,0 +1,323 @@
+//! What an instrument has seen so far: classes, restitution by speed, and what had no class.
+
+use super::{ClassSet, Rejection, Statistics, Verdict};
+use crate::{Fault, InputError, Parameter, Real};
+
+/// Bins of approach speed, each from the edge before it up to its own; the first begins at zero.
+///
+/// ```
+/// use microimpact::instrument::SpeedBins;
+///
+/// let bins = SpeedBins::new([1.0, 2.0, 5.0])?;
+/// assert_eq!((bins.bin(0.5), bins.bin(1.0), bins.bin(5.0)), (Some(0), Some(1), None));
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "Edges<T, BINS>",
+        bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
+pub struct SpeedBins<T, const BINS: usize> {
+    #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
+    edges: [T; BINS],
+}
+
+impl<T: Real, const BINS: usize> SpeedBins<T, BINS> {
+    /// Bins with these upper `edges`, m/s.
+    ///
+    /// # Errors
+    /// An edge outside the range of approach speeds, or not above the one before it.
+    ///
+    /// ```
+    /// use microimpact::instrument::SpeedBins;
+    ///
+    /// assert!(SpeedBins::new([1.0_f32, 3.0, 10.0]).is_ok());
+    /// assert!(SpeedBins::new([3.0_f32, 1.0, 10.0]).is_err());
+    /// ```
+    pub fn new(edges: [T; BINS]) -> Result<Self, InputError> {
+        let mut before = T::ZERO;
+        for edge in edges {
+            if Parameter::ApproachSpeed.check(edge)? <= before {
+                return Err(InputError { parameter: Parameter::ApproachSpeed, fault: Fault::TooSmall });
+            }
+            before = edge;
+        }
+        Ok(Self { edges })
+    }
+
+    /// Upper edges, m/s.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::instrument::SpeedBins::new([1.0, 2.0])?.edges(), &[1.0, 2.0]);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn edges(&self) -> &[T; BINS] {
+        &self.edges
+    }
+
+    /// The bin of a speed; `None` beyond the last edge.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::instrument::SpeedBins::new([1.0, 2.0])?.bin(1.5), Some(1));
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn bin(&self, speed: T) -> Option<usize> {
+        self.edges.iter().position(|&edge| speed < edge)
+    }
+}
+
+/// What may be [`SpeedBins`], from outside.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(bound(deserialize = "T: serde::Deserialize<'de>"))]
+struct Edges<T, const BINS: usize> {
+    #[serde(with = "serde_big_array::BigArray")]
+    edges: [T; BINS],
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real, const BINS: usize> TryFrom<Edges<T, BINS>> for SpeedBins<T, BINS> {
+    type Error = InputError;
+
+    fn try_from(outside: Edges<T, BINS>) -> Result<Self, InputError> {
+        Self::new(outside.edges)
+    }
+}
+
+/// Readings without a class, by reason.
+///
+/// ```
+/// use microimpact::instrument::Rejections;
+///
+/// assert_eq!(Rejections { input: 2, unsolved: 1 }.total(), 3);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Rejections {
+    /// Readings with a value that no particle can have, or that leads to forces beyond all range.
+    pub input: u64,
+    /// Motions that the method did not solve.
+    pub unsolved: u64,
+}
+
+impl Rejections {
+    /// All of them.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::instrument::Rejections::default().total(), 0);
+    /// ```
+    pub fn total(&self) -> u64 {
+        self.input.saturating_add(self.unsolved)
+    }
+}
+
+/// Counts of `CLASSES` classes, and statistics of the restitution in `BINS` bins of speed.
+///
+/// Captures count in their class and not in the restitution, which they would pull towards zero.
+///
+/// ```
+/// use microimpact::Outcome;
+/// use microimpact::instrument::{SpeedBins, Tally, Verdict};
+///
+/// let mut tally = Tally::<f32, 2, 2>::new(SpeedBins::new([1.0, 10.0])?);
+/// tally.record(0.5, &Verdict { class: Outcome::Capture, restitution: Some(0.0) });
+/// tally.record(2.0, &Verdict { class: Outcome::Rebound, restitution: Some(0.7) });
+/// assert_eq!((tally.count(Outcome::Rebound), tally.count(Outcome::Capture)), (1, 1));
+/// assert_eq!(tally.restitution().map(|bin| bin.count()), [0, 1]);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
+pub struct Tally<T, const CLASSES: usize, const BINS: usize> {
+    #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
+    classes: [u64; CLASSES],
+    bins: SpeedBins<T, BINS>,
+    #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
+    restitution: [Statistics<T>; BINS],
+    beyond: Statistics<T>,
+    rejections: Rejections,
+    signal_failures: u64,
+}
+
+impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
+    /// A tally of nothing.
+    ///
+    /// ```
+    /// use microimpact::instrument::{SpeedBins, Tally};
+    ///
+    /// let tally = Tally::<f32, 5, 1>::new(SpeedBins::new([10.0])?);
+    /// assert_eq!(tally.classified(), 0);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub const fn new(bins: SpeedBins<T, BINS>) -> Self {
+        Self {
+            classes: [0; CLASSES],
+            bins,
+            restitution: [Statistics::new(); BINS],
+            beyond: Statistics::new(),
+            rejections: Rejections { input: 0, unsolved: 0 },
+            signal_failures: 0,
+        }
+    }
+
+    /// Takes in the verdict on an impact at an approach `speed`, m/s.
+    ///
+    /// ```
+    /// use microimpact::Outcome;
+    /// use microimpact::instrument::{SpeedBins, Tally, Verdict};
+    ///
+    /// let mut tally = Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?);
+    /// tally.record(2.0, &Verdict { class: Outcome::Rebound, restitution: None });
+    /// assert_eq!((tally.count(Outcome::Rebound), tally.restitution()[0].count()), (1, 0));
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn record<C: ClassSet>(&mut self, speed: T, verdict: &Verdict<T, C>) {
+        const { assert!(CLASSES == C::COUNT, "the tally counts as many classes as there are") };
+        if let Some(count) = self.classes.get_mut(verdict.class.index()) {
+            *count = count.saturating_add(1);
+        }
+        if let Some(restitution) = verdict.restitution.filter(|&restitution| restitution > T::ZERO) {
+            let bin = self.bins.bin(speed).and_then(|bin| self.restitution.get_mut(bin));
+            bin.unwrap_or(&mut self.beyond).add(restitution);
+        }
+    }
+
+    /// Takes in a reading without a class.
+    ///
+    /// ```
+    /// use microimpact::instrument::{Rejection, SpeedBins, Tally};
+    ///
+    /// let mut tally = Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?);
+    /// tally.reject(&Rejection::Unsolved);
+    /// assert_eq!(tally.rejections().unsolved, 1);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn reject(&mut self, rejection: &Rejection) {
+        let count = match rejection {
+            Rejection::Input(_) => &mut self.rejections.input,
+            Rejection::Unsolved => &mut self.rejections.unsolved,
+        };
+        *count = count.saturating_add(1);
+    }
+
+    /// Takes in a class line that did not switch.
+    ///
+    /// ```
+    /// use microimpact::instrument::{SpeedBins, Tally};
+    ///
+    /// let mut tally = Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?);
+    /// tally.fail_signal();
+    /// assert_eq!(tally.signal_failures(), 1);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn fail_signal(&mut self) {
+        self.signal_failures = self.signal_failures.saturating_add(1);
+    }
+
+    /// Impacts of a class.
+    ///
+    /// ```
+    /// use microimpact::Outcome;
+    /// use microimpact::instrument::{SpeedBins, Tally};
+    ///
+    /// assert_eq!(Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?).count(Outcome::Capture), 0);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn count<C: ClassSet>(&self, class: C) -> u64 {
+        const { assert!(CLASSES == C::COUNT, "the tally counts as many classes as there are") };
+        self.classes.get(class.index()).copied().unwrap_or(0)
+    }
+
+    /// Impacts of all classes.
+    ///
+    /// ```
+    /// use microimpact::instrument::{SpeedBins, Tally};
+    ///
+    /// assert_eq!(Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?).classified(), 0);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn classified(&self) -> u64 {
+        self.classes.iter().fold(0, |total, &count| total.saturating_add(count))
+    }
+
+    /// The bins of speed.
+    ///
+    /// ```
+    /// use microimpact::instrument::{SpeedBins, Tally};
+    ///
+    /// assert_eq!(Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?).bins().edges(), &[10.0]);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn bins(&self) -> &SpeedBins<T, BINS> {
+        &self.bins
+    }
+
+    /// Overall restitution of the rebounds in each bin of speed.
+    ///
+    /// ```
+    /// use microimpact::instrument::{SpeedBins, Tally};
+    ///
+    /// assert_eq!(Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?).restitution()[0].count(), 0);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn restitution(&self) -> &[Statistics<T>; BINS] {
+        &self.restitution
+    }
+
+    /// Overall restitution of the rebounds faster than the last bin.
+    ///
+    /// ```
+    /// use microimpact::Outcome;
+    /// use microimpact::instrument::{SpeedBins, Tally, Verdict};
+    ///
+    /// let mut tally = Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?);
+    /// tally.record(20.0, &Verdict { class: Outcome::Rebound, restitution: Some(0.9) });
+    /// assert_eq!(tally.restitution_beyond().count(), 1);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn restitution_beyond(&self) -> &Statistics<T> {
+        &self.beyond
+    }
+
+    /// Readings without a class.
+    ///
+    /// ```
+    /// use microimpact::instrument::{SpeedBins, Tally};
+    ///
+    /// assert_eq!(Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?).rejections().total(), 0);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn rejections(&self) -> Rejections {
+        self.rejections
+    }
+
+    /// How often the class lines did not switch.
+    ///
+    /// ```
+    /// use microimpact::instrument::{SpeedBins, Tally};
+    ///
+    /// assert_eq!(Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?).signal_failures(), 0);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn signal_failures(&self) -> u64 {
+        self.signal_failures
+    }
+}
