@@ -5,7 +5,7 @@ use std::hint::black_box;
 use host_tests::Case;
 use microimpact::simulation::{
     Collocation, ContactImpulses, ContactTimes, FixedCost, Nodes, NormalContact, PhaseNodes, RungeKuttaGill,
-    SimulatedImpact, SteppedImpact,
+    SimulatedImpact, TangentialContact,
 };
 use microimpact::{Real, Stiffness};
 
@@ -78,7 +78,7 @@ fn collocation<const N: usize, T: Nodes<N> + Into<f64>>(entry: &'static str, cas
         Some(Contestant::new(entry, format!("{N} nodes"), format!("{tolerance:.0e}"), move || {
             let impact: SimulatedImpact<_, _, Outputs<T>> =
                 black_box(&scene).observe(&method, black_box(&motion)).ok()?;
-            answer(&impact.normal, &impact.outputs, (impact.run.sweeps, "sweeps"))
+            answer(&impact.normal, &impact.outputs, (impact.run.evaluations, "evaluations"))
         }))
     };
     tolerances().filter_map(contestant).collect()
@@ -92,9 +92,9 @@ where
         let (scene, motion) = (case.scene().unwrap(), case.motion().unwrap());
         let method = Collocation::<N, f64>::new(tolerance).ok()?;
         Some(Contestant::new(COLLOCATION, format!("{N} nodes"), format!("{tolerance:.0e}"), move || {
-            let impact: SimulatedImpact<_, _, Outputs<f64>> =
+            let impact: SimulatedImpact<_, TangentialContact<f64>, Outputs<f64>> =
                 black_box(&scene).observe(&method, black_box(&motion)).ok()?;
-            answer(&impact.normal, &impact.outputs, (impact.run.sweeps, "sweeps"))
+            answer(&impact.normal, &impact.outputs, (impact.run.evaluations, "evaluations"))
         }))
     };
     tolerances().filter_map(contestant).collect()
@@ -111,7 +111,7 @@ where
         Contestant::new(FIXED_COST, format!("{N} nodes"), format!("{sweeps} sweeps"), move || {
             let contact = black_box(&scene).normal_impact(&method, black_box(&motion)).ok()?;
             let restitution = solved(contact.overall_restitution(), contact.status())?;
-            Some(Answer::of_restitution(restitution, Some((2 * sweeps as usize, "sweeps"))))
+            Some(Answer::of_restitution(restitution, Some((2 * N * sweeps as usize, "evaluations"))))
         })
     };
     (2..=10).map(contestant).collect()
@@ -127,9 +127,9 @@ fn paper_method(case: &Case) -> Vec<Contestant> {
         let (scene, motion) = normal_scene::<f64>(case);
         let method = RungeKuttaGill::new(steps);
         Contestant::new(PAPER, "Runge-Kutta-Gill", format!("{steps} steps"), move || {
-            let impact: SteppedImpact<_, _, Outputs<f64>> =
-                black_box(&scene).stepped_impact(&method, black_box(&motion)).ok()?;
-            answer(&impact.normal, &impact.outputs, (4 * impact.run.steps, "evaluations"))
+            let impact: SimulatedImpact<_, _, Outputs<f64>> =
+                black_box(&scene).observe(&method, black_box(&motion)).ok()?;
+            answer(&impact.normal, &impact.outputs, (impact.run.evaluations, "evaluations"))
         })
     };
     steps().map(contestant).collect()
@@ -140,9 +140,9 @@ fn oblique_paper_method(case: &Case) -> Vec<Contestant> {
         let (scene, motion) = (case.scene::<f64>().unwrap(), case.motion().unwrap());
         let method = RungeKuttaGill::new(steps);
         Contestant::new(PAPER, "Runge-Kutta-Gill", format!("{steps} steps"), move || {
-            let impact: SteppedImpact<_, _, Outputs<f64>> =
-                black_box(&scene).stepped_impact(&method, black_box(&motion)).ok()?;
-            answer(&impact.normal, &impact.outputs, (4 * impact.run.steps, "evaluations"))
+            let impact: SimulatedImpact<_, TangentialContact<f64>, Outputs<f64>> =
+                black_box(&scene).observe(&method, black_box(&motion)).ok()?;
+            answer(&impact.normal, &impact.outputs, (impact.run.evaluations, "evaluations"))
         })
     };
     steps().map(contestant).collect()

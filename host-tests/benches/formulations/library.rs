@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use host_tests::Case;
 use microimpact::simulation::{
-    Collocation, ContactTimes, FixedCost, Nodes, PhaseNodes, RungeKuttaGill, SimulatedImpact, SteppedImpact,
+    Collocation, ContactTimes, FixedCost, Nodes, PhaseNodes, RungeKuttaGill, SimulatedImpact,
 };
 use microimpact::{CriticalSpeed, NormalMotion, Stiffness};
 
@@ -119,7 +119,7 @@ impl Scene {
                 let impact: SimulatedImpact<_, _, ContactTimes<f64>> =
                     black_box(&scene).observe(&method, black_box(&motion)).ok()?;
                 let restitution = solved(impact.normal.overall_restitution(), impact.run.status)?;
-                let effort = Some((impact.run.sweeps as usize, "products"));
+                let effort = Some(((impact.run.evaluations / N as u32) as usize, "products"));
                 Some(Answer { restitution, contact_time: impact.outputs.contact, impulse: None, effort })
             }));
             all.push(Contestant::new("Collocation, e alone", name, setting, move || {
@@ -152,10 +152,10 @@ impl Scene {
             let steps = (64.0 * 2f64.powf(0.5 * f64::from(half_octaves))) as u32;
             let (scene, motion, method) = (self.scene, self.motion, RungeKuttaGill::new(steps));
             Contestant::new("the paper's equations", "Runge-Kutta-Gill", format!("{steps} steps"), move || {
-                let impact: SteppedImpact<_, _, ContactTimes<f64>> =
-                    black_box(&scene).stepped_impact(&method, black_box(&motion)).ok()?;
+                let impact: SimulatedImpact<_, _, ContactTimes<f64>> =
+                    black_box(&scene).observe(&method, black_box(&motion)).ok()?;
                 let restitution = solved(impact.normal.overall_restitution(), impact.run.status)?;
-                let effort = Some((4 * impact.run.steps as usize, "evaluations"));
+                let effort = Some((impact.run.evaluations as usize, "evaluations"));
                 Some(Answer { restitution, contact_time: impact.outputs.contact, impulse: None, effort })
             })
         };
