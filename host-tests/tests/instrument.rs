@@ -130,7 +130,10 @@ fn classifiers_answer_for_their_scenes() {
         let straight = NormalReading { approach: speed }.motion().unwrap();
         let contact = normal.normal_impact(&fixed, &straight).unwrap();
         let verdict = Simulated { scene: normal, method: fixed }.verdict(&straight).unwrap();
-        assert_eq!(verdict, Verdict { class: contact.outcome(), restitution: Some(contact.overall_restitution()) });
+        assert_eq!(
+            verdict,
+            Verdict { class: contact.outcome().unwrap(), restitution: Some(contact.overall_restitution()) }
+        );
         let verdict: Verdict<f64, Outcome> = body.verdict(&straight).unwrap();
         assert_eq!(verdict.class, body.classify(&straight).outcome);
         assert_eq!(verdict.restitution, Some(body.impact(&straight).normal.overall_restitution()));
@@ -138,7 +141,7 @@ fn classifiers_answer_for_their_scenes() {
             let moving = ObliqueReading { approach: speed, tangential }.motion().unwrap();
             let impact = oblique.impact(&exact, &moving).unwrap();
             let verdict = Simulated { scene: oblique, method: exact }.verdict(&moving).unwrap();
-            assert_eq!(verdict.class, impact.class());
+            assert_eq!(verdict.class, impact.class().unwrap());
             assert!((verdict.restitution.unwrap() - impact.normal.overall_restitution()).abs() < 1e-9);
             let verdict = scene().verdict(&moving).unwrap();
             assert_eq!(verdict.class, scene().classify(&moving).class());

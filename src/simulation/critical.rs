@@ -96,7 +96,7 @@ where
         let mut units = self.units(speed)?;
         let mut law = self.law(&units)?;
         let settled = (T::constant(0.1) * method.tolerance).max(T::constant(4.0) * T::EPSILON);
-        let mut control = Control { settled, error: method.tolerance, timed: false };
+        let mut control = Control { settled, error: method.tolerance, times: T::ZERO };
         let arrival = |energy: T| Point { s: T::ZERO, energy, speed_squared: energy + energy };
         let beyond = Follower::from(&law, control, &mut (), arrival(units.energy)).undamped_peak();
         if beyond > T::ONE {

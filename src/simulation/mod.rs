@@ -90,7 +90,8 @@ impl<const N: usize, T: Real> Collocation<N, T> {
     pub const MOST_STRETCHES: u32 = MOST_STRETCHES;
 
     fn control(&self, timed: bool) -> Control<T> {
-        Control { settled: T::constant(0.1) * self.tolerance, error: self.tolerance, timed }
+        let times = if timed { T::ONE } else { T::constant(0.1) };
+        Control { settled: T::constant(0.1) * self.tolerance, error: self.tolerance, times }
     }
 }
 

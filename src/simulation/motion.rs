@@ -448,7 +448,7 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     {
         let (from, to) = (self.at, whole.end.s);
         let two = T::constant(2.0);
-        let control = Control { error: T::ONE / T::EPSILON, timed: false, ..self.control };
+        let control = Control { error: T::ONE / T::EPSILON, times: T::ZERO, ..self.control };
         let (law, sweeps) = (self.law, &mut self.effort.sweeps);
         let (z, first, late) = find_end_of_slip(law, self.observer, z, self.control.error, |z| match turning_point {
             Some(peak) if from.s == peak => {

@@ -19,8 +19,9 @@ pub(super) struct Control<T> {
     pub(super) settled: T,
     /// Largest error that a stretch may have.
     pub(super) error: T,
-    /// Whether the time that the stretch takes has to have that accuracy too.
-    pub(super) timed: bool,
+    /// How much of the error of the time that the stretch takes counts: one where times are asked for, a tenth where only the
+    /// end of the motion is, as energies feel little of the slow end of it that makes times inexact.
+    pub(super) times: T,
 }
 
 /// A point of the path.
@@ -172,9 +173,7 @@ impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
     fn error(&self, scale: T, rate: &[T; N], control: &Control<T>) -> T {
         let tail = |f: &[T; N]| dot(&T::TAIL, f).abs();
         let share = tail(&self.power) / (dot(&T::WHOLE, &self.power).abs() + scale + T::SMALLEST);
-        // Energies feel little of what makes the time inexact, the slow end of the motion.
-        let weight = if control.timed { T::ONE } else { T::constant(0.1) };
-        let share = share.max(weight * tail_of_times(rate));
+        let share = if control.times > T::ZERO { share.max(control.times * tail_of_times(rate)) } else { share };
         T::constant(0.02) * share * share
     }
 }

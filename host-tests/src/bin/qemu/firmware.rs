@@ -25,6 +25,11 @@ pub(crate) fn build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> 
     build_with(toolchain, board, PROBE, binaries)
 }
 
+/// The same, for flash rather than speed.
+pub(crate) fn build_small(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<PathBuf, String> {
+    built(toolchain, board, binaries, "small", run_cargo(toolchain, board, "small", PROBE, binaries)?)
+}
+
 /// The same with a feature.
 pub(crate) fn build_with(
     toolchain: &Toolchain,
@@ -32,9 +37,18 @@ pub(crate) fn build_with(
     feature: &str,
     binaries: &[&str],
 ) -> Result<PathBuf, String> {
-    let finished = run_cargo(toolchain, board, feature, binaries)?;
+    built(toolchain, board, binaries, "release", run_cargo(toolchain, board, "release", feature, binaries)?)
+}
+
+fn built(
+    toolchain: &Toolchain,
+    board: &Board,
+    binaries: &[&str],
+    profile: &str,
+    finished: Finished,
+) -> Result<PathBuf, String> {
     if finished.success() {
-        Ok(target_folder(toolchain, board).join(board.triple).join("release"))
+        Ok(target_folder(toolchain, board).join(board.triple).join(profile))
     } else {
         Err(format!(
             "{}: building {} failed ({}):\n{}",
@@ -48,14 +62,20 @@ pub(crate) fn build_with(
 
 /// Builds binaries that are allowed to fail.
 pub(crate) fn try_build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<Finished, String> {
-    run_cargo(toolchain, board, PROBE, binaries)
+    run_cargo(toolchain, board, "release", PROBE, binaries)
 }
 
-fn run_cargo(toolchain: &Toolchain, board: &Board, feature: &str, binaries: &[&str]) -> Result<Finished, String> {
+fn run_cargo(
+    toolchain: &Toolchain,
+    board: &Board,
+    profile: &str,
+    feature: &str,
+    binaries: &[&str],
+) -> Result<Finished, String> {
     let mut cargo = toolchain.cargo(board.triple);
     cargo
         .current_dir(repository().join("examples/firmware"))
-        .args(["--release", "--features", feature])
+        .args(["--profile", profile, "--features", feature])
         .arg("--target-dir")
         .arg(target_folder(toolchain, board));
     for binary in binaries {

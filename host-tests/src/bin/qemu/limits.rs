@@ -17,6 +17,11 @@ pub(crate) fn is_simulated(scene: &str) -> bool {
     scene.starts_with("simulation/")
 }
 
+/// Whether a scene is built for flash rather than speed.
+pub(crate) fn is_small(scene: &str) -> bool {
+    scene.starts_with("small/")
+}
+
 /// Whether a scene is read from a table.
 pub(crate) fn is_table(scene: &str) -> bool {
     scene.starts_with("table/")
@@ -25,14 +30,21 @@ pub(crate) fn is_table(scene: &str) -> bool {
 /// The limit that a quantity must keep on the reference core.
 pub(crate) fn of(scene: &str, quantity: Quantity) -> Option<u32> {
     match quantity {
+        Quantity::Classify if scene == "simulation/fixed-class" => Some(1600),
         Quantity::Classify if scene == "simulation/fixed-1e-5" => Some(2000),
+        Quantity::Classify if scene == "simulation/fixed-1e-6" => Some(2600),
+        Quantity::Classify if scene == "simulation/fixed-oblique-1e-5" => Some(2800),
+        Quantity::Classify if scene == "simulation/fixed-oblique-1e-6" => Some(3640),
+        Quantity::Stack if scene.starts_with("simulation/fixed") => Some(512),
+        Quantity::Flash if scene == "small/fixed-oblique-1e-5" => Some(6 * 1024),
+        Quantity::Flash if is_small(scene) => None,
+        Quantity::StaticMemory => Some(0),
         Quantity::Classify if scene == "table/boundary" => Some(60),
         Quantity::Classify if scene == "table/restitution" => Some(300),
         _ if is_simulated(scene) || is_table(scene) => None,
         Quantity::Classify => Some(150),
         Quantity::SetUpAndClassify => None,
         Quantity::Flash => Some(1024),
-        Quantity::StaticMemory => Some(0),
         Quantity::Stack => Some(256),
     }
 }

@@ -209,37 +209,48 @@ fn measured(protocols: &[(&Board, Protocol)]) -> Vec<Figure> {
 }
 
 /// The firmware that each scene makes larger, on the core of the promises.
-const FLASH: [(&str, &str); 7] = [
+const FLASH: [(&str, &str); 8] = [
     ("normal/coefficient", "flash_normal"),
     ("normal/work", "flash_normal_work"),
     ("planar/coefficient", "flash_planar"),
     ("planar/work", "flash_planar_work"),
-    ("simulation/fixed-1e-6", "flash_contact_fixed"),
+    ("simulation/fixed-1e-5", "flash_contact_fixed"),
+    ("simulation/fixed-oblique-1e-5", "flash_contact_fixed_oblique"),
     ("simulation/normal", "flash_contact_normal"),
     ("simulation/oblique", "flash_contact_oblique"),
 ];
 
+/// The same, built for flash rather than speed.
+const SMALL_FLASH: [(&str, &str); 2] =
+    [("small/fixed-1e-5", "flash_contact_fixed"), ("small/fixed-oblique-1e-5", "flash_contact_fixed_oblique")];
+
 fn flash(toolchain: &Toolchain) -> Result<Vec<Figure>, String> {
     let mut figures = Vec::new();
     for board in BOARDS.iter().filter(|board| board.core == REFERENCE_CORE) {
-        let mut binaries = vec!["flash_empty"];
-        binaries.extend(FLASH.map(|(_, binary)| binary));
-        let folder = firmware::build(toolchain, board, &binaries)?;
-        let empty = Footprint::of(&folder.join("flash_empty"))?;
-        for (scene, binary) in FLASH {
-            let added = Footprint::of(&folder.join(binary))?.minus(empty);
-            let figure = |quantity, value| Figure {
-                subject: Subject {
-                    core: board.core.to_owned(),
-                    scene: scene.to_owned(),
-                    scalar: "f32".to_owned(),
-                    impact: String::new(),
-                    quantity,
-                },
-                value,
-            };
-            figures.push(figure(Quantity::Flash, added.flash));
-            figures.push(figure(Quantity::StaticMemory, added.static_memory));
+        let binaries = |scenes: &[(&'static str, &'static str)]| {
+            let mut binaries = vec!["flash_empty"];
+            binaries.extend(scenes.iter().map(|(_, binary)| *binary));
+            binaries
+        };
+        let fast = firmware::build(toolchain, board, &binaries(&FLASH))?;
+        let small = firmware::build_small(toolchain, board, &binaries(&SMALL_FLASH))?;
+        for (folder, scenes) in [(fast, &FLASH[..]), (small, &SMALL_FLASH[..])] {
+            let empty = Footprint::of(&folder.join("flash_empty"))?;
+            for (scene, binary) in scenes {
+                let added = Footprint::of(&folder.join(binary))?.minus(empty);
+                let figure = |quantity, value| Figure {
+                    subject: Subject {
+                        core: board.core.to_owned(),
+                        scene: (*scene).to_owned(),
+                        scalar: "f32".to_owned(),
+                        impact: String::new(),
+                        quantity,
+                    },
+                    value,
+                };
+                figures.push(figure(Quantity::Flash, added.flash));
+                figures.push(figure(Quantity::StaticMemory, added.static_memory));
+            }
         }
     }
     Ok(figures)

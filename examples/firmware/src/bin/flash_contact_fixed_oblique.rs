@@ -1,0 +1,16 @@
+//! Simulates the contact of impacts with friction and spin at a fixed cost, in f32. The size of this
+//! binary, less that of `flash_empty`, is the flash that the library needs for it.
+
+#![no_std]
+#![no_main]
+
+use cortex_m_rt::entry;
+use microimpact::simulation::{FixedCost, TangentialVelocities};
+use microimpact_firmware::contacts::ObliqueContacts;
+use microimpact_firmware::flash::{MEASURED, classify_for_ever};
+use panic_halt as _;
+
+#[entry]
+fn main() -> ! {
+    classify_for_ever::<f32, ObliqueContacts<f32, FixedCost<5, 7>, TangentialVelocities<f32>>>(MEASURED)
+}
