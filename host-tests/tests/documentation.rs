@@ -34,12 +34,23 @@ fn measured() -> HashMap<(String, String), u32> {
     largest
 }
 
-/// The same of the simulation.
-const SIMULATED: [(&str, &str); 4] = [
+/// The same of the simulation and of tables.
+const SIMULATED: [(&str, &str); 9] = [
+    ("`FixedCost<4>`, 2 sweeps, class alone", "simulation/fixed-class"),
     ("`FixedCost<5>`, 3 sweeps, error of e 1e-5", "simulation/fixed-1e-5"),
-    ("`FixedCost<7>`, 4 sweeps, error of e 1e-6", "simulation/fixed-1e-6"),
+    ("`FixedCost<7>`, 3 sweeps, error of e 1e-6", "simulation/fixed-1e-6"),
+    ("`FixedCost<5, 7>` with friction and spin", "simulation/fixed-oblique-1e-5"),
+    ("`FixedCost<7, 9>` with friction and spin", "simulation/fixed-oblique-1e-6"),
     ("`Collocation<7>`, tolerance 1e-6", "simulation/normal"),
     ("the same with friction and spin", "simulation/oblique"),
+    ("boundary table", "table/boundary"),
+    ("restitution table with friction and spin", "table/restitution"),
+];
+
+/// Methods with their flash when built for speed and for size.
+const FLASH: [(&str, [&str; 2]); 2] = [
+    ("`FixedCost<5>`", ["simulation/fixed-1e-5", "small/fixed-1e-5"]),
+    ("`FixedCost<5, 7>` with friction and spin", ["simulation/fixed-oblique-1e-5", "small/fixed-oblique-1e-5"]),
 ];
 
 const SIMULATED_QUANTITIES: [&str; 2] = ["classify", "stack"];
@@ -61,14 +72,27 @@ fn footprint_tables_are_current() {
 
 #[test]
 fn flash_of_the_simulation_is_current() {
+    let flash = |scene: &str| measured()[&(scene.into(), "flash".into())].to_string();
+    for (name, scenes) in FLASH {
+        let row = format!("| {name} | {} |", scenes.map(flash).join(" | "));
+        assert!(README.contains(&row), "README.md lacks the row\n{row}");
+    }
     let words = README.split_whitespace().collect::<Vec<_>>().join(" ");
-    for (name, scene) in [
-        ("`FixedCost<7>` takes", "simulation/fixed-1e-6"),
-        ("`Collocation<7>`", "simulation/normal"),
-        ("with friction and spin", "simulation/oblique"),
+    let (normal, oblique) = (flash("simulation/normal"), flash("simulation/oblique"));
+    let statement = format!("and {normal} bytes of flash, {oblique} with friction and spin");
+    assert!(words.contains(&statement), "README.md lacks: {statement}");
+}
+
+/// What the adaptive method promises.
+#[test]
+fn promise_of_the_adaptive_method_is_the_tested_one() {
+    let test = include_str!("adaptive.rs");
+    for (bound, words) in [
+        ("const LARGEST: f64 = 3.0;", "between 0.01 and 3 times the tolerance"),
+        ("const SMALLEST: f64 = 0.01;", "between 0.01 and 3 times the tolerance"),
+        ("[f64; 9] = [1e-4,", "from 1e-4 to 1e-12"),
     ] {
-        let statement = format!("{name} {}", measured()[&(scene.into(), "flash".into())]);
-        assert!(words.contains(&statement), "README.md lacks: {statement}");
+        assert!(test.contains(bound) && README.contains(words), "{bound}, {words}");
     }
 }
 

@@ -43,7 +43,10 @@ pub use scaled::{Groups, Scale};
 pub use tangential::{NoPeeling, Peeling, Tangential, TangentialScene};
 pub use trajectory::{Sample, Trajectory};
 
-use crate::{Approach, Coulomb, InputError, NoAdhesion, NoFriction, Parameter, Real, Sphere, Stiffness};
+use crate::{
+    Approach, Classification, Coulomb, CriticalSpeed, InputError, NoAdhesion, NoFriction, Parameter, Real, Sphere,
+    Stiffness,
+};
 use integrals::Times;
 use law::HertzLaw;
 use motion::{End, Follower, MOST_STRETCHES, NormalPath, follow};
@@ -451,6 +454,47 @@ where
         let units = self.units(approach)?;
         let path = method.solve(&self.law(&units)?, units.energy, &mut ());
         Ok(NormalContact::new(&path, approach, &self.sphere, self.stiffness, &units))
+    }
+
+    /// The class of the impact of a sphere that arrives with `motion`, with its margins as in the rigid-body model: approach
+    /// over [`critical_speed`](Self::critical_speed) and, with friction, what it can change of the slip over the slip. `None`
+    /// where the method has not come to a solution.
+    ///
+    /// # Errors
+    /// As [`impact`](Self::impact).
+    ///
+    /// ```
+    /// use microimpact::simulation::{Collocation, Simulation};
+    /// use microimpact::{Class, Classification, ContactClass, NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Simulation::new(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+    ///     .with_damping(10.5)?
+    ///     .with_ring(250.0, 6.25)?
+    ///     .with_friction(0.1)?;
+    /// let motion = NormalMotion::new(8.0)?.with_tangential(1.0)?;
+    /// let result: Classification<f64, ContactClass<f64>> = scene.classify(&Collocation::<9, f64>::new(1e-9)?, &motion)?.unwrap();
+    /// assert_eq!(result.class(), Class::ReboundRolling);
+    /// assert!((result.speed_over_critical.unwrap() - 8.0 / 5.159_566_762).abs() < 1e-8);
+    /// assert!(result.contact.friction_over_limit.unwrap() > 1.0);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn classify<const N: usize, M, C>(
+        &self,
+        method: &Collocation<N, T>,
+        motion: &M,
+    ) -> Result<Option<Classification<T, C>>, InputError>
+    where
+        T: Nodes<N>,
+        M: Approach<T>,
+        F: TangentialScene<T, M, A, P, C, Observer: Observer<T>>,
+    {
+        let SimulatedImpact { normal, tangential, .. } = self.observe::<M, _, C, ()>(method, motion)?;
+        let speed_over_critical = match self.critical_speed(method)? {
+            CriticalSpeed::At(speed) => Some(motion.normal().speed().saturating_div(speed)),
+            CriticalSpeed::AlwaysRebounds | CriticalSpeed::NeverRebounds => None,
+        };
+        let class = |outcome| Classification { outcome, speed_over_critical, contact: tangential };
+        Ok(normal.outcome().map(class))
     }
 
     /// The dimensionless groups of the impact of a sphere that arrives with `motion`; the external force is not among them.

@@ -19,7 +19,7 @@ use super::outcome::{TangentialContact, TangentialVelocities};
 use super::ring::Ring;
 use super::scaled::Scaled;
 use super::stretch::{Stretch, dot, integrals};
-use crate::{Coulomb, InputError, NoFriction, Oblique, Parameter, Real, Sphere};
+use crate::{ContactClass, Coulomb, InputError, NoFriction, Oblique, Parameter, Real, Sphere};
 
 /// No peeling moment.
 ///
@@ -414,6 +414,18 @@ pub struct SurfaceImpulse<T> {
 }
 
 impl<T: Real> SurfaceImpulse<T> {
+    fn new(motion: &impl Oblique<T>, unit: T, friction: T, gyration_ratio: T) -> Self {
+        let (tangential, peripheral) = (motion.tangential() / unit, motion.peripheral() / unit);
+        Self { friction, gyration_ratio, tangential, peripheral, elastic: T::ZERO }
+    }
+
+    /// What friction can change of the slip, over the slip; `None` where nothing slips.
+    fn friction_over_limit(&self) -> Option<T> {
+        let slip = (self.tangential - self.peripheral).abs();
+        let reach = self.friction * self.elastic * (T::ONE + T::ONE / self.gyration_ratio);
+        (slip > T::ZERO).then(|| reach.saturating_div(slip))
+    }
+
     /// Whether the sphere still slides, and its tangential and peripheral velocities; a captured one goes on until it rolls.
     pub(super) fn after(&self, captured: bool) -> (bool, [T; 2]) {
         let (v, u, kappa) = (self.tangential, self.peripheral, self.gyration_ratio);
@@ -452,7 +464,7 @@ impl<T: Real> Integrals<T> for SurfaceImpulse<T> {
 observe_by_integrals!(SurfaceImpulse, timed: true);
 
 /// A tangential side of a scene, with a result `G`: `()` without friction; with it all of [`TangentialContact`], or, without a
-/// peeling moment, [`TangentialVelocities`] alone.
+/// peeling moment, [`TangentialVelocities`] or [`ContactClass`] alone.
 ///
 /// ```
 /// use microimpact::simulation::{NoPeeling, TangentialScene};
@@ -525,13 +537,7 @@ impl<T: Real, M: Oblique<T>, A> TangentialScene<T, M, A, NoPeeling, TangentialVe
         motion: &M,
         units: &Scaled<T>,
     ) -> Result<Self::Observer, InputError> {
-        Ok(SurfaceImpulse {
-            friction: self.coefficient(),
-            gyration_ratio: sphere.gyration_ratio(),
-            tangential: motion.tangential() / units.speed,
-            peripheral: motion.peripheral() / units.speed,
-            elastic: T::ZERO,
-        })
+        Ok(SurfaceImpulse::new(motion, units.speed, self.coefficient(), sphere.gyration_ratio()))
     }
 
     fn finish(
@@ -541,6 +547,31 @@ impl<T: Real, M: Oblique<T>, A> TangentialScene<T, M, A, NoPeeling, TangentialVe
         units: &Scaled<T>,
     ) -> TangentialVelocities<T> {
         TangentialVelocities::new(&observer, path, sphere, units)
+    }
+}
+
+impl<T: Real, M: Oblique<T>, A> TangentialScene<T, M, A, NoPeeling, ContactClass<T>> for Coulomb<T> {
+    type Observer = SurfaceImpulse<T>;
+
+    fn start(
+        &self,
+        sphere: &Sphere<T>,
+        _adhesion: &A,
+        _peeling: &NoPeeling,
+        motion: &M,
+        units: &Scaled<T>,
+    ) -> Result<Self::Observer, InputError> {
+        Ok(SurfaceImpulse::new(motion, units.speed, self.coefficient(), sphere.gyration_ratio()))
+    }
+
+    fn finish(
+        observer: Self::Observer,
+        path: &NormalPath<T>,
+        sphere: &Sphere<T>,
+        units: &Scaled<T>,
+    ) -> ContactClass<T> {
+        let motion = TangentialVelocities::new(&observer, path, sphere, units).motion;
+        ContactClass { motion, friction_over_limit: observer.friction_over_limit() }
     }
 }
 

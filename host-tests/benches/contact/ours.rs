@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use host_tests::Case;
 use microimpact::simulation::{
-    Collocation, ContactImpulses, ContactTimes, FixedCost, Nodes, NormalContact, PhaseNodes, RungeKuttaGill,
+    Adaptive, Collocation, ContactImpulses, ContactTimes, FixedCost, Nodes, NormalContact, PhaseNodes, RungeKuttaGill,
     SimulatedImpact, TangentialContact,
 };
 use microimpact::{Real, Stiffness};
@@ -15,6 +15,7 @@ use crate::common::scene::{normal_scene, solved};
 
 /// The method that the others are compared with.
 pub const COLLOCATION: &str = "Collocation";
+const ADAPTIVE: &str = "Adaptive";
 const SINGLE_PRECISION: &str = "Collocation, f32";
 const FIXED_COST: &str = "FixedCost";
 const PAPER: &str = "the paper's method";
@@ -31,6 +32,7 @@ pub fn normal(case: &Case) -> Vec<Contestant> {
     all.extend(collocation::<10, f64>(COLLOCATION, case));
     all.extend(collocation::<12, f64>(COLLOCATION, case));
     all.extend(collocation::<14, f64>(COLLOCATION, case));
+    all.extend(adaptive(case));
     all.extend(collocation::<6, f32>(SINGLE_PRECISION, case));
     all.extend(collocation::<8, f32>(SINGLE_PRECISION, case));
     all.extend(fixed_cost::<5>(case));
@@ -47,6 +49,7 @@ pub fn oblique(case: &Case) -> Vec<Contestant> {
     all.extend(oblique_collocation::<7>(case));
     all.extend(oblique_collocation::<9>(case));
     all.extend(oblique_collocation::<12>(case));
+    all.extend(oblique_adaptive(case));
     all.extend(oblique_paper_method(case));
     all
 }
@@ -92,6 +95,33 @@ where
         let (scene, motion) = (case.scene().unwrap(), case.motion().unwrap());
         let method = Collocation::<N, f64>::new(tolerance).ok()?;
         Some(Contestant::new(COLLOCATION, format!("{N} nodes"), format!("{tolerance:.0e}"), move || {
+            let impact: SimulatedImpact<_, TangentialContact<f64>, Outputs<f64>> =
+                black_box(&scene).observe(&method, black_box(&motion)).ok()?;
+            answer(&impact.normal, &impact.outputs, (impact.run.evaluations, "evaluations"))
+        }))
+    };
+    tolerances().filter_map(contestant).collect()
+}
+
+/// It chooses nodes and method by the tolerance.
+fn adaptive(case: &Case) -> Vec<Contestant> {
+    let contestant = |tolerance: f64| {
+        let (scene, motion) = normal_scene::<f64>(case);
+        let method = Adaptive::new(tolerance).ok()?;
+        Some(Contestant::new(ADAPTIVE, "", format!("{tolerance:.0e}"), move || {
+            let impact: SimulatedImpact<_, _, Outputs<f64>> =
+                black_box(&scene).observe(&method, black_box(&motion)).ok()?;
+            answer(&impact.normal, &impact.outputs, (impact.run.evaluations, "evaluations"))
+        }))
+    };
+    tolerances().filter_map(contestant).collect()
+}
+
+fn oblique_adaptive(case: &Case) -> Vec<Contestant> {
+    let contestant = |tolerance: f64| {
+        let (scene, motion) = (case.scene().unwrap(), case.motion().unwrap());
+        let method = Adaptive::new(tolerance).ok()?;
+        Some(Contestant::new(ADAPTIVE, "", format!("{tolerance:.0e}"), move || {
             let impact: SimulatedImpact<_, TangentialContact<f64>, Outputs<f64>> =
                 black_box(&scene).observe(&method, black_box(&motion)).ok()?;
             answer(&impact.normal, &impact.outputs, (impact.run.evaluations, "evaluations"))

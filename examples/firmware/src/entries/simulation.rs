@@ -11,7 +11,7 @@ use microimpact::simulation::{
     RunReport, RungeKuttaGill, Scale, SettledImpact, SimulatedImpact, Simulation, TangentialContact, TangentialScene,
     TangentialVelocities, Trajectory,
 };
-use microimpact::{Approach, InputError, NoFriction, Real, Sphere, Stiffness};
+use microimpact::{Approach, Classification, ContactClass, InputError, NoFriction, Real, Sphere, Stiffness};
 
 use super::{any, keep, motions};
 
@@ -164,6 +164,9 @@ fn outputs<T: Nodes<5>>(scene: &Simulation<T>) -> Result<(), InputError> {
     keep(each.outputs);
     let each: SimulatedImpact<T, TangentialContact<T>, Each<T>> = oblique.observe(&method, &moved)?;
     keep(each.outputs);
+
+    let class: Option<Classification<T, ContactClass<T>>> = oblique.classify(&method, &moved)?;
+    keep(class);
 
     let method = RungeKuttaGill::new(black_box(100));
     keep(normal.impact(&method, &straight)?.outputs);
