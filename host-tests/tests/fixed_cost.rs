@@ -1,8 +1,11 @@
 //! The method of fixed cost: its error over the paper's and random scenes, and its honesty where it does not serve.
 
-use host_tests::cases;
-use microimpact::simulation::{Collocation, FixedCost, Method, Simulation, Status};
-use microimpact::{NormalMotion, Outcome, Real, Sphere, Stiffness};
+use host_tests::{Case, cases};
+use microimpact::simulation::{
+    Collocation, ContactImpulses, FixedCost, Method, PhaseSamples, SimulatedImpact, Simulation, Status,
+    TangentialVelocities,
+};
+use microimpact::{NormalMotion, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
 
 /// A captured sphere of the random family, too strongly damped for so few sweeps.
 const TOO_DAMPED: &str = "r002";
@@ -36,6 +39,41 @@ fn five_nodes_and_three_sweeps() {
 fn seven_nodes_and_three_sweeps() {
     let error = largest_error(&SCENES, &FixedCost::<7>::new(3).unwrap(), f64::from as fn(f32) -> f64);
     assert!(error < 1e-6, "{error:.1e}");
+}
+
+/// Largest errors of the velocities along the surface, over the slip or the velocity before, and of the elastic impulse.
+fn largest_tangential_error<const N: usize, const M: usize>() -> (f64, f64)
+where
+    f32: PhaseSamples<N, M>,
+{
+    let method = FixedCost::<N>::new(3).unwrap().with_outputs::<M>();
+    let (mut velocity, mut impulse) = (0.0_f64, 0.0_f64);
+    let rebounds = |case: &&Case| SCENES.contains(&case.text("family")) && case.text("outcome") == "rebound";
+    for case in cases().iter().filter(rebounds) {
+        let impact: SimulatedImpact<f32, TangentialVelocities<f32>, ContactImpulses<f32>> =
+            case.scene().unwrap().observe(&method, &case.motion().unwrap()).unwrap();
+        let slides = impact.tangential.motion == SurfaceMotion::Sliding;
+        assert_eq!(slides, case.text("motion") == "sliding", "{}", case.text("name"));
+        let (radius, tangential) = (case.number("radius_m"), case.number("speed_tangential_m_s"));
+        let slip = (tangential - radius * case.number("spin_rad_s")).abs().max(tangential.abs());
+        let along = f64::from(impact.tangential.velocity) - case.number("speed_tangential_out_m_s");
+        let around = radius * (f64::from(impact.tangential.spin) - case.number("spin_out_rad_s"));
+        if slip > 0.0 {
+            velocity = velocity.max(along.abs().max(around.abs()) / slip);
+        }
+        impulse = impulse.max((f64::from(impact.outputs.elastic) / case.number("impulse_hertz_n_s") - 1.0).abs());
+    }
+    (velocity, impulse)
+}
+
+#[test]
+fn velocities_along_the_surface_are_as_exact() {
+    let (velocity, _) = largest_tangential_error::<5, 7>();
+    assert!(velocity < 1e-5, "{velocity:.1e}");
+    let (velocity, _) = largest_tangential_error::<7, 9>();
+    assert!(velocity < 1e-6, "{velocity:.1e}");
+    let (_, impulse) = largest_tangential_error::<7, 10>();
+    assert!(impulse < 3e-6, "{impulse:.1e}");
 }
 
 #[test]

@@ -12,8 +12,8 @@ use crate::{InputError, Parameter, Real};
 /// Error control by whatever is fastest for a scene and a tolerance: mild damping lets each phase be one polynomial, with as
 /// many nodes as the tolerance needs; everything else goes to [`Collocation`].
 ///
-/// All tables together take some 100 kB. Firmware that knows its scenes does better with [`FixedCost`](super::FixedCost)
-/// or one [`Collocation`].
+/// It contains the code for every number of nodes: firmware that knows its scenes does better with
+/// [`FixedCost`](super::FixedCost) or one [`Collocation`].
 ///
 /// ```
 /// use microimpact::simulation::{Adaptive, Simulation};

@@ -51,7 +51,8 @@ impl<const N: usize> FixedCost<N> {
 
     /// The same method, with outputs from `M` nodes of each phase.
     ///
-    /// Impulses are as exact as e with three nodes more than `N`; times near the critical speed take twice as many.
+    /// With two nodes more than `N` velocities along the surface are as exact as e, relative to the slip; impulses take three
+    /// more, and times near the critical speed twice as many.
     ///
     /// ```
     /// use microimpact::simulation::{ContactTimes, FixedCost, SimulatedImpact, Simulation};

@@ -94,7 +94,9 @@ impl<const N: usize, T: Real> Collocation<N, T> {
 
     fn control(&self, timed: bool) -> Control<T> {
         let times = if timed { T::ONE } else { T::constant(0.1) };
-        Control { settled: T::constant(0.1) * self.tolerance, error: self.tolerance, times }
+        // Changes of one unit in the last place never end.
+        let settled = (T::constant(0.1) * self.tolerance).max(T::constant(2.0) * T::EPSILON);
+        Control { settled, error: self.tolerance, times }
     }
 }
 

@@ -39,7 +39,7 @@ pub(crate) fn of(scene: &str, quantity: Quantity) -> Option<u32> {
         Quantity::Flash if scene == "small/fixed-oblique-1e-5" => Some(6 * 1024),
         Quantity::Flash if is_small(scene) => None,
         Quantity::StaticMemory => Some(0),
-        Quantity::Classify if scene == "table/boundary" => Some(60),
+        Quantity::Classify if scene == "table/boundary" => Some(62),
         Quantity::Classify if scene == "table/restitution" => Some(300),
         _ if is_simulated(scene) || is_table(scene) => None,
         Quantity::Classify => Some(150),
