@@ -14,13 +14,20 @@ MEMORY
 }
 ";
 
+/// Targets whose boards have their memories elsewhere, and so much that the probes fit too.
+const MAPS: [(&str, &str); 2] = [("thumbv8m", "maps/mps2-an505.x"), ("riscv32", "maps/virt.x")];
+
 /// Binaries that log by defmt, whose strings stay out of flash.
 const LOGGING: [&str; 1] = ["instrument"];
 
 fn main() {
     let manifest = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
-    let map = manifest.join("../../memory.x");
+    let target = env::var("TARGET").expect("cargo sets it");
+    let (map, probe_map) = match MAPS.iter().find(|(prefix, _)| target.starts_with(prefix)) {
+        Some((_, map)) => (manifest.join(map), None),
+        None => (manifest.join("../../memory.x"), Some(PROBE_MAP)),
+    };
     let binaries = manifest.join("src/bin");
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-changed={}", map.display());
@@ -29,7 +36,7 @@ fn main() {
     // link.x includes memory.x by its name alone: the linker looks for it in a folder that depends on the binary.
     let board_map = fs::read_to_string(&map).expect("the memory map can be read");
     let board = folder(&out, "board", &board_map);
-    let probe = folder(&out, "probe", PROBE_MAP);
+    let probe = folder(&out, "probe", probe_map.unwrap_or(&board_map));
     for file in fs::read_dir(&binaries).expect("the binaries can be listed").flatten() {
         if let Some(name) = file.path().file_stem().and_then(OsStr::to_str) {
             let folder = if name.starts_with(PROBES) { &probe } else { &board };

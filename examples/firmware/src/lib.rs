@@ -6,6 +6,13 @@
 
 #![no_std]
 
+/// Marks the function that the runtime starts.
+#[cfg(target_arch = "arm")]
+pub use cortex_m_rt::entry;
+/// Marks the function that the runtime starts.
+#[cfg(target_arch = "riscv32")]
+pub use riscv_rt::entry;
+
 pub mod contacts;
 pub mod entries;
 pub mod flash;

@@ -4,9 +4,9 @@
 #![no_std]
 #![no_main]
 
-use cortex_m_rt::entry;
 use microimpact::simulation::Collocation;
 use microimpact_firmware::contacts::NormalContacts;
+use microimpact_firmware::entry;
 use microimpact_firmware::flash::{MEASURED, classify_for_ever};
 use panic_halt as _;
 

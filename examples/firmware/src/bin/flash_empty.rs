@@ -4,7 +4,7 @@
 #![no_std]
 #![no_main]
 
-use cortex_m_rt::entry;
+use microimpact_firmware::entry;
 use microimpact_firmware::flash::{MEASURED, do_nothing_for_ever};
 use panic_halt as _;
 

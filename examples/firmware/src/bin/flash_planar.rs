@@ -4,8 +4,8 @@
 #![no_std]
 #![no_main]
 
-use cortex_m_rt::entry;
 use microimpact::rigid::AdhesionCoefficient;
+use microimpact_firmware::entry;
 use microimpact_firmware::flash::{MEASURED, classify_for_ever};
 use microimpact_firmware::scenes::Planar;
 use panic_halt as _;

@@ -4,8 +4,7 @@
 #![no_std]
 #![no_main]
 
-use cortex_m_rt::entry;
-use microimpact_firmware::entries;
+use microimpact_firmware::{entries, entry};
 use panic_never as _;
 
 #[entry]

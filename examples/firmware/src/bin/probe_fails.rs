@@ -6,8 +6,7 @@
 
 use core::hint::black_box;
 
-use cortex_m_rt::entry;
-use microimpact_firmware::entries;
+use microimpact_firmware::{entries, entry};
 use panic_never as _;
 
 #[entry]

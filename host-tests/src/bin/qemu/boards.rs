@@ -1,9 +1,12 @@
 //! The emulated boards, one for each processor core.
 
+use crate::emulator::{ARM, Emulator, RISCV32};
+
 /// An emulated board and what the firmware must be built for.
 pub(crate) struct Board {
     /// The processor core.
     pub(crate) core: &'static str,
+    pub(crate) emulator: Emulator,
     /// QEMU's name of the board.
     pub(crate) machine: &'static str,
     /// Rust's name of the target.
@@ -15,24 +18,27 @@ pub(crate) struct Board {
 /// The core for which the library's promises of size and speed hold.
 pub(crate) const REFERENCE_CORE: &str = "Cortex-M4F";
 
-/// Every board of a run, from the smallest core to the largest.
-pub(crate) const BOARDS: [Board; 4] = [
-    Board { core: "Cortex-M0", machine: "microbit", triple: "thumbv6m-none-eabi", cpu: None },
-    Board { core: "Cortex-M3", machine: "mps2-an385", triple: "thumbv7m-none-eabi", cpu: None },
-    Board { core: REFERENCE_CORE, machine: "mps2-an386", triple: "thumbv7em-none-eabihf", cpu: None },
+/// Every board of a run, by architecture and from the smallest core to the largest.
+pub(crate) const BOARDS: [Board; 6] = [
+    Board { core: "Cortex-M0", emulator: ARM, machine: "microbit", triple: "thumbv6m-none-eabi", cpu: None },
+    Board { core: "Cortex-M3", emulator: ARM, machine: "mps2-an385", triple: "thumbv7m-none-eabi", cpu: None },
+    Board { core: REFERENCE_CORE, emulator: ARM, machine: "mps2-an386", triple: "thumbv7em-none-eabihf", cpu: None },
     Board {
         core: "Cortex-M7",
+        emulator: ARM,
         machine: "mps2-an500",
         triple: "thumbv7em-none-eabihf",
         // The target alone assumes single precision; this core also has double.
         cpu: Some("cortex-m7"),
     },
+    Board { core: "Cortex-M33", emulator: ARM, machine: "mps2-an505", triple: "thumbv8m.main-none-eabihf", cpu: None },
+    Board { core: "RV32IMAC", emulator: RISCV32, machine: "virt", triple: "riscv32imac-unknown-none-elf", cpu: None },
 ];
 
 /// The board of the C example, with a processor whose arithmetic in software gives the host's results to the last bit.
 pub(crate) const C_BOARD: Board =
-    Board { core: "Cortex-M3", machine: "mps2-an385", triple: "thumbv7m-none-eabi", cpu: None };
+    Board { core: "Cortex-M3", emulator: ARM, machine: "mps2-an385", triple: "thumbv7m-none-eabi", cpu: None };
 
 /// The board of the instrument, which has ports and a UART that its interrupts are named after.
 pub(crate) const INSTRUMENT_BOARD: Board =
-    Board { core: "Cortex-M3", machine: "lm3s6965evb", triple: "thumbv7m-none-eabi", cpu: None };
+    Board { core: "Cortex-M3", emulator: ARM, machine: "lm3s6965evb", triple: "thumbv7m-none-eabi", cpu: None };

@@ -23,7 +23,7 @@ const LIMIT: Duration = Duration::from_secs(900);
 
 /// Every line in which the board's results differ from the host's in any bit.
 pub(crate) fn compare(choice: Choice, permission: Permission) -> Result<Vec<String>, String> {
-    let (toolchain, emulator) = match crate::tools(choice, &[BOARD.triple], permission) {
+    let (toolchain, emulator) = match crate::tools(choice, &[BOARD], permission) {
         Ok(tools) => tools,
         Err(missing) => return Ok(missing),
     };

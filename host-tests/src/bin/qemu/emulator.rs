@@ -1,4 +1,4 @@
-//! QEMU: found or installed, and a firmware run in it.
+//! QEMU, a program for each architecture: found or installed, and a firmware run in it.
 
 use std::path::Path;
 use std::process::Command;
@@ -8,42 +8,73 @@ use crate::boards::Board;
 use crate::packages::{self, Permission};
 use crate::process;
 
-pub(crate) const QEMU: &str = "qemu-system-arm";
-/// An instruction takes 2^8 ns of emulated time: several ticks of the boards' timers
-/// (40 and 62.5 ns), so that a tick more or less cannot change a count.
-const INSTRUCTION_TIME: &str = "shift=8";
-const LIMIT: Duration = Duration::from_secs(60);
-
-/// The emulator's version; it is installed if need be.
-pub(crate) fn find(permission: Permission) -> Result<String, String> {
-    if let Some(version) = version() {
-        return Ok(version);
-    }
-    packages::install(&[QEMU], permission).map_err(|why| {
-        format!(
-            "no {QEMU}; install QEMU's emulator for Arm: `apt-get install {QEMU}` on Debian and \
-                 Ubuntu, `dnf install {QEMU}` on Fedora, `brew install qemu` on macOS ({why})"
-        )
-    })?;
-    version().ok_or_else(|| format!("{QEMU} is installed but does not run"))
+/// The emulator of an architecture.
+pub(crate) struct Emulator {
+    pub(crate) program: &'static str,
+    /// The package that has it on Debian and Ubuntu.
+    package: &'static str,
+    /// How long an instruction takes in emulated time.
+    instruction_time: &'static str,
+    /// What else it needs to start a firmware.
+    options: &'static [&'static str],
 }
 
-fn version() -> Option<String> {
-    process::first_line(Command::new(QEMU).arg("--version"))
+/// For Cortex-M.
+pub(crate) const ARM: Emulator = Emulator {
+    program: "qemu-system-arm",
+    package: "qemu-system-arm",
+    // 2^8 ns: several ticks of the boards' timers (40 to 62.5 ns), so that a tick more or less cannot change a count.
+    instruction_time: "shift=8",
+    options: &[],
+};
+
+/// For RISC-V with 32 bits.
+pub(crate) const RISCV32: Emulator = Emulator {
+    program: "qemu-system-riscv32",
+    package: "qemu-system-misc",
+    // 1 ns, which is what its register `minstret` counts.
+    instruction_time: "shift=0",
+    options: &["-bios", "none"],
+};
+
+const LIMIT: Duration = Duration::from_secs(60);
+
+impl Emulator {
+    /// Its version; it is installed if need be.
+    pub(crate) fn find(&self, permission: Permission) -> Result<String, String> {
+        if let Some(version) = self.version() {
+            return Ok(version);
+        }
+        let Self { program, package, .. } = self;
+        packages::install(&[package], permission).map_err(|why| {
+            format!(
+                "no {program}; install it with QEMU: `apt-get install {package}` on Debian and Ubuntu, \
+                 `dnf install {program}` on Fedora, `brew install qemu` on macOS ({why})"
+            )
+        })?;
+        self.version().ok_or_else(|| format!("{program} is installed but does not run"))
+    }
+
+    fn version(&self) -> Option<String> {
+        let version = process::first_line(Command::new(self.program).arg("--version"))?;
+        Some(format!("{}: {version}", self.program))
+    }
 }
 
 /// Runs a firmware to its end and returns what it printed.
 pub(crate) fn run(board: &Board, firmware: &Path) -> Result<String, String> {
-    let mut command = Command::new(QEMU);
+    let Emulator { program, instruction_time, options, .. } = board.emulator;
+    let mut command = Command::new(program);
     command
         .args(["-machine", board.machine])
         .args(["-display", "none", "-monitor", "none", "-serial", "none"])
-        .args(["-icount", INSTRUCTION_TIME])
+        .args(["-icount", instruction_time])
+        .args(options)
         .args(["-semihosting-config", "enable=on,target=native"])
         .arg("-kernel")
         .arg(firmware);
     let finished =
-        process::run(&mut command, LIMIT).map_err(|error| format!("{}: cannot run {QEMU}: {error}", board.core))?;
+        process::run(&mut command, LIMIT).map_err(|error| format!("{}: cannot run {program}: {error}", board.core))?;
     if finished.status.is_none() {
         return Err(format!(
             "{}: the firmware did not end within {} s; it printed:\n{}",

@@ -130,7 +130,7 @@ fn each_of(trial: &Trial) -> u64 {
 
 /// The compiler, or everything that is missing.
 fn toolchain(choice: Choice, permission: Permission) -> Result<Toolchain, Vec<String>> {
-    let (toolchain, emulator) = crate::tools(choice, &[BOARD.triple], permission)?;
+    let (toolchain, emulator) = crate::tools(choice, &[BOARD], permission)?;
     eprintln!("compiler: {}\nemulator: {emulator}", toolchain.compiler);
     Ok(toolchain)
 }

@@ -1,4 +1,4 @@
-//! `cargo qemu`: builds the firmware of `examples/firmware` for four processor
+//! `cargo qemu`: builds the firmware of `examples/firmware` for six processor
 //! cores, runs it in QEMU, compares every class with the host's, and reports what
 //! the library costs: instructions, flash, static memory and stack.
 
@@ -9,6 +9,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 
 use answers::Protocol;
 use boards::{BOARDS, Board, REFERENCE_CORE};
+use emulator::Emulator;
 use figures::{Figure, Quantity, Stored, Subject};
 use footprint::Footprint;
 use packages::Permission;
@@ -30,9 +31,9 @@ mod report;
 mod session;
 mod toolchain;
 
-/// Runs the firmware on emulated Cortex-M0, M3, M4F and M7, and reports class and
-/// instructions of every classification, flash, static memory, stack, and whether a
-/// panicking path is left.
+/// Runs the firmware on emulated Cortex-M0, M3, M4F, M7 and M33 and on RISC-V, and
+/// reports class and instructions of every classification, flash, static memory, stack,
+/// and whether a panicking path is left.
 ///
 /// What is missing is installed where that is possible: targets by rustup, or else
 /// Debian's compiler, and QEMU.
@@ -99,9 +100,7 @@ fn main() -> ExitCode {
 fn run(arguments: &Arguments, permission: Permission) -> Result<Vec<String>, String> {
     let stored = Stored::read(&Stored::path())?;
     let expected = answers::expected()?;
-    let mut triples: Vec<&str> = BOARDS.iter().map(|board| board.triple).collect();
-    triples.dedup();
-    let (toolchain, emulator) = match tools(arguments.toolchain, &triples, permission) {
+    let (toolchain, emulator) = match tools(arguments.toolchain, &BOARDS, permission) {
         Ok(tools) => tools,
         Err(missing) => return Ok(missing),
     };
@@ -156,14 +155,26 @@ fn run(arguments: &Arguments, permission: Permission) -> Result<Vec<String>, Str
     Ok(failures)
 }
 
-/// Compiler and emulator, or everything that is missing.
-fn tools(choice: Choice, triples: &[&str], permission: Permission) -> Result<(Toolchain, String), Vec<String>> {
-    let toolchain = Toolchain::find(choice, triples, permission);
-    let emulator = emulator::find(permission);
-    match (toolchain, emulator) {
-        (Ok(toolchain), Ok(emulator)) => Ok((toolchain, emulator)),
-        (toolchain, emulator) => Err([toolchain.err(), emulator.err()].into_iter().flatten().collect()),
+/// Compiler and emulators, or everything that is missing.
+fn tools(choice: Choice, boards: &[Board], permission: Permission) -> Result<(Toolchain, String), Vec<String>> {
+    let mut triples: Vec<&str> = boards.iter().map(|board| board.triple).collect();
+    triples.dedup();
+    let mut emulators: Vec<&Emulator> = boards.iter().map(|board| &board.emulator).collect();
+    emulators.dedup_by_key(|emulator| emulator.program);
+    let toolchain = Toolchain::find(choice, &triples, permission);
+    let (mut versions, mut missing) = (Vec::new(), Vec::new());
+    for emulator in emulators {
+        match emulator.find(permission) {
+            Ok(version) => versions.push(version),
+            Err(why) => missing.push(why),
+        }
     }
+    match toolchain {
+        Ok(toolchain) if missing.is_empty() => return Ok((toolchain, versions.join("; "))),
+        Ok(_) => {}
+        Err(why) => missing.insert(0, why),
+    }
+    Err(missing)
 }
 
 fn run_board(toolchain: &Toolchain, board: &Board) -> Result<Protocol, String> {

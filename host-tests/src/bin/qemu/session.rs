@@ -11,7 +11,6 @@ use std::{fs, str};
 use defmt_decoder::{DecodeError, Table};
 
 use crate::boards::Board;
-use crate::emulator::QEMU;
 
 /// An instruction takes 2^6 ns of emulated time.
 const INSTRUCTION_TIME: &str = "shift=6";
@@ -36,11 +35,11 @@ impl Session {
     /// Starts a firmware and gives the other end of its serial line.
     pub(crate) fn start(board: &Board, firmware: &Path) -> Result<(Self, TcpStream), String> {
         let listener = || TcpListener::bind("127.0.0.1:0").and_then(|listener| Ok((listener.local_addr()?, listener)));
-        let failed = |error: io::Error| format!("{}: cannot run {QEMU}: {error}", board.core);
+        let failed = |error: io::Error| format!("{}: cannot run {}: {error}", board.core, board.emulator.program);
         let (serial_address, serial) = listener().map_err(failed)?;
         let (monitor_address, monitor) = listener().map_err(failed)?;
         let log = Log::of(firmware)?;
-        let mut emulator = Command::new(QEMU)
+        let mut emulator = Command::new(board.emulator.program)
             .args(["-machine", board.machine, "-display", "none", "-icount", INSTRUCTION_TIME])
             .args(["-serial", &format!("tcp:{serial_address},nodelay=on")])
             .args(["-monitor", &format!("tcp:{monitor_address}")])

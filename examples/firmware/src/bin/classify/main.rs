@@ -2,7 +2,7 @@
 //! class, margins, restitution and cost: `word key=value key=value ...`.
 //!
 //! Counts are instructions, not cycles: a division or a square root counts 1, and
-//! there are no wait states. Runs in QEMU, with `-icount shift=8`.
+//! there are no wait states. Runs in QEMU, with `-icount`.
 
 #![no_std]
 #![no_main]
@@ -11,20 +11,25 @@ use core::fmt::{self, Display, LowerExp};
 use core::hint::black_box;
 use core::panic::PanicInfo;
 
-use cortex_m_rt::{ExceptionFrame, entry, exception};
-use cortex_m_semihosting::debug::{self, EXIT_FAILURE, EXIT_SUCCESS};
-use cortex_m_semihosting::hprintln;
+use microimpact_firmware::entry;
 use microimpact_firmware::scenes::{Answer, Measured, Number, Scene, Visitor, visit_scenes};
 
-use counter::Counter;
+#[cfg(target_arch = "arm")]
+use arm as processor;
+use processor::{Counter, NO_COUNTER, hprintln, stop};
+#[cfg(target_arch = "riscv32")]
+use riscv32 as processor;
 
-mod counter;
+#[cfg(target_arch = "arm")]
+mod arm;
+#[cfg(target_arch = "riscv32")]
+mod riscv32;
 mod stack;
 
 #[entry]
 fn main() -> ! {
-    let Some(counter) = cortex_m::Peripherals::take().and_then(|board| Counter::new(board.SYST)) else {
-        fail("the timer does not follow the instructions; run this in QEMU with -icount shift=8");
+    let Some(counter) = Counter::new() else {
+        fail(NO_COUNTER);
     };
     visit_scenes(&mut Measurement { counter });
     hprintln!("done");
@@ -100,25 +105,12 @@ impl<T: LowerExp> Display for Digits<T> {
 }
 
 fn fail(reason: &str) -> ! {
-    hprintln!("error: {reason}");
+    hprintln!("error: {}", reason);
     stop(false)
-}
-
-fn stop(success: bool) -> ! {
-    debug::exit(if success { EXIT_SUCCESS } else { EXIT_FAILURE });
-    loop {
-        cortex_m::asm::nop();
-    }
 }
 
 #[panic_handler]
 fn panic(info: &PanicInfo<'_>) -> ! {
-    hprintln!("error: {info}");
-    stop(false)
-}
-
-#[exception]
-unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
-    hprintln!("error: hard fault at {:#010x}", frame.pc());
+    hprintln!("error: {}", info);
     stop(false)
 }

@@ -1,6 +1,6 @@
 //! How much stack a piece of work touches, measured by painting.
 
-use core::arch::asm;
+use crate::processor::paint;
 
 /// What unused stack is painted with.
 const PAINT: u32 = 0xa5c3_5a3c;
@@ -13,7 +13,7 @@ const WORD: u32 = 4;
 ///
 /// Interrupts must stay silent meanwhile: their frames would be counted too.
 pub(crate) fn used(work: impl FnOnce()) -> Option<u32> {
-    let top = paint();
+    let top = paint(PAINT, REACH);
     apart(work);
     let untouched = (top - REACH..top)
         .step_by(WORD as usize)
@@ -21,29 +21,6 @@ pub(crate) fn used(work: impl FnOnce()) -> Option<u32> {
         .take_while(|&word| unsafe { (word as *const u32).read_volatile() } == PAINT)
         .count() as u32;
     (untouched > 0).then_some(REACH - WORD * untouched)
-}
-
-/// Paints the [`REACH`] below the stack pointer and returns the stack pointer.
-// Inlined and in assembly: a frame of its own would be in the way of the paint.
-#[inline(always)]
-fn paint() -> u32 {
-    let top: u32;
-    // SAFETY: writes words of RAM below the stack pointer, where nothing lives. There
-    // is no `nostack` in the options, so the compiler keeps nothing there either.
-    unsafe {
-        asm!(
-            "mov {top}, sp",
-            "subs {word}, {top}, {word}",
-            "2: str {paint}, [{word}]",
-            "adds {word}, {word}, #4",
-            "cmp {word}, {top}",
-            "bne 2b",
-            top = out(reg) top,
-            word = inout(reg) REACH => _,
-            paint = in(reg) PAINT,
-        );
-    }
-    top
 }
 
 /// Keeps the variables of `work` out of the caller's frame, where they would not count.

@@ -7,6 +7,7 @@
 use core::arch::{asm, naked_asm};
 use core::sync::atomic::{AtomicU32, Ordering};
 
+use cortex_m::Peripherals;
 use cortex_m::peripheral::SYST;
 use cortex_m::peripheral::syst::SystClkSource;
 
@@ -54,12 +55,13 @@ struct Reading {
 }
 
 impl Counter {
-    /// Starts SysTick and finds out how many of its ticks an instruction takes.
+    /// Starts SysTick and finds out how many of its ticks an instruction takes; once.
     ///
     /// `None` where ticks do not follow instructions (on real hardware, or in an
     /// emulator without `-icount`), and where an instruction takes less than two
     /// ticks: too few to tell two counts apart for certain.
-    pub(crate) fn new(mut timer: SYST) -> Option<Self> {
+    pub(crate) fn new() -> Option<Self> {
+        let mut timer = Peripherals::take()?.SYST;
         timer.set_clock_source(SystClkSource::Core);
         timer.set_reload(TIMER_MASK);
         timer.clear_current();
