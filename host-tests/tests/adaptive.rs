@@ -1,8 +1,10 @@
 //! The adaptive method delivers the error that was asked for: neither more, nor so little that the cost was wasted.
 
 use host_tests::{Case, cases};
-use microimpact::simulation::{Adaptive, SimulatedImpact, Simulation, Status, TangentialContact};
+use microimpact::simulation::{Adaptive, Collocation, SimulatedImpact, Simulation, Status, TangentialContact};
 use microimpact::{NormalMotion, Outcome, Sphere, Stiffness};
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
 
 /// Error that may be reached, over the tolerance.
 const LARGEST: f64 = 3.0;
@@ -122,4 +124,35 @@ fn damping_of_any_strength() {
         most = most.max(impact.run.evaluations);
     }
     assert!(most < 3000, "{most}");
+}
+
+/// Whatever the adaptive method chooses, the stretches at their best say the same.
+#[test]
+fn random_scenes_agree_with_stretches() {
+    let mut random = StdRng::seed_from_u64(1);
+    let exact = Collocation::<14, f64>::new(1e-13).unwrap();
+    let (mut phases, mut compared) = (0, 0);
+    for _ in 0..20_000 {
+        let mut decades = |from: f64, to: f64| 10f64.powf(random.random_range(from..to));
+        let (radius, stiffness, strength) = (decades(-9.0, -2.0), decades(3.0, 14.0), decades(-4.0, 5.0));
+        let (material, adhesion, speed) = (decades(-4.0, 4.0), decades(-4.0, 4.0), decades(-9.0, 4.0));
+        let tolerance = decades(-12.0, -3.0);
+        let scene = Simulation::new(Sphere::solid(radius, 2600.0).unwrap(), Stiffness::new(stiffness).unwrap())
+            .with_damping(material)
+            .and_then(|scene| scene.with_ring(strength, adhesion))
+            .unwrap();
+        let motion = NormalMotion::new(speed).unwrap();
+        let Ok(impact) = scene.impact(&Adaptive::new(tolerance).unwrap(), &motion) else {
+            continue;
+        };
+        let reference = scene.normal_impact(&exact, &motion).unwrap();
+        let square = |e: f64| e * e;
+        let found = impact.normal.overall_restitution();
+        let difference = (square(found) - square(reference.overall_restitution())).abs();
+        assert!(difference <= LARGEST * tolerance, "{scene:?}, {motion:?}, {tolerance:e}: {difference:e}");
+        assert!(impact.outputs.impulses.elastic.is_finite() && impact.outputs.times.peak.is_none_or(f64::is_finite));
+        compared += 1;
+        phases += usize::from(impact.run.steps == 2);
+    }
+    assert!(compared > 10_000 && phases > 2_000, "{compared}, {phases}");
 }
