@@ -70,7 +70,6 @@ impl<T> AdaptiveNodes for T where
         + Nodes<7>
         + Nodes<9>
         + Nodes<10>
-        + Nodes<10>
         + Nodes<12>
         + Nodes<14>
 {
@@ -185,11 +184,11 @@ where
     let tails = phase.tails(energy);
     let mut error = tails.error_of_energy();
     let judge = |error: T| match error {
-        _ if error <= tolerance => Ok(error),
+        _ if error <= tolerance => Ok(()),
         _ if error <= T::constant(100.0) * tolerance => Err(Failed::ByLittle),
         _ => Err(Failed::ByFar),
     };
-    let approach = (O::TIMED || O::OBSERVES).then(|| phase.samples::<M>(law, false));
+    let approach = O::OBSERVES.then(|| phase.samples::<M>(law, false));
     let timed = |stretch: &Option<Stretch<T, M>>, least: T| {
         let Some(stretch) = stretch else { return least };
         let share = tail_of_times::<T, M>(&stretch.rate);
@@ -208,7 +207,7 @@ where
     if left <= T::ZERO && O::TO_TURNING_POINT {
         return Err(Failed::ByFar);
     }
-    let rebound = (O::TIMED || O::OBSERVES).then(|| phase.samples::<M>(law, true));
+    let rebound = O::OBSERVES.then(|| phase.samples::<M>(law, true));
     if O::TIMED {
         error = error.max(timed(&rebound, tails.error_of_times()));
     }

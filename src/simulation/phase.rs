@@ -185,12 +185,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         for q in 0..M {
             square[q] = two * law.fall(self.peak, &shares[q]);
         }
-        for k in 0..N {
-            let power = self.loss[k] * self.speed[k];
-            for q in 0..M {
-                square[q] = square[q] + <T as PhaseSamples<N, M>>::RUNNING[k][q] * power;
-            }
-        }
+        self.add_gains(&mut square);
         let (mut s, mut y, mut rate) = ([T::ZERO; M], [T::ZERO; M], [T::ZERO; M]);
         for q in 0..M {
             let speed = square[q].max(T::constant(SLOWEST * SLOWEST)).sqrt();
@@ -203,18 +198,27 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         Stretch { s, y, rate, end, accepted: true, error: T::ZERO, forward: rebound }
     }
 
+    /// Adds what the losses give to the squares at Radau's nodes.
+    #[inline]
+    fn add_gains<const M: usize>(&self, square: &mut [T; M])
+    where
+        T: PhaseSamples<N, M>,
+    {
+        for k in 0..N {
+            let power = self.loss[k] * self.speed[k];
+            for q in 0..M {
+                square[q] = square[q] + <T as PhaseSamples<N, M>>::RUNNING[k][q] * power;
+            }
+        }
+    }
+
     /// Gains over z as a polynomial, in those of Legendre, from which [`part`](Self::part) reads the phase anywhere.
     pub(super) fn gains<const M: usize>(&self) -> [T; M]
     where
         T: PhaseSamples<N, M>,
     {
         let (mut gains, mut series) = ([T::ZERO; M], [T::ZERO; M]);
-        for k in 0..N {
-            let power = self.loss[k] * self.speed[k];
-            for q in 0..M {
-                gains[q] = gains[q] + <T as PhaseSamples<N, M>>::RUNNING[k][q] * power;
-            }
-        }
+        self.add_gains(&mut gains);
         for q in 0..M {
             gains[q] = gains[q] / <T as Nodes<M>>::Z[q];
         }

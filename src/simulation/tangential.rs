@@ -419,24 +419,28 @@ impl<T: Real> SurfaceImpulse<T> {
         Self { friction, gyration_ratio, tangential, peripheral, elastic: T::ZERO }
     }
 
-    /// What friction can change of the slip, over the slip; `None` where nothing slips.
+    /// What friction can change of the slip.
+    #[inline]
+    fn reach(&self) -> T {
+        self.friction * self.elastic * (T::ONE + T::ONE / self.gyration_ratio)
+    }
+
+    /// The same over the slip; `None` where nothing slips.
     fn friction_over_limit(&self) -> Option<T> {
         let slip = (self.tangential - self.peripheral).abs();
-        let reach = self.friction * self.elastic * (T::ONE + T::ONE / self.gyration_ratio);
-        (slip > T::ZERO).then(|| reach.saturating_div(slip))
+        (slip > T::ZERO).then(|| self.reach().saturating_div(slip))
     }
 
     /// Whether the sphere still slides, and its tangential and peripheral velocities; a captured one goes on until it rolls.
     pub(super) fn after(&self, captured: bool) -> (bool, [T; 2]) {
         let (v, u, kappa) = (self.tangential, self.peripheral, self.gyration_ratio);
         let slip = v - u;
-        let impulse = self.friction * self.elastic;
-        let ends = slip.abs() <= impulse * (T::ONE + T::ONE / kappa) || (captured && self.friction > T::ZERO);
+        let ends = slip.abs() <= self.reach() || (captured && self.friction > T::ZERO);
         if ends {
             let rolling = rolling(v, u, kappa);
             return (false, [rolling, rolling]);
         }
-        let impulse = direction(slip) * impulse;
+        let impulse = direction(slip) * (self.friction * self.elastic);
         (true, [v - impulse, u + impulse / kappa])
     }
 
