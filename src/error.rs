@@ -103,6 +103,10 @@ pub enum Parameter {
     SpeedRatio,
     /// Elastic impulse over the momentum before the impact, I/(m v).
     ImpulseOverMomentum,
+    /// Strength p of adhesion, given as such or for fixed point.
+    DimensionlessAdhesion,
+    /// Damping for the unit of speed, given as such or for fixed point.
+    DimensionlessDamping,
 }
 
 impl Parameter {
@@ -113,7 +117,7 @@ impl Parameter {
     ///
     /// assert!(Parameter::ALL.iter().all(|parameter| parameter.range().0 < parameter.range().1));
     /// ```
-    pub const ALL: [Self; 41] = [
+    pub const ALL: [Self; 43] = [
         Self::Radius,
         Self::ContactRadiusRatio,
         Self::Thickness,
@@ -155,6 +159,8 @@ impl Parameter {
         Self::BoundaryMargin,
         Self::SpeedRatio,
         Self::ImpulseOverMomentum,
+        Self::DimensionlessAdhesion,
+        Self::DimensionlessDamping,
     ];
 
     /// Name, in the words of the field.
@@ -226,6 +232,8 @@ impl Parameter {
             Self::CriticalSpeed => ("critical speed", "m/s", (1e-12, 1e6)),
             Self::BoundaryMargin => ("margin of a boundary table", "1", (0.0, 0.05)),
             Self::ImpulseOverMomentum => ("elastic impulse over momentum", "1", (0.0, 1e6)),
+            Self::DimensionlessAdhesion => ("dimensionless strength of adhesion", "1", (0.0, 0.999)),
+            Self::DimensionlessDamping => ("dimensionless damping", "1", (0.0, 0.5)),
             Self::SpeedRatio => ("largest over critical speed", "1", (1.1, 1e4)),
         }
     }
@@ -245,8 +253,10 @@ impl Parameter {
     #[inline]
     pub fn check<T: Real>(self, value: T) -> Result<T, InputError> {
         let (smallest, largest) = self.range();
+        // A number type that has no number as small as the range begins with would take zero for valid.
+        let held = smallest <= 0.0 || T::constant(smallest) > T::ZERO;
         // Both comparisons fail for NaN.
-        if value >= T::constant(smallest) && value <= T::constant(largest) {
+        if held && value >= T::constant(smallest) && value <= T::constant(largest) {
             Ok(value)
         } else {
             Err(self.refuse(value, T::constant(smallest)))

@@ -8,6 +8,8 @@ pub mod calibrate;
 mod classify;
 mod dual;
 mod error;
+#[cfg(feature = "fixed")]
+mod fixed;
 mod hertz;
 #[cfg(feature = "instrument")]
 pub mod instrument;
@@ -20,6 +22,8 @@ mod sphere;
 mod surface;
 pub mod uncertainty;
 
+#[cfg(feature = "fixed")]
+pub use crate::fixed::FixedPoint;
 pub use classify::{Class, Classification, ContactClass, CriticalSpeed, Outcome, SurfaceMotion};
 pub use dual::Dual;
 pub use error::{Fault, ImpactError, InputError, Parameter};

@@ -87,7 +87,7 @@ fn certificate_holds_for_the_paper() {
     let (smallest, end) = table.radii::<f64>();
     assert!(smallest <= 0.84e-6 && end >= 180e-6);
     let error = largest_error(&table, &PAPER, 4000);
-    assert!(error <= table.margin(), "{error:e}");
+    assert!(error <= table.margin::<f64>(), "{error:e}");
     assert!(table.margin::<f64>() <= 1e-4);
     // A margin that is far from the error would call too much too close.
     assert!(error >= 0.4 * table.margin::<f64>(), "{error:e}");
@@ -112,7 +112,7 @@ fn reference_is_classified() {
         assert_eq!(classify(&table, radius, exact * below), Verdict::Capture);
         assert_eq!(classify(&table, radius as f32, (exact * above) as f32), Verdict::Rebound);
         assert_eq!(classify(&table, radius as f32, (exact * below) as f32), Verdict::Capture);
-        assert!((table.critical_speed(radius).unwrap() / exact - 1.0).abs() <= table.margin());
+        assert!((table.critical_speed(radius).unwrap() / exact - 1.0).abs() <= table.margin::<f64>());
     }
     assert_eq!(of_the_paper, 6);
 }
@@ -138,7 +138,7 @@ fn certificate_holds_for_random_materials() {
             Ok(table) => {
                 let error = largest_error(&table, &material, 60);
                 assert!(
-                    error <= table.margin(),
+                    error <= table.margin::<f64>(),
                     "{material:?}, {smallest:e}: {error:e} of {:e}",
                     table.margin::<f64>()
                 );
@@ -161,7 +161,7 @@ fn certificate_holds_for_random_materials() {
 fn tables_are_made_in_single_precision() {
     let table = BoundaryTable::<16>::new(1e-6_f32, |radius| PAPER.critical::<8, f32>(radius, 1e-6)).unwrap();
     let error = largest_error(&table, &PAPER, 500);
-    assert!(error <= table.margin(), "{error:e}");
+    assert!(error <= table.margin::<f64>(), "{error:e}");
     assert!(table.margin::<f32>() <= 1e-4);
 }
 
@@ -179,7 +179,7 @@ fn certificate_holds_for_the_rigid_body() {
         let radius = smallest * (end / smallest).powf((f64::from(k) + 0.5) / 3000.0);
         let scene = scene(radius).unwrap();
         let exact = speed(Ok(scene.critical_speed()));
-        assert!((table.critical_speed(radius).unwrap() / exact - 1.0).abs() <= table.margin());
+        assert!((table.critical_speed(radius).unwrap() / exact - 1.0).abs() <= table.margin::<f64>());
         for factor in [0.5, 0.999, 1.001, 2.0] {
             let motion = NormalMotion::new(exact * factor).unwrap();
             let expected = match scene.classify(&motion).outcome {

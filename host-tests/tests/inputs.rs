@@ -3,7 +3,7 @@
 use microimpact::boundary::{BoundaryTable, Rebound, RestitutionTable, Single};
 use microimpact::calibrate::ring_strength;
 use microimpact::rigid::{AdhesionCoefficient, Departure, WorkOfAdhesion, infer, infer_with_spins};
-use microimpact::simulation::{Collocation, FixedCost, RestCriterion, Simulation};
+use microimpact::simulation::{Collocation, DimensionlessImpact, FixedCost, RestCriterion, Simulation};
 use microimpact::uncertainty::{NormalDistribution, rebound_probability};
 use microimpact::{
     ConstantRestitution, Coulomb, CriticalSpeed, Dual, Fault, ImpactError, InputError, Material, NormalMotion,
@@ -115,6 +115,8 @@ fn supply<T: Single + NormalDistribution>(parameter: Parameter, value: T) -> Che
         Parameter::CriticalSpeed => BoundaryTable::<1>::new(c(1e-6), |_| Ok(CriticalSpeed::At(value))).map(drop),
         Parameter::SpeedRatio => restitution_table(value, T::ONE),
         Parameter::ImpulseOverMomentum => restitution_table(c(10.0), value),
+        Parameter::DimensionlessAdhesion => DimensionlessImpact::new(value, T::ZERO, T::ZERO).map(drop),
+        Parameter::DimensionlessDamping => DimensionlessImpact::new(T::ZERO, T::ZERO, value).map(drop),
         other => panic!("{other:?} is not tested"),
     };
     Ok(checked?)

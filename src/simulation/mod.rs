@@ -7,6 +7,7 @@
 mod adaptive;
 mod critical;
 mod damping;
+mod dimensionless;
 mod fixed_cost;
 mod force;
 mod integrals;
@@ -28,6 +29,7 @@ mod trajectory;
 
 pub use adaptive::{Adaptive, AdaptiveNodes};
 pub use damping::{HystereticDamping, NoDamping};
+pub use dimensionless::{DimensionlessContact, DimensionlessImpact};
 pub use fixed_cost::FixedCost;
 pub use force::{ConstantForce, NoForce};
 pub use law::{Attraction, Damping, NormalLaw};

@@ -3,6 +3,7 @@
 use core::f64::consts::PI;
 
 use super::SimulatedImpact;
+use super::dimensionless::DimensionlessContact;
 use super::motion::{End, NormalPath};
 use super::run::Status;
 use super::scaled::Scaled;
@@ -46,21 +47,13 @@ impl<T: Real> NormalContact<T> {
         stiffness: Stiffness<T>,
         units: &Scaled<T>,
     ) -> Self {
-        let outcome = match path.end {
-            End::Separation => Some(Outcome::Rebound),
-            End::Capture => Some(Outcome::Capture),
-            End::Budget => None,
-        };
-        let restitution_squared = match outcome {
-            Some(Outcome::Rebound) => path.energy.max(T::ZERO) / units.energy,
-            Some(Outcome::Capture) | None => T::ZERO,
-        };
+        let contact = DimensionlessContact::new(path, units.energy);
         let indentation = |s: T| (s > T::ZERO).then(|| units.length * s * s);
         Self {
-            status: Status::of(path),
-            outcome,
+            status: contact.status,
+            outcome: contact.outcome,
             approach,
-            restitution_squared,
+            restitution_squared: contact.restitution_squared,
             peak_indentation: indentation(path.peak),
             turning_indentation: indentation(path.turning),
             radius: sphere.radius(),

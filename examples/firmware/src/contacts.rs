@@ -141,7 +141,7 @@ where
     }
 }
 
-fn surface<T: Number>() -> Result<Surface<T>, InputError> {
+pub(super) fn surface<T: Number>() -> Result<Surface<T>, InputError> {
     surface_of(given(RADIUS_M))
 }
 

@@ -11,6 +11,7 @@ use microimpact::{
 };
 
 use super::contacts::visit_contacts;
+use super::fixed_contacts::visit_fixed_contacts;
 use super::impacts::{IMPACTS, Impact};
 use super::tables::visit_tables;
 
@@ -228,6 +229,7 @@ pub fn visit_scenes(visitor: &mut impl Visitor) {
     visit_scenes_of::<f32>(visitor);
     visit_scenes_of::<f64>(visitor);
     visit_contacts(visitor);
+    visit_fixed_contacts(visitor);
     visit_tables(visitor);
 }
 

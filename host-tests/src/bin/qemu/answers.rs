@@ -10,6 +10,9 @@ use scenes::{Answer, Number, Scene, Visitor, visit_scenes};
 #[path = "../../../../examples/firmware/src/contacts.rs"]
 mod contacts;
 #[expect(unreachable_pub, reason = "part of the firmware, and public there")]
+#[path = "../../../../examples/firmware/src/fixed_contacts.rs"]
+mod fixed_contacts;
+#[expect(unreachable_pub, reason = "part of the firmware, and public there")]
 #[path = "../../../../examples/firmware/src/impacts.rs"]
 mod impacts;
 #[expect(unreachable_pub, reason = "part of the firmware, and public there")]
@@ -167,7 +170,7 @@ pub(crate) fn expected() -> Result<BTreeMap<Case, Verdict>, String> {
         Ok(host.verdicts)
     } else {
         Err(format!(
-            "the library refuses {}; correct impacts.rs, scenes.rs, contacts.rs or tables.rs in examples/firmware/src",
+            "the library refuses {}; correct impacts.rs, scenes.rs, contacts.rs, fixed_contacts.rs or tables.rs in examples/firmware/src",
             host.refused.join(", ")
         ))
     }

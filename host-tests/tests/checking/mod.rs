@@ -1,0 +1,147 @@
+//! A number that records the largest size among all results of its arithmetic, and rounds them as told.
+
+use std::cell::Cell;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use microimpact::Real;
+use microimpact::simulation::{PhaseNodes, Share};
+
+/// Rounding to f64 alone.
+pub const EXACT: u8 = 0;
+/// Rounding down to 24 bits behind the binary point.
+pub const DOWN: u8 = 1;
+/// Rounding to the nearest of these numbers.
+pub const NEAREST: u8 = 2;
+
+thread_local! {
+    static LARGEST: Cell<f64> = const { Cell::new(0.0) };
+}
+
+/// The largest size since the last call.
+pub fn take_largest() -> f64 {
+    LARGEST.take()
+}
+
+/// A number whose arithmetic is recorded.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Checked<const ROUNDING: u8>(pub f64);
+
+impl<const ROUNDING: u8> Checked<ROUNDING> {
+    fn recorded(value: f64) -> Self {
+        LARGEST.with(|largest| {
+            if value.abs() > largest.get() || value.is_nan() {
+                largest.set(if value.is_nan() { f64::INFINITY } else { value.abs() });
+            }
+        });
+        let units = value * f64::from(1 << 24);
+        Self(match ROUNDING {
+            DOWN => units.floor() / f64::from(1 << 24),
+            NEAREST => units.round() / f64::from(1 << 24),
+            _ => value,
+        })
+    }
+}
+
+macro_rules! recorded {
+    ($operation:ident, $name:ident) => {
+        impl<const ROUNDING: u8> $operation for Checked<ROUNDING> {
+            type Output = Self;
+
+            fn $name(self, other: Self) -> Self {
+                Self::recorded(self.0.$name(other.0))
+            }
+        }
+    };
+}
+
+recorded!(Add, add);
+recorded!(Sub, sub);
+recorded!(Mul, mul);
+recorded!(Div, div);
+
+impl<const ROUNDING: u8> Neg for Checked<ROUNDING> {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl<const ROUNDING: u8> Real for Checked<ROUNDING> {
+    const ZERO: Self = Self(0.0);
+    const ONE: Self = Self(1.0);
+    const EPSILON: Self = Self(6e-8);
+    const SMALLEST: Self = Self(6e-8);
+
+    fn constant(value: f64) -> Self {
+        Self::recorded(value)
+    }
+
+    fn is_finite(self) -> bool {
+        self.0.is_finite()
+    }
+
+    fn sqrt(self) -> Self {
+        Self::recorded(self.0.sqrt())
+    }
+
+    fn two_fifths_power(self) -> Self {
+        Self::recorded(self.0.two_fifths_power())
+    }
+
+    fn exp(self) -> Self {
+        Self::recorded(Real::exp(self.0))
+    }
+
+    fn saturating_div(self, divisor: Self) -> Self {
+        self / divisor
+    }
+}
+
+impl<const ROUNDING: u8, const N: usize> PhaseNodes<N> for Checked<ROUNDING> {
+    const Z: [Self; N] = all(<f64 as PhaseNodes<N>>::Z);
+    const SHARES: [Share<Self>; N] = {
+        let (zero, from) = (Checked(0.0), <f64 as PhaseNodes<N>>::SHARES);
+        let mut shares = [Share { radius: zero, square: zero, cubic: zero, quintic: zero }; N];
+        let mut i = 0;
+        while i < N {
+            let Share { radius, square, cubic, quintic } = from[i];
+            shares[i] = Share {
+                radius: Checked(radius),
+                square: Checked(square),
+                cubic: Checked(cubic),
+                quintic: Checked(quintic),
+            };
+            i += 1;
+        }
+        shares
+    };
+    const RUNNING: [[Self; N]; N] = {
+        let (mut rows, mut i) = ([[Checked(0.0); N]; N], 0);
+        while i < N {
+            rows[i] = all(<f64 as PhaseNodes<N>>::RUNNING[i]);
+            i += 1;
+        }
+        rows
+    };
+    const RUNNING_POWERS: [(Self, Self); N] = {
+        let (mut pairs, mut i) = ([(Checked(0.0), Checked(0.0)); N], 0);
+        while i < N {
+            let (one, square) = <f64 as PhaseNodes<N>>::RUNNING_POWERS[i];
+            pairs[i] = (Checked(one), Checked(square));
+            i += 1;
+        }
+        pairs
+    };
+    const WHOLE: [Self; N] = all(<f64 as PhaseNodes<N>>::WHOLE);
+    const TAIL: [Self; N] = all(<f64 as PhaseNodes<N>>::TAIL);
+}
+
+const fn all<const ROUNDING: u8, const N: usize>(from: [f64; N]) -> [Checked<ROUNDING>; N] {
+    let (mut to, mut i) = ([Checked(0.0); N], 0);
+    while i < N {
+        to[i] = Checked(from[i]);
+        i += 1;
+    }
+    to
+}

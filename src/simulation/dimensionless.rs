@@ -1,0 +1,169 @@
+//! An impact as the solver sees it: a few numbers near one, which any number type holds.
+
+use super::Simulation;
+use super::damping::ScaledDamping;
+use super::force::NoForce;
+use super::law::{Attraction, Damping, HertzLaw};
+use super::motion::{End, Method, NormalPath};
+use super::ring::ScaledRing;
+use super::run::Status;
+use super::scaled::Scale;
+use crate::{Approach, InputError, Outcome, Parameter, Real};
+
+/// The normal motion of an impact in units of its own, without an external force.
+///
+/// The unit of length is the peak indentation of the undamped motion, that of speed such that the elastic force is (5/4) s^3
+/// at the contact radius s. Contact radius and speed then lie in 0 to 1 whatever the particle. On a processor without
+/// floating point these numbers are computed beforehand, for scenes that do not change, or in f32.
+///
+/// ```
+/// use microimpact::simulation::{DimensionlessImpact, FixedCost, Simulation};
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
+///
+/// let scene = Simulation::new(Sphere::solid(5.06e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+///     .with_damping(10.5)?
+///     .with_ring(250.0, 6.25)?;
+/// let impact: DimensionlessImpact<f64> = scene.dimensionless(&NormalMotion::new(2.8)?)?;
+/// let contact = impact.solve(&FixedCost::<5>::new(3)?);
+/// assert!((contact.overall_restitution() - 0.746193).abs() < 1e-5);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct DimensionlessImpact<T> {
+    /// Strength p of adhesion, 0 to 1: its force is (3/4) p s.
+    pub(crate) adhesion: T,
+    /// Kinetic energy before the impact, (1 - p)/2.
+    pub(crate) energy: T,
+    /// Damping of the materials for the unit of speed, over the elastic force.
+    pub(crate) material_damping: T,
+    /// Damping of adhesion for the unit of speed, over the force of adhesion.
+    pub(crate) adhesion_damping: T,
+}
+
+/// How a dimensionless impact ends.
+///
+/// ```
+/// use microimpact::simulation::{DimensionlessContact, DimensionlessImpact, FixedCost, Status};
+/// use microimpact::Outcome;
+///
+/// // Hertz's impact.
+/// let impact = DimensionlessImpact::new(0.0_f32, 0.0, 0.0)?;
+/// let contact: DimensionlessContact<f32> = impact.solve(&FixedCost::<4>::new(2)?);
+/// assert_eq!((contact.status, contact.outcome), (Status::Solved, Some(Outcome::Rebound)));
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct DimensionlessContact<T> {
+    /// Whether the method has come to a solution.
+    pub status: Status,
+    /// Rebound or capture; `None` where the method has not come to a solution.
+    pub outcome: Option<Outcome>,
+    /// Square of the overall restitution e; zero for a capture and where there is no solution.
+    pub restitution_squared: T,
+}
+
+impl<T: Real> DimensionlessContact<T> {
+    pub(super) fn new(path: &NormalPath<T>, energy: T) -> Self {
+        let outcome = match path.end {
+            End::Separation => Some(Outcome::Rebound),
+            End::Capture => Some(Outcome::Capture),
+            End::Budget => None,
+        };
+        let restitution_squared = match outcome {
+            Some(Outcome::Rebound) => path.energy.max(T::ZERO) / energy,
+            Some(Outcome::Capture) | None => T::ZERO,
+        };
+        Self { status: Status::of(path), outcome, restitution_squared }
+    }
+
+    /// Overall restitution e; zero for a capture and where there is no solution.
+    ///
+    /// ```
+    /// use microimpact::simulation::{DimensionlessImpact, FixedCost};
+    ///
+    /// let impact = DimensionlessImpact::new(0.0, 0.0, 0.0)?;
+    /// assert!((impact.solve(&FixedCost::<4>::new(2)?).overall_restitution() - 1.0_f64).abs() < 1e-12);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn overall_restitution(&self) -> T {
+        self.restitution_squared.sqrt()
+    }
+}
+
+impl<T: Real> DimensionlessImpact<T> {
+    /// An impact of known groups: strength p of adhesion, 0 to 0.999, and damping of the materials and of adhesion, 0 to 0.5.
+    ///
+    /// # Errors
+    /// A group outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Fault, Parameter, simulation::DimensionlessImpact};
+    ///
+    /// let error = DimensionlessImpact::new(0.0, 3.0, 0.0).unwrap_err();
+    /// assert_eq!((error.parameter, error.fault), (Parameter::DimensionlessDamping, Fault::TooLarge));
+    /// ```
+    pub fn new(adhesion: T, material_damping: T, adhesion_damping: T) -> Result<Self, InputError> {
+        let adhesion = Parameter::DimensionlessAdhesion.check(adhesion)?;
+        Ok(Self {
+            adhesion,
+            energy: T::constant(0.5) * (T::ONE - adhesion),
+            material_damping: Parameter::DimensionlessDamping.check(material_damping)?,
+            adhesion_damping: Parameter::DimensionlessDamping.check(adhesion_damping)?,
+        })
+    }
+
+    /// The impact, solved by a method.
+    ///
+    /// ```
+    /// use microimpact::simulation::{DimensionlessImpact, FixedCost};
+    /// use microimpact::Outcome;
+    ///
+    /// let impact = DimensionlessImpact::new(0.97, 0.4, 0.1)?;
+    /// assert_eq!(impact.solve(&FixedCost::<6>::new(6)?).outcome, Some(Outcome::Capture));
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn solve(&self, method: &impl Method<T, ()>) -> DimensionlessContact<T> {
+        let law = HertzLaw {
+            damping: ScaledDamping(self.material_damping),
+            adhesion: ScaledRing { strength: self.adhesion, damping: self.adhesion_damping },
+            force: NoForce,
+        };
+        DimensionlessContact::new(&method.solve(&law, self.energy, &mut ()), self.energy)
+    }
+}
+
+impl<T, D, A, F, P> Simulation<T, D, A, F, P>
+where
+    T: Real,
+    D: Scale<T, Scaled: Damping<T>>,
+    A: Scale<T, Scaled: Attraction<T>>,
+{
+    /// The impact of a sphere that arrives with `motion`, in units of its own.
+    ///
+    /// # Errors
+    /// As [`impact`](Self::impact).
+    ///
+    /// ```
+    /// use microimpact::simulation::{DimensionlessImpact, Simulation};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// assert_eq!(scene.dimensionless(&NormalMotion::new(1.0)?)?, DimensionlessImpact::new(0.0, 0.0, 0.0)?);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn dimensionless(&self, motion: &impl Approach<T>) -> Result<DimensionlessImpact<T>, InputError> {
+        let units = self.units(motion.normal().speed())?;
+        Ok(DimensionlessImpact {
+            adhesion: units.adhesion,
+            energy: units.energy,
+            material_damping: self.damping.scale(&self.sphere, &units)?.rate(),
+            adhesion_damping: self.adhesion.scale(&self.sphere, &units)?.damping_rate(),
+        })
+    }
+}
