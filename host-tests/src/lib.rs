@@ -1,5 +1,6 @@
 //! What several tests need: the reference solutions, as scenes, and the examples, run as a person runs them.
 
+pub mod boards;
 pub mod c_results;
 pub mod fit;
 pub mod link;

@@ -7,12 +7,12 @@ use std::time::Duration;
 
 use host_tests::c_results;
 
-use crate::boards::C_BOARD as BOARD;
-use crate::emulator;
-use crate::firmware;
-use crate::packages::{self, Permission};
-use crate::process::{self, Finished};
-use crate::toolchain::Choice;
+use host_tests::boards::C_BOARD as BOARD;
+use host_tests::boards::emulator;
+use host_tests::boards::firmware;
+use host_tests::boards::packages::{self, Permission};
+use host_tests::boards::process::{self, Finished};
+use host_tests::boards::toolchain::Choice;
 
 const COMPILER: &str = "arm-none-eabi-gcc";
 const PACKAGES: [&str; 2] = ["gcc-arm-none-eabi", "libnewlib-arm-none-eabi"];

@@ -14,11 +14,11 @@ use host_tests::link::{Answer, Client};
 use microimpact::Class;
 use microimpact::instrument::{ClassSet, PlanarReading};
 
-use crate::boards::INSTRUMENT_BOARD as BOARD;
-use crate::firmware;
-use crate::packages::Permission;
 use crate::session::{Session, instructions};
-use crate::toolchain::{Choice, Toolchain};
+use host_tests::boards::INSTRUMENT_BOARD as BOARD;
+use host_tests::boards::firmware;
+use host_tests::boards::packages::Permission;
+use host_tests::boards::toolchain::{Choice, Toolchain};
 
 /// An emulated processor on a busy machine is slow.
 const PATIENCE: Duration = Duration::from_secs(30);

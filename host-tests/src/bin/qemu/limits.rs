@@ -1,7 +1,7 @@
 //! What the library promises, checked in every run.
 
-use crate::boards::REFERENCE_CORE;
-use crate::figures::{Figure, Quantity, Subject};
+use host_tests::boards::REFERENCE_CORE;
+use host_tests::boards::figures::{Figure, Quantity, Subject};
 
 /// The scalar for which the promises hold.
 pub(crate) const SCALAR: &str = "f32";

@@ -8,28 +8,20 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand, ValueEnum};
 
 use answers::Protocol;
-use boards::{BOARDS, Board, REFERENCE_CORE};
-use emulator::Emulator;
-use figures::{Figure, Quantity, Stored, Subject};
-use footprint::Footprint;
-use packages::Permission;
-use toolchain::{Choice, Toolchain};
+use host_tests::boards::emulator::Emulator;
+use host_tests::boards::figures::{Figure, Quantity, Stored, Subject};
+use host_tests::boards::footprint::Footprint;
+use host_tests::boards::packages::Permission;
+use host_tests::boards::toolchain::{Choice, Toolchain};
+use host_tests::boards::{BOARDS, Board, REFERENCE_CORE, emulator, figures, firmware};
 
 mod answers;
-mod boards;
 mod c;
-mod emulator;
-mod figures;
-mod firmware;
-mod footprint;
 mod instrument;
 mod limits;
-mod packages;
 mod panics;
-mod process;
 mod report;
 mod session;
-mod toolchain;
 
 /// Runs the firmware on emulated Cortex-M0, M3, M4F, M7 and M33 and on RISC-V, and
 /// reports class and instructions of every classification, flash, static memory, stack,

@@ -4,9 +4,9 @@
 //! that it links is the proof. `probe_fails` has one panicking path more and must
 //! not link, for this reason and no other: that is the proof of the proof.
 
-use crate::boards::Board;
-use crate::firmware;
-use crate::toolchain::Toolchain;
+use host_tests::boards::Board;
+use host_tests::boards::firmware;
+use host_tests::boards::toolchain::Toolchain;
 
 /// The text in the name of the symbol that panic-never leaves undefined.
 const UNDEFINED_SYMBOL: &str = "error(panic-never)";

@@ -7,9 +7,9 @@ use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table, TableComponent};
 
 use crate::answers::{Case, Protocol};
-use crate::boards::{Board, REFERENCE_CORE};
-use crate::figures::Quantity;
 use crate::limits::{self, Checked};
+use host_tests::boards::figures::Quantity;
+use host_tests::boards::{Board, REFERENCE_CORE};
 
 /// Class and instructions of every case, a column for each core.
 pub(crate) fn classes(protocols: &[(&Board, Protocol)]) -> String {

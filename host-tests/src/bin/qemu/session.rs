@@ -10,7 +10,7 @@ use std::{fs, str};
 
 use defmt_decoder::{DecodeError, Table};
 
-use crate::boards::Board;
+use host_tests::boards::Board;
 
 /// An instruction takes 2^6 ns of emulated time.
 const INSTRUCTION_TIME: &str = "shift=6";

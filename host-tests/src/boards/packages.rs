@@ -3,7 +3,7 @@
 use std::process::Command;
 use std::time::Duration;
 
-use crate::process;
+use super::process;
 
 /// Never at the price of a package that is there: Debian's compilers exclude each other.
 const INSTALL: &[&str] = &["install", "-y", "--no-remove", "--no-install-recommends"];
@@ -11,13 +11,15 @@ const LIMIT: Duration = Duration::from_secs(900);
 
 /// Whether this run may change what is installed on the machine.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Permission {
+pub enum Permission {
+    /// What is missing is installed.
     Install,
+    /// What is missing is named.
     LookOnly,
 }
 
 /// Installs packages with apt-get, or says why it did not.
-pub(crate) fn install(packages: &[&str], permission: Permission) -> Result<(), String> {
+pub fn install(packages: &[&str], permission: Permission) -> Result<(), String> {
     if permission == Permission::LookOnly {
         return Err("not installed, as --no-install asks".to_owned());
     }

@@ -7,20 +7,23 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 /// What a child process printed and how it ended.
-pub(crate) struct Finished {
+pub struct Finished {
     /// `None` if the time limit ended it.
-    pub(crate) status: Option<ExitStatus>,
-    pub(crate) stdout: String,
-    pub(crate) stderr: String,
+    pub status: Option<ExitStatus>,
+    /// Its standard output.
+    pub stdout: String,
+    /// Its standard error.
+    pub stderr: String,
 }
 
 impl Finished {
-    pub(crate) fn success(&self) -> bool {
+    /// Whether it ended by itself and without failure.
+    pub fn success(&self) -> bool {
         self.status.is_some_and(|status| status.success())
     }
 
     /// How it ended, in words.
-    pub(crate) fn ending(&self) -> String {
+    pub fn ending(&self) -> String {
         match self.status {
             Some(status) => status.to_string(),
             None => "time limit".to_owned(),
@@ -28,7 +31,7 @@ impl Finished {
     }
 
     /// The last lines of all that it printed.
-    pub(crate) fn tail(&self, lines: usize) -> String {
+    pub fn tail(&self, lines: usize) -> String {
         let text = format!("{}\n{}", self.stdout.trim_end(), self.stderr.trim_end());
         let all: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).collect();
         all[all.len().saturating_sub(lines)..].join("\n")
@@ -36,7 +39,7 @@ impl Finished {
 }
 
 /// Runs a command to its end, at most for `limit`.
-pub(crate) fn run(command: &mut Command, limit: Duration) -> io::Result<Finished> {
+pub fn run(command: &mut Command, limit: Duration) -> io::Result<Finished> {
     let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()?;
     let stdout = Collected::from(child.stdout.take());
     let stderr = Collected::from(child.stderr.take());
@@ -46,7 +49,7 @@ pub(crate) fn run(command: &mut Command, limit: Duration) -> io::Result<Finished
 }
 
 /// Whether a command can be run and succeeds.
-pub(crate) fn succeeds(command: &mut Command) -> bool {
+pub fn succeeds(command: &mut Command) -> bool {
     command
         .stdin(Stdio::null())
         .stdout(Stdio::null())
@@ -56,7 +59,7 @@ pub(crate) fn succeeds(command: &mut Command) -> bool {
 }
 
 /// The first line that a command prints, if it succeeds.
-pub(crate) fn first_line(command: &mut Command) -> Option<String> {
+pub fn first_line(command: &mut Command) -> Option<String> {
     let output = command.stdin(Stdio::null()).output().ok()?;
     let text = String::from_utf8_lossy(&output.stdout);
     let line = text.lines().next()?.trim().to_owned();

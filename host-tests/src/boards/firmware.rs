@@ -4,9 +4,9 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::boards::Board;
-use crate::process::{self, Finished};
-use crate::toolchain::{Toolchain, target_variable};
+use super::Board;
+use super::process::{self, Finished};
+use super::toolchain::{Toolchain, target_variable};
 
 /// Generous: the first build on a slow machine compiles `core` too.
 const LIMIT: Duration = Duration::from_secs(900);
@@ -15,28 +15,23 @@ const LIMIT: Duration = Duration::from_secs(900);
 const PROBE: &str = "probe";
 
 /// The repository's top folder.
-pub(crate) fn repository() -> &'static Path {
+pub fn repository() -> &'static Path {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     package.parent().unwrap_or(package)
 }
 
 /// Builds binaries of the firmware and returns the folder they are in.
-pub(crate) fn build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<PathBuf, String> {
+pub fn build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<PathBuf, String> {
     build_with(toolchain, board, PROBE, binaries)
 }
 
 /// The same, for flash rather than speed.
-pub(crate) fn build_small(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<PathBuf, String> {
+pub fn build_small(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<PathBuf, String> {
     built(toolchain, board, binaries, "small", run_cargo(toolchain, board, "small", PROBE, binaries)?)
 }
 
 /// The same with a feature.
-pub(crate) fn build_with(
-    toolchain: &Toolchain,
-    board: &Board,
-    feature: &str,
-    binaries: &[&str],
-) -> Result<PathBuf, String> {
+pub fn build_with(toolchain: &Toolchain, board: &Board, feature: &str, binaries: &[&str]) -> Result<PathBuf, String> {
     built(toolchain, board, binaries, "release", run_cargo(toolchain, board, "release", feature, binaries)?)
 }
 
@@ -61,7 +56,7 @@ fn built(
 }
 
 /// Builds binaries that are allowed to fail.
-pub(crate) fn try_build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<Finished, String> {
+pub fn try_build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<Finished, String> {
     run_cargo(toolchain, board, "release", PROBE, binaries)
 }
 
@@ -90,7 +85,7 @@ fn run_cargo(
 
 /// One for each compiler and processor: targets share a folder without harm, and what
 /// is built for the host only once, but two processors of one target would not.
-pub(crate) fn target_folder(toolchain: &Toolchain, board: &Board) -> PathBuf {
+pub fn target_folder(toolchain: &Toolchain, board: &Board) -> PathBuf {
     let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| repository().join("target"), PathBuf::from);
     target.join("firmware").join(toolchain.folder()).join(board.cpu.unwrap_or("generic"))
 }

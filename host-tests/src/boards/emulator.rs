@@ -4,13 +4,14 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
-use crate::boards::Board;
-use crate::packages::{self, Permission};
-use crate::process;
+use super::Board;
+use super::packages::{self, Permission};
+use super::process;
 
 /// The emulator of an architecture.
-pub(crate) struct Emulator {
-    pub(crate) program: &'static str,
+pub struct Emulator {
+    /// Its name as a command.
+    pub program: &'static str,
     /// The package that has it on Debian and Ubuntu.
     package: &'static str,
     /// How long an instruction takes in emulated time.
@@ -20,7 +21,7 @@ pub(crate) struct Emulator {
 }
 
 /// For Cortex-M.
-pub(crate) const ARM: Emulator = Emulator {
+pub const ARM: Emulator = Emulator {
     program: "qemu-system-arm",
     package: "qemu-system-arm",
     // 2^8 ns: several ticks of the boards' timers (40 to 62.5 ns), so that a tick more or less cannot change a count.
@@ -29,7 +30,7 @@ pub(crate) const ARM: Emulator = Emulator {
 };
 
 /// For RISC-V with 32 bits.
-pub(crate) const RISCV32: Emulator = Emulator {
+pub const RISCV32: Emulator = Emulator {
     program: "qemu-system-riscv32",
     package: "qemu-system-misc",
     // 1 ns, which is what its register `minstret` counts.
@@ -41,7 +42,7 @@ const LIMIT: Duration = Duration::from_secs(60);
 
 impl Emulator {
     /// Its version; it is installed if need be.
-    pub(crate) fn find(&self, permission: Permission) -> Result<String, String> {
+    pub fn find(&self, permission: Permission) -> Result<String, String> {
         if let Some(version) = self.version() {
             return Ok(version);
         }
@@ -62,7 +63,7 @@ impl Emulator {
 }
 
 /// Runs a firmware to its end and returns what it printed.
-pub(crate) fn run(board: &Board, firmware: &Path) -> Result<String, String> {
+pub fn run(board: &Board, firmware: &Path) -> Result<String, String> {
     let Emulator { program, instruction_time, options, .. } = board.emulator;
     let mut command = Command::new(program);
     command

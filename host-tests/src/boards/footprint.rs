@@ -7,14 +7,16 @@ use object::{Object, ObjectSection, SectionFlags, elf};
 
 /// What a firmware occupies before it runs.
 #[derive(Clone, Copy)]
-pub(crate) struct Footprint {
-    pub(crate) flash: u32,
-    pub(crate) static_memory: u32,
+pub struct Footprint {
+    /// Code, constants and first values, in bytes.
+    pub flash: u32,
+    /// Variables, in bytes.
+    pub static_memory: u32,
 }
 
 impl Footprint {
     /// Adds up the sections that the linker placed.
-    pub(crate) fn of(firmware: &Path) -> Result<Self, String> {
+    pub fn of(firmware: &Path) -> Result<Self, String> {
         let name = firmware.display();
         let bytes = fs::read(firmware).map_err(|error| format!("cannot read {name}: {error}"))?;
         let file = object::File::parse(&*bytes).map_err(|error| format!("cannot understand {name}: {error}"))?;
@@ -39,7 +41,7 @@ impl Footprint {
     }
 
     /// What this firmware occupies more than `other`.
-    pub(crate) fn minus(self, other: Self) -> Self {
+    pub fn minus(self, other: Self) -> Self {
         Self {
             flash: self.flash.saturating_sub(other.flash),
             static_memory: self.static_memory.saturating_sub(other.static_memory),

@@ -4,24 +4,28 @@ use std::fmt::{self, Display};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::firmware::repository;
+use super::firmware::repository;
 
 /// What is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Quantity {
+pub enum Quantity {
     /// A classification.
     Classify,
     /// A classification and the validation of the measured motion before it.
     SetUpAndClassify,
+    /// The deepest stack of a classification.
     Stack,
+    /// Code and constants.
     Flash,
+    /// Memory taken for as long as the firmware runs.
     StaticMemory,
 }
 
 impl Quantity {
     const ALL: [Self; 5] = [Self::Classify, Self::SetUpAndClassify, Self::Stack, Self::Flash, Self::StaticMemory];
 
-    pub(crate) fn name(self) -> &'static str {
+    /// Its name in tables.
+    pub fn name(self) -> &'static str {
         match self {
             Self::Classify => "classify",
             Self::SetUpAndClassify => "set up and classify",
@@ -31,7 +35,8 @@ impl Quantity {
         }
     }
 
-    pub(crate) fn unit(self) -> &'static str {
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
         match self {
             Self::Classify | Self::SetUpAndClassify => "instructions",
             Self::Stack | Self::Flash | Self::StaticMemory => "bytes",
@@ -41,12 +46,17 @@ impl Quantity {
 
 /// What a figure belongs to; `impact` is empty where it belongs to a whole scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Subject {
-    pub(crate) core: String,
-    pub(crate) scene: String,
-    pub(crate) scalar: String,
-    pub(crate) impact: String,
-    pub(crate) quantity: Quantity,
+pub struct Subject {
+    /// The processor core.
+    pub core: String,
+    /// What is classified.
+    pub scene: String,
+    /// The number type.
+    pub scalar: String,
+    /// The impact, where the figure belongs to one.
+    pub impact: String,
+    /// What is measured.
+    pub quantity: Quantity,
 }
 
 impl Display for Subject {
@@ -62,15 +72,17 @@ impl Display for Subject {
 
 /// One measured number.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Figure {
-    pub(crate) subject: Subject,
-    pub(crate) value: u32,
+pub struct Figure {
+    /// What the number belongs to.
+    pub subject: Subject,
+    /// In the unit of its quantity.
+    pub value: u32,
 }
 
 const COLUMNS: [&str; 8] = ["compiler", "core", "scene", "scalar", "impact", "quantity", "value", "unit"];
 
 /// Writes figures as CSV, with their column names.
-pub(crate) fn write(rows: &[(&str, &Figure)], destination: impl io::Write) -> Result<(), csv::Error> {
+pub fn write(rows: &[(&str, &Figure)], destination: impl io::Write) -> Result<(), csv::Error> {
     let mut writer = csv::Writer::from_writer(destination);
     writer.write_record(COLUMNS)?;
     for (compiler, Figure { subject, value }) in rows {
@@ -90,17 +102,18 @@ pub(crate) fn write(rows: &[(&str, &Figure)], destination: impl io::Write) -> Re
 }
 
 /// The figures that are kept in the repository, each with the compiler that led to it.
-pub(crate) struct Stored {
+pub struct Stored {
     rows: Vec<(String, Figure)>,
 }
 
 impl Stored {
     /// The file in the repository.
-    pub(crate) fn path() -> PathBuf {
+    pub fn path() -> PathBuf {
         repository().join("host-tests/data/footprint.csv")
     }
 
-    pub(crate) fn read(path: &Path) -> Result<Self, String> {
+    /// The figures in a file; none where there is no file.
+    pub fn read(path: &Path) -> Result<Self, String> {
         if !path.exists() {
             return Ok(Self { rows: Vec::new() });
         }
@@ -118,7 +131,7 @@ impl Stored {
     }
 
     /// What is worse than stored, for the same compiler.
-    pub(crate) fn compare(&self, compiler: &str, figures: &[Figure]) -> Comparison {
+    pub fn compare(&self, compiler: &str, figures: &[Figure]) -> Comparison {
         let own: Vec<&Figure> = self.rows_of(compiler).collect();
         let mut comparison = Comparison { stored: own.len(), unknown: 0, worse: Vec::new() };
         for figure in figures {
@@ -141,7 +154,7 @@ impl Stored {
     }
 
     /// Replaces the figures of one compiler and keeps those of all others.
-    pub(crate) fn overwrite(&self, compiler: &str, figures: &[Figure], path: &Path) -> Result<(), String> {
+    pub fn overwrite(&self, compiler: &str, figures: &[Figure], path: &Path) -> Result<(), String> {
         let others = self.rows.iter().filter(|(by, _)| by != compiler);
         let mut rows: Vec<(&str, &Figure)> = others.map(|(by, figure)| (&**by, figure)).collect();
         rows.extend(figures.iter().map(|figure| (compiler, figure)));
@@ -159,13 +172,13 @@ impl Stored {
 }
 
 /// How a run compares with the stored figures of the same compiler.
-pub(crate) struct Comparison {
+pub struct Comparison {
     /// Stored figures of this compiler.
-    pub(crate) stored: usize,
+    pub stored: usize,
     /// Figures of the run that are not stored.
-    pub(crate) unknown: usize,
+    pub unknown: usize,
     /// What is worse than it was.
-    pub(crate) worse: Vec<String>,
+    pub worse: Vec<String>,
 }
 
 /// More than 5 %, and more than 2, below which the layout of unrelated code counts.

@@ -1,25 +1,37 @@
-//! The emulated boards, one for each processor core.
+//! The emulated boards, one for each processor core; what builds and runs their firmware, and the figures it yields.
 
-use crate::emulator::{ARM, Emulator, RISCV32};
+// Every error is a sentence for the person who runs the command.
+#![allow(clippy::missing_errors_doc)]
+
+pub mod emulator;
+pub mod figures;
+pub mod firmware;
+pub mod footprint;
+pub mod packages;
+pub mod process;
+pub mod toolchain;
+
+use emulator::{ARM, Emulator, RISCV32};
 
 /// An emulated board and what the firmware must be built for.
-pub(crate) struct Board {
+pub struct Board {
     /// The processor core.
-    pub(crate) core: &'static str,
-    pub(crate) emulator: Emulator,
+    pub core: &'static str,
+    /// What runs it.
+    pub emulator: Emulator,
     /// QEMU's name of the board.
-    pub(crate) machine: &'static str,
+    pub machine: &'static str,
     /// Rust's name of the target.
-    pub(crate) triple: &'static str,
+    pub triple: &'static str,
     /// The processor to optimise for, where it offers more than the target assumes.
-    pub(crate) cpu: Option<&'static str>,
+    pub cpu: Option<&'static str>,
 }
 
 /// The core for which the library's promises of size and speed hold.
-pub(crate) const REFERENCE_CORE: &str = "Cortex-M4F";
+pub const REFERENCE_CORE: &str = "Cortex-M4F";
 
 /// Every board of a run, by architecture and from the smallest core to the largest.
-pub(crate) const BOARDS: [Board; 6] = [
+pub const BOARDS: [Board; 6] = [
     Board { core: "Cortex-M0", emulator: ARM, machine: "microbit", triple: "thumbv6m-none-eabi", cpu: None },
     Board { core: "Cortex-M3", emulator: ARM, machine: "mps2-an385", triple: "thumbv7m-none-eabi", cpu: None },
     Board { core: REFERENCE_CORE, emulator: ARM, machine: "mps2-an386", triple: "thumbv7em-none-eabihf", cpu: None },
@@ -36,9 +48,9 @@ pub(crate) const BOARDS: [Board; 6] = [
 ];
 
 /// The board of the C example, with a processor whose arithmetic in software gives the host's results to the last bit.
-pub(crate) const C_BOARD: Board =
+pub const C_BOARD: Board =
     Board { core: "Cortex-M3", emulator: ARM, machine: "mps2-an385", triple: "thumbv7m-none-eabi", cpu: None };
 
 /// The board of the instrument, which has ports and a UART that its interrupts are named after.
-pub(crate) const INSTRUMENT_BOARD: Board =
+pub const INSTRUMENT_BOARD: Board =
     Board { core: "Cortex-M3", emulator: ARM, machine: "lm3s6965evb", triple: "thumbv7m-none-eabi", cpu: None };

@@ -8,12 +8,12 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
-use crate::packages::{self, Permission};
-use crate::process;
+use super::packages::{self, Permission};
+use super::process;
 
 /// The compiler that the user wants.
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum Choice {
+pub enum Choice {
     /// The compiler in use if it has the targets or rustup can add them, else Debian's
     Auto,
     /// The compiler in use, with targets from rustup
@@ -29,10 +29,10 @@ enum Route {
 }
 
 /// A compiler for all targets of a run.
-pub(crate) struct Toolchain {
+pub struct Toolchain {
     route: Route,
     /// What the compiler says of its version.
-    pub(crate) compiler: String,
+    pub compiler: String,
 }
 
 const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
@@ -47,7 +47,7 @@ const RUSTUP_LIMIT: Duration = Duration::from_secs(300);
 
 impl Toolchain {
     /// A compiler for `triples`, installed if need be; or else what to install by hand.
-    pub(crate) fn find(choice: Choice, triples: &[&str], permission: Permission) -> Result<Self, String> {
+    pub fn find(choice: Choice, triples: &[&str], permission: Permission) -> Result<Self, String> {
         let mut obstacles = Vec::new();
         if choice != Choice::Debian {
             match in_use(triples, permission) {
@@ -65,7 +65,7 @@ impl Toolchain {
     }
 
     /// A name for a folder that only this compiler builds into.
-    pub(crate) fn folder(&self) -> &'static str {
+    pub fn folder(&self) -> &'static str {
         match self.route {
             Route::InUse => "rustup",
             Route::Debian => "debian",
@@ -73,7 +73,7 @@ impl Toolchain {
     }
 
     /// A call of cargo that knows nothing of the cargo that started this program.
-    pub(crate) fn cargo(&self, triple: &str) -> Command {
+    pub fn cargo(&self, triple: &str) -> Command {
         let mut command = match self.route {
             Route::InUse => Command::new("cargo"),
             Route::Debian => Command::new(DEBIAN_CARGO),
@@ -101,7 +101,7 @@ impl Toolchain {
 }
 
 /// The name of the variable that sets cargo's option `option` for one target.
-pub(crate) fn target_variable(triple: &str, option: &str) -> String {
+pub fn target_variable(triple: &str, option: &str) -> String {
     let triple = triple.to_uppercase().replace(['-', '.'], "_");
     format!("CARGO_TARGET_{triple}_{option}")
 }
