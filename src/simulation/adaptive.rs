@@ -124,7 +124,7 @@ impl<T: AdaptiveNodes, O: Observer<T>> Method<T, O> for Adaptive<T> {
             stretches!(7)
         } else if tolerance >= T::constant(3e-10) {
             stretches!(9)
-        } else if tolerance >= T::constant(3e-11) {
+        } else if tolerance >= T::constant(1e-11) {
             stretches!(10)
         } else if tolerance >= T::constant(3e-13) {
             stretches!(12)

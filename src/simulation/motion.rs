@@ -25,7 +25,8 @@ pub struct NormalPath<T> {
     pub(super) energy: T,
     /// Contact radius at the peak; zero where an over-damped sphere has none.
     pub(super) peak: T,
-    /// Contact radius where a captured sphere first turns back; zero where it has not been followed so far, or creeps.
+    /// Contact radius where a captured sphere first turns back; zero where it has not been followed so far, or creeps, or comes
+    /// to its equilibrium within the error allowed before it turns.
     pub(super) turning: T,
     pub(super) effort: Effort<T>,
 }
@@ -98,7 +99,12 @@ pub(super) fn follow<T: Nodes<N>, const N: usize, L: NormalLaw<T>, O: Observer<T
     to_turning_point: bool,
     observer: &mut O,
 ) -> NormalPath<T> {
-    Follower::arriving(law, energy, control, observer).contact::<N>(to_turning_point)
+    let mut path = Follower::arriving(law, energy, control, observer).contact::<N>(to_turning_point);
+    if path.effort.stretches + path.effort.refused >= MOST_STRETCHES {
+        // Of a capture, peak or turning point are still out of sight.
+        path.end = End::Budget;
+    }
+    path
 }
 
 /// Share of a stretch at which the sphere begins to roll, the part up to there, and what is left of the error, as a share of
@@ -302,7 +308,15 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 if self.take(&arrival, Course::REBOUND, Some(arrival.end.s))? {
                     return Ok(self.at.s);
                 }
+                if self.is_at_equilibrium() {
+                    return Ok(T::ZERO);
+                }
                 length = half * (self.at.s - guess);
+                // Nor to where damping alone stops the sphere.
+                let (speed, loss) = (self.at.speed_squared.sqrt(), self.law.loss(self.at.s, true));
+                if loss * length > speed {
+                    length = speed / loss;
+                }
             } else {
                 length = self.departing_length(length);
             }
@@ -383,6 +397,13 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     /// Where the potential equals the energy of a captured sphere, at its outermost point.
     pub(super) fn outer_turning_point(&self) -> T {
         let (s, energy) = (self.at.s, self.at.energy);
+        let (slope, curvature) = (self.law.slope(s), self.law.curvature(s).max(T::SMALLEST));
+        let distance = slope / curvature;
+        let swing = (distance * distance + self.at.speed_squared / curvature).sqrt();
+        if swing <= T::constant(1e-3) * s {
+            // So close to the bottom energies hardly differ, but forces do: a little beyond the turning point of a linear swing.
+            return s - distance - T::constant(1.01) * swing;
+        }
         let (mut below, mut above) = (T::ZERO, s);
         for _ in 0..12 {
             let middle = (below + above) * T::constant(0.5);
@@ -537,6 +558,16 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let secant = if distance == T::ZERO { T::ZERO } else { -(law.slope(s) / law.indentation_slope(s) / distance) };
         let least = damping(s).min(damping(equilibrium));
         least * least > T::constant(4.0) * stiffness.max(secant) && y < T::constant(0.5) * least * distance.abs()
+    }
+
+    /// Whether what is left of the way is less than the error allowed. Damped critically but for some percent, a sphere comes
+    /// as close as that to its equilibrium before it turns.
+    fn is_at_equilibrium(&self) -> bool {
+        let s = self.at.s;
+        let close = s * self.control.error.max(T::constant(8.0) * T::EPSILON);
+        let reach = self.law.loss(s, true) * close;
+        self.at.speed_squared <= reach * reach
+            && self.equilibrium().is_some_and(|equilibrium| (s - equilibrium).abs() <= close)
     }
 
     /// Contact radius at which the forces balance: the minimum of the potential, by Newton's method from above.

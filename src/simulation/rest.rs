@@ -84,7 +84,8 @@ impl<T: Real> RestCriterion<T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SettledImpact<T, G, O = Everything<T>> {
     /// The impact; of a captured sphere, its outputs and the motion along the surface are those until it rests. Where it
-    /// does not come to rest over as many turning points as were allowed, the status of the run says that they are spent.
+    /// does not come to rest over as many turning points as were allowed, or damping takes less in a swing than rounding,
+    /// the status of the run says that they are spent.
     pub impact: SimulatedImpact<T, G, O>,
     /// How a captured sphere came to where it was left; `None` for a rebound.
     pub motion: Option<MotionToRest<T>>,
@@ -172,6 +173,8 @@ impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
         let (mut ahead, mut behind) = if course.rebound { (outermost, innermost) } else { (innermost, outermost) };
         let mut turned = path.turning > T::ZERO;
         settling.turning_points = turned.into();
+        let damped = self.law.damping(bottom, true) > T::ZERO;
+        let mut steady = 0;
         loop {
             settling.at_rest = self.rests(&well);
             if settling.at_rest || settling.turning_points >= criterion.turning_points {
@@ -191,7 +194,10 @@ impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
                 settling.turning_points += 1;
                 path.turning = if settling.turning_points == 1 { self.at.s } else { path.turning };
             }
-            if swing.is_err() {
+            // Where damping takes less than rounding on the way there and back, the decay is not to be seen any more.
+            let lower = if course.rebound { self.at.s > ahead } else { self.at.s < ahead };
+            steady = if damped && turned && !lower { steady + 1 } else { 0 };
+            if swing.is_err() || steady == 2 {
                 settling.at_rest = self.rests(&well);
                 break;
             }

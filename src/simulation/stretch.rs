@@ -95,7 +95,7 @@ pub(super) fn integrals<T: Real, const N: usize>(table: &[[T; N]; N], f: &[T; N]
 struct Sweeps<T, const N: usize> {
     /// Speeds, or speeds over z.
     speed: [T; N],
-    /// Half their reciprocals, which follow by multiplication alone.
+    /// Half their reciprocals, which follow by multiplication alone, and a sweep late.
     half_inverse: [T; N],
     /// Loss times speed.
     power: [T; N],
@@ -142,11 +142,12 @@ impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
     }
 
     /// Whether the sweeps have settled after a change of this square. They converge superlinearly: the next change is
-    /// at most this one squared over the one before.
+    /// at most this one squared over the one before, or the share of this one by which the reciprocals were late.
     #[inline]
     fn settles(&mut self, change: T, control: &Control<T>) -> Progress {
         let enough = control.settled * control.settled;
-        if change <= enough || (self.sweeps > 1 && T::constant(SURPRISE) * change * change <= enough * self.change) {
+        let superlinear = self.sweeps > 1 && T::constant(SURPRISE) * change * change <= enough * self.change;
+        if change <= enough || (superlinear && change * self.lateness() <= enough) {
             return Progress::Settled;
         }
         if change < T::constant(4.0) * self.change && self.sweeps < MOST_SWEEPS {
@@ -154,6 +155,17 @@ impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
             return Progress::Converging;
         }
         Progress::Diverging
+    }
+
+    /// Square of the largest share by which a reciprocal was wrong in the last sweep, which is what is left of it.
+    #[inline]
+    fn lateness(&self) -> T {
+        let mut largest = T::ZERO;
+        for j in 0..N {
+            let product = self.speed[j] * self.half_inverse[j];
+            largest = largest.max((T::ONE - product - product).abs());
+        }
+        largest
     }
 
     fn settle(&mut self, free: &[T; N], loss: &[T; N], table: &[[T; N]; N], control: &Control<T>) -> bool {
@@ -237,7 +249,7 @@ pub(super) fn pass<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
     let mut rate = [T::ZERO; N];
     for j in 0..N {
         accepted &= state.speed[j] > T::ZERO;
-        rate[j] = two * length[j] * law.indentation_slope(s[j]) * state.half_inverse[j];
+        rate[j] = length[j] * law.indentation_slope(s[j]) / state.speed[j];
     }
     let error = if possible { state.error(free[0].max(free[N - 1]), &rate, control) } else { T::ONE };
     let last = state.speed[N - 1];
@@ -402,7 +414,7 @@ fn from_turning_point<T: Nodes<N>, const N: usize>(
     let (mut rate, mut y) = ([T::ZERO; N], [T::ZERO; N]);
     for j in 0..N {
         *accepted &= state.speed[j] > T::ZERO;
-        rate[j] = T::constant(4.0) * depth * law.indentation_slope(s[j]) * state.half_inverse[j];
+        rate[j] = T::constant(2.0) * depth * law.indentation_slope(s[j]) / state.speed[j];
         y[j] = state.speed[j] * T::Z[j];
     }
     (rate, y)
@@ -416,7 +428,6 @@ fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
     state: &mut Sweeps<T, N>,
     control: &Control<T>,
 ) -> bool {
-    let half = T::constant(0.5);
     let speed = &mut state.speed;
     for j in 0..N {
         let root = free[j].max(T::SMALLEST).sqrt();
@@ -461,14 +472,13 @@ fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
         }
     }
     for j in 0..N {
-        state.half_inverse[j] = half / speed[j];
         state.power[j] = loss[j] * speed[j];
     }
     settled
 }
 
 /// Solves a system of linear equations in place, with row pivoting; `false` where it is singular.
-fn eliminate<T: Real, const N: usize>(matrix: &mut [[T; N]; N], right: &mut [T; N]) -> bool {
+pub(super) fn eliminate<T: Real, const N: usize>(matrix: &mut [[T; N]; N], right: &mut [T; N]) -> bool {
     for p in 0..N {
         // Exchanged on the way rather than in the end: every index is one of a loop, so none has to be checked.
         for i in p + 1..N {

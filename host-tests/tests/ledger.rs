@@ -1,0 +1,70 @@
+//! The energy ledger closes to rounding, however strong the damping.
+
+use microimpact::simulation::{
+    Adaptive, Collocation, ContactWorks, Method, Output, SimulatedImpact, Simulation, Status,
+};
+use microimpact::{InputError, NormalMotion, Real, Sphere, Stiffness};
+
+/// What the works lack of the energy lost, over the energy before, at a damping h of the materials; without adhesion and with.
+fn lacking<T, M>(method: &M, damping: f64, strength: f64) -> Result<f64, InputError>
+where
+    T: Real + Into<f64>,
+    M: Method<T, (<ContactWorks<T> as Output<T>>::Observer, ())>,
+{
+    let c = T::constant;
+    let sphere = Sphere::solid(c(5e-6), c(2600.0))?;
+    let motion = NormalMotion::new(c(1.0))?;
+    // zeta_H of h = 1.
+    let unit = Simulation::new(Sphere::solid(5e-6, 2600.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
+    let material = damping / unit.groups(&NormalMotion::new(1.0)?)?.material_damping;
+    let scene = Simulation::new(sphere, Stiffness::new(c(1e10))?)
+        .with_damping(c(material))?
+        .with_ring(c(strength), c(0.5 * material))?;
+    let impact: SimulatedImpact<T, (), ContactWorks<T>> = scene.observe(method, &motion)?;
+    assert_eq!(impact.run.status, Status::Solved, "{damping}");
+    let e: f64 = impact.normal.overall_restitution().into();
+    let before: f64 = 0.5 * sphere.mass().into();
+    let works: [f64; 2] = [impact.outputs.material, impact.outputs.adhesion].map(Into::into);
+    if impact.normal.rebound_speed() == T::ZERO {
+        return Ok(0.0);
+    }
+    Ok(1.0 - e * e - (works[0] + works[1]) / before)
+}
+
+/// From mild to a million, 20 values a decade.
+fn dampings() -> impl Iterator<Item = f64> {
+    (0..=160).map(|step| 10_f64.powf(0.05 * f64::from(step) - 2.0))
+}
+
+#[test]
+fn double_precision() -> Result<(), InputError> {
+    for damping in dampings() {
+        for strength in [0.0, 1e-3] {
+            let lacking = [
+                lacking::<f64, _>(&Collocation::<7, f64>::new(1e-6)?, damping, strength)?,
+                lacking::<f64, _>(&Collocation::<9, f64>::new(1e-9)?, damping, strength)?,
+                lacking::<f64, _>(&Collocation::<12, f64>::new(1e-12)?, damping, strength)?,
+                lacking::<f64, _>(&Collocation::<14, f64>::new(1e-13)?, damping, strength)?,
+                lacking::<f64, _>(&Adaptive::new(1e-11)?, damping, strength)?,
+            ];
+            for (lacking, bound) in lacking.into_iter().zip([1e-6, 1e-9, 1e-12, 1e-13, 1e-11]) {
+                assert!(lacking.abs() < bound, "{damping}, {strength}: {lacking:e}, not {bound:e}");
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn single_precision() -> Result<(), InputError> {
+    for damping in dampings() {
+        for strength in [0.0, 1e-3] {
+            let collocation = lacking::<f32, _>(&Collocation::<8, f32>::new(1e-6)?, damping, strength)?;
+            let adaptive = lacking::<f32, _>(&Adaptive::new(1e-6)?, damping, strength)?;
+            for lacking in [collocation, adaptive] {
+                assert!(lacking.abs() < 5e-6, "{damping}, {strength}: {lacking:e}");
+            }
+        }
+    }
+    Ok(())
+}
