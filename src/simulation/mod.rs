@@ -19,6 +19,7 @@ mod outcome;
 mod outputs;
 mod paper;
 mod phase;
+mod relaxation;
 mod rest;
 mod ring;
 mod run;

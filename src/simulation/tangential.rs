@@ -16,6 +16,7 @@ use super::motion::NormalPath;
 use super::nodes::Nodes;
 use super::observer::Observer;
 use super::outcome::{TangentialContact, TangentialVelocities};
+use super::relaxation::{SLOW, relaxed};
 use super::ring::Ring;
 use super::scaled::Scaled;
 use super::stretch::{Stretch, dot, integrals};
@@ -269,8 +270,14 @@ impl<T: Real, P: SpinDamping<T>> TangentialMotion<T, P> {
                 peripheral_after: self.peripheral + turn * whole,
             };
         }
-        // Variation of constants: u = exp(-G) (u0 + turn * integral of exp(G) F).
         let (decay, whole_decay) = self.decay(stretch, T::ONE);
+        if whole_decay > T::constant(SLOW) {
+            let drive = elastic.map(|elastic| turn * elastic);
+            let (peripheral, peripheral_after) =
+                relaxed(self.peripheral, &drive, &self.decay_rates(stretch, T::ONE), stretch.forward);
+            return Slide { tangential, peripheral, tangential_after, peripheral_after };
+        }
+        // Variation of constants: u = exp(-G) (u0 + turn * integral of exp(G) F).
         for j in 0..N {
             elastic[j] = elastic[j] * decay[j].exp();
         }
@@ -283,17 +290,22 @@ impl<T: Real, P: SpinDamping<T>> TangentialMotion<T, P> {
         Slide { tangential, peripheral, tangential_after, peripheral_after }
     }
 
-    /// Integral G of a share of the peeling rate.
-    fn decay<const N: usize>(&self, stretch: &Stretch<T, N>, share: T) -> ([T; N], T)
-    where
-        T: Nodes<N>,
-    {
+    /// A share of the peeling rate, along the stretch.
+    fn decay_rates<const N: usize>(&self, stretch: &Stretch<T, N>, share: T) -> [T; N] {
         let rate = share * self.peeling.rate();
         let mut decay = [T::ZERO; N];
         for j in 0..N {
             decay[j] = rate * stretch.s[j] * stretch.rate[j];
         }
-        Self::running(&decay, stretch.forward)
+        decay
+    }
+
+    /// Integral G of a share of the peeling rate.
+    fn decay<const N: usize>(&self, stretch: &Stretch<T, N>, share: T) -> ([T; N], T)
+    where
+        T: Nodes<N>,
+    {
+        Self::running(&self.decay_rates(stretch, share), stretch.forward)
     }
 }
 
@@ -328,13 +340,19 @@ impl<T: Real, P: SpinDamping<T>> Observer<T> for TangentialMotion<T, P> {
         }
         let share = self.gyration_ratio / (T::ONE + self.gyration_ratio);
         let (decay, whole_decay) = self.decay(stretch, share);
-        let mut left = T::ZERO;
+        let (velocity, after) = if whole_decay > T::constant(SLOW) {
+            let rates = self.decay_rates(stretch, share);
+            relaxed(self.tangential, &[T::ZERO; N], &rates, stretch.forward)
+        } else {
+            let left = |decay: T| self.tangential * (-decay).exp();
+            (decay.map(left), left(whole_decay))
+        };
+        let mut way = T::ZERO;
         for j in 0..N {
-            left = left + T::WHOLE[j] * stretch.rate[j] * (-decay[j]).exp();
+            way = way + T::WHOLE[j] * stretch.rate[j] * velocity[j];
         }
-        let way = left * self.tangential;
         let energy = self.energy();
-        self.tangential = self.tangential * (-whole_decay).exp();
+        self.tangential = after;
         self.peripheral = self.tangential;
         // Rolling, friction only passes the moment on.
         self.peeling_loss = self.peeling_loss + (energy - self.energy());
@@ -377,7 +395,9 @@ impl<T: Real, P: SpinDamping<T>> Observer<T> for TangentialMotion<T, P> {
         }
         let slide = self.slide(law, stretch);
         let slope = self.direction * closing + self.peeling.rate() * s * rate * slide.peripheral_after;
-        (slide.tangential_after - slide.peripheral_after) / slope
+        let late = (slide.tangential_after - slide.peripheral_after) / slope;
+        // Where nothing but the moment ends the slip, slip and slope end together.
+        if late.is_finite() { late } else { T::ZERO }
     }
 
     fn observe_rolling<const N: usize>(
