@@ -261,7 +261,7 @@ impl<T: PhaseNodes<M>, const N: usize, const M: usize> PhaseNodes<M> for Dual<T,
     const Z: [Self; M] = fixed_all(T::Z);
     const SHARES: [Share<Self>; M] = fixed_shares(T::SHARES);
     const RUNNING: [[Self; M]; M] = fixed_rows(T::RUNNING);
-    const RUNNING_POWERS: [(Self, Self); M] = fixed_pairs(T::RUNNING_POWERS);
+    const RUNNING_ENDS: [(Self, Self); M] = fixed_pairs(T::RUNNING_ENDS);
     const WHOLE: [Self; M] = fixed_all(T::WHOLE);
     const TAIL: [Self; M] = fixed_all(T::TAIL);
 }

@@ -107,6 +107,16 @@ pub enum Parameter {
     DimensionlessAdhesion,
     /// Damping for the unit of speed, given as such or for fixed point.
     DimensionlessDamping,
+    /// Unit of speed for fixed point, m/s.
+    SpeedUnit,
+    /// Approach speed over the unit of speed, for fixed point.
+    SpeedInUnits,
+    /// Any other velocity over the unit of speed, for fixed point; of a work of adhesion the rebound that it takes.
+    VelocityInUnits,
+    /// Speed k of the restitution law over the unit of speed, for fixed point.
+    RestitutionSpeedInUnits,
+    /// Coulomb's coefficient for fixed point.
+    FixedPointFriction,
 }
 
 impl Parameter {
@@ -117,7 +127,7 @@ impl Parameter {
     ///
     /// assert!(Parameter::ALL.iter().all(|parameter| parameter.range().0 < parameter.range().1));
     /// ```
-    pub const ALL: [Self; 43] = [
+    pub const ALL: [Self; 48] = [
         Self::Radius,
         Self::ContactRadiusRatio,
         Self::Thickness,
@@ -161,6 +171,11 @@ impl Parameter {
         Self::ImpulseOverMomentum,
         Self::DimensionlessAdhesion,
         Self::DimensionlessDamping,
+        Self::SpeedUnit,
+        Self::SpeedInUnits,
+        Self::VelocityInUnits,
+        Self::RestitutionSpeedInUnits,
+        Self::FixedPointFriction,
     ];
 
     /// Name, in the words of the field.
@@ -234,6 +249,11 @@ impl Parameter {
             Self::ImpulseOverMomentum => ("elastic impulse over momentum", "1", (0.0, 1e6)),
             Self::DimensionlessAdhesion => ("dimensionless strength of adhesion", "1", (0.0, 0.999)),
             Self::DimensionlessDamping => ("dimensionless damping", "1", (0.0, 0.5)),
+            Self::SpeedUnit => ("unit of speed", "m/s", (1e-12, 1e6)),
+            Self::SpeedInUnits => ("approach speed over the unit of speed", "1", (0.004, 8.0)),
+            Self::VelocityInUnits => ("velocity over the unit of speed", "1", (-8.0, 8.0)),
+            Self::RestitutionSpeedInUnits => ("restitution speed over the unit of speed", "1", (0.01, 100.0)),
+            Self::FixedPointFriction => ("friction coefficient in fixed point", "1", (0.0, 7.0)),
             Self::SpeedRatio => ("largest over critical speed", "1", (1.1, 1e4)),
         }
     }

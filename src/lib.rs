@@ -23,7 +23,7 @@ mod surface;
 pub mod uncertainty;
 
 #[cfg(feature = "fixed")]
-pub use crate::fixed::FixedPoint;
+pub use crate::fixed::{FixedPoint, InFixedPoint};
 pub use classify::{Class, Classification, ContactClass, CriticalSpeed, Outcome, SurfaceMotion};
 pub use dual::Dual;
 pub use error::{Fault, ImpactError, InputError, Parameter};

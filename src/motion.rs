@@ -56,7 +56,7 @@ pub trait Oblique<T: Real>: Approach<T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NormalMotion<T> {
-    speed: T,
+    pub(crate) speed: T,
 }
 
 impl<T: Real> NormalMotion<T> {
@@ -139,8 +139,8 @@ impl<T: Real> Approach<T> for NormalMotion<T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ObliqueMotion<T> {
-    normal: NormalMotion<T>,
-    tangential: T,
+    pub(crate) normal: NormalMotion<T>,
+    pub(crate) tangential: T,
 }
 
 impl<T: Real> ObliqueMotion<T> {
@@ -217,8 +217,8 @@ impl<T: Real> Oblique<T> for ObliqueMotion<T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PlanarMotion<T> {
-    oblique: ObliqueMotion<T>,
-    peripheral: T,
+    pub(crate) oblique: ObliqueMotion<T>,
+    pub(crate) peripheral: T,
 }
 
 impl<T: Real> Approach<T> for PlanarMotion<T> {

@@ -56,6 +56,16 @@ pub trait Real:
     /// Quotient, held at the type's largest number where it would overflow; the divisor is positive.
     fn saturating_div(self, divisor: Self) -> Self;
 
+    /// Square root of a product that is not negative; a type of few digits rounds once.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::Real::geometric_mean(2.0_f32, 8.0), 4.0);
+    /// ```
+    #[inline]
+    fn geometric_mean(self, other: Self) -> Self {
+        (self * other).sqrt()
+    }
+
     /// Size without sign.
     #[inline]
     fn abs(self) -> Self {

@@ -35,7 +35,7 @@ pub struct NoFriction;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Coulomb<T> {
-    coefficient: T,
+    pub(crate) coefficient: T,
 }
 
 impl<T: Real> Coulomb<T> {

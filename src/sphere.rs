@@ -20,10 +20,10 @@ use crate::{InputError, Parameter, Real, error::Fault};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Sphere<T> {
-    radius: T,
-    density: T,
-    gyration_ratio: T,
-    contact_inertia: T,
+    pub(crate) radius: T,
+    pub(crate) density: T,
+    pub(crate) gyration_ratio: T,
+    pub(crate) contact_inertia: T,
 }
 
 impl<T: Real> Sphere<T> {

@@ -81,6 +81,7 @@ fn arithmetic_rounds_to_nearest_and_never_wraps() {
             assert_nearest(a / b, x / y);
         }
         assert_nearest(a.abs().sqrt(), x.abs().sqrt());
+        assert_nearest(a.abs().geometric_mean(b.abs()), (x.abs() * y.abs()).sqrt());
     }
     for bound in [smallest, largest] {
         let bound = FixedPoint::nearest(bound);

@@ -6,8 +6,8 @@ use microimpact::rigid::{AdhesionCoefficient, Departure, WorkOfAdhesion, infer, 
 use microimpact::simulation::{Collocation, DimensionlessImpact, FixedCost, RestCriterion, Simulation};
 use microimpact::uncertainty::{NormalDistribution, rebound_probability};
 use microimpact::{
-    ConstantRestitution, Coulomb, CriticalSpeed, Dual, Fault, ImpactError, InputError, Material, NormalMotion,
-    Parameter, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
+    ConstantRestitution, Coulomb, CriticalSpeed, Dual, Fault, ImpactError, InFixedPoint, InputError, Material,
+    NormalMotion, Parameter, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
 };
 
 type Checked = Result<(), ImpactError>;
@@ -38,7 +38,7 @@ fn restitution_table<T: Single>(ratio: T, impulse: T) -> Result<(), InputError> 
 }
 
 /// Supplies a value where the parameter is asked for; all other inputs are valid.
-fn supply<T: Single + NormalDistribution>(parameter: Parameter, value: T) -> Checked {
+fn supply<T: Single + NormalDistribution + Into<f64>>(parameter: Parameter, value: T) -> Checked {
     let c = T::constant;
     let scene = RigidBody::new(sphere(), perfect());
     let departure = |normal, tangential| Departure { normal, tangential };
@@ -117,6 +117,7 @@ fn supply<T: Single + NormalDistribution>(parameter: Parameter, value: T) -> Che
         Parameter::ImpulseOverMomentum => restitution_table(c(10.0), value),
         Parameter::DimensionlessAdhesion => DimensionlessImpact::new(value, T::ZERO, T::ZERO).map(drop),
         Parameter::DimensionlessDamping => DimensionlessImpact::new(T::ZERO, T::ZERO, value).map(drop),
+        Parameter::SpeedUnit => scene.in_fixed_point(value).map(drop),
         other => panic!("{other:?} is not tested"),
     };
     Ok(checked?)
@@ -128,17 +129,22 @@ fn beyond(bound: f64, outwards: bool) -> f64 {
     if outwards { bound + step } else { bound - step }
 }
 
-/// Parameters that follow from others, or are counted: tested one by one below, and the margin with its tables.
-const DERIVED: [Parameter; 6] = [
+/// Parameters that follow from others, or are counted: tested one by one below, the margin with its tables, and what fixed
+/// point holds with the rigid body in it.
+const DERIVED: [Parameter; 10] = [
     Parameter::AdhesionRatio,
     Parameter::ForceRatio,
     Parameter::DampingRatio,
     Parameter::Sweeps,
     Parameter::TurningPoints,
     Parameter::BoundaryMargin,
+    Parameter::SpeedInUnits,
+    Parameter::VelocityInUnits,
+    Parameter::RestitutionSpeedInUnits,
+    Parameter::FixedPointFriction,
 ];
 
-fn assert_bounds_hold<T: Single + NormalDistribution>(not_a_number: [T; 3]) {
+fn assert_bounds_hold<T: Single + NormalDistribution + Into<f64>>(not_a_number: [T; 3]) {
     for parameter in Parameter::ALL.into_iter().filter(|parameter| !DERIVED.contains(parameter)) {
         let (smallest, largest) = parameter.range();
         let fault = |value: T, fault| {

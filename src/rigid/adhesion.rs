@@ -42,7 +42,7 @@ impl<T: Real> ReboundAdhesion<T> for NoAdhesion {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct AdhesionCoefficient<T> {
-    remainder: T,
+    pub(crate) remainder: T,
 }
 
 impl<T: Real> AdhesionCoefficient<T> {
@@ -88,7 +88,7 @@ impl<T: Real> ReboundAdhesion<T> for AdhesionCoefficient<T> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct WorkOfAdhesion<T> {
     /// sqrt(2 W_A/m): the rebound whose whole energy adhesion takes, m/s.
-    speed: T,
+    pub(crate) speed: T,
 }
 
 impl<T: Real> WorkOfAdhesion<T> {
@@ -117,7 +117,7 @@ impl<T: Real> ReboundAdhesion<T> for WorkOfAdhesion<T> {
             return T::ZERO;
         }
         // The factors keep the digits that a difference of squares loses close to capture.
-        ((body_rebound - self.speed) * (body_rebound + self.speed)).sqrt()
+        (body_rebound - self.speed).geometric_mean(body_rebound + self.speed)
     }
 
     #[inline]

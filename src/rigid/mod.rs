@@ -53,12 +53,12 @@ use crate::{
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RigidBody<T, L, A = NoAdhesion, F = NoFriction, D = NoRollingDissipation, E = NoMicroforce> {
-    sphere: Sphere<T>,
-    restitution: L,
-    adhesion: A,
-    friction: F,
-    rolling: D,
-    microforce: E,
+    pub(crate) sphere: Sphere<T>,
+    pub(crate) restitution: L,
+    pub(crate) adhesion: A,
+    pub(crate) friction: F,
+    pub(crate) rolling: D,
+    pub(crate) microforce: E,
 }
 
 /// The result of an impact; `X` is `()` without friction and [`TangentialImpact`] with it.

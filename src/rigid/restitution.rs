@@ -49,7 +49,7 @@ pub trait RestitutionLaw<T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ConstantRestitution<T> {
-    restitution: T,
+    pub(crate) restitution: T,
 }
 
 impl<T: Real> ConstantRestitution<T> {
@@ -94,7 +94,7 @@ impl<T: Real> RestitutionLaw<T> for ConstantRestitution<T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SpeedRestitution<T> {
-    speed: T,
+    pub(crate) speed: T,
 }
 
 impl<T: Real> SpeedRestitution<T> {

@@ -119,6 +119,10 @@ impl<T: Real> DimensionlessImpact<T> {
 
     /// The impact, solved by a method.
     ///
+    /// With groups in the ranges of [`new`](Self::new) and by [`FixedCost`](super::FixedCost), every value on the way,
+    /// intermediate ones included, stays below 128 in size, or below 256 where the sphere is captured. By
+    /// [`Collocation`](super::Collocation) they stay below 1e25, which f32 holds.
+    ///
     /// ```
     /// use microimpact::simulation::{DimensionlessImpact, FixedCost};
     /// use microimpact::Outcome;

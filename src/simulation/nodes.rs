@@ -2,7 +2,7 @@
 //! whole phase of the motion, for any number of nodes.
 
 // Indices run over arrays of the length that their loops count to.
-#![allow(clippy::indexing_slicing)]
+#![allow(clippy::indexing_slicing, clippy::needless_range_loop)]
 
 use core::f64::consts::PI;
 
@@ -284,14 +284,37 @@ pub trait PhaseNodes<const N: usize>: Real {
     const SHARES: [Share<Self>; N];
     /// Integral of the weighted f from 0 to node j, over the square of that node: sum over k of `RUNNING[k][j]` f(k).
     const RUNNING: [[Self; N]; N];
-    /// The same for f = 1 and f = m^2.
-    const RUNNING_POWERS: [(Self, Self); N];
+    /// The same for two f linear in m^2: one at the first node and zero at the last, and the reverse.
+    const RUNNING_ENDS: [(Self, Self); N];
     /// Integral of the weighted f from 0 to 1.
     const WHOLE: [Self; N];
     /// Share in f of the highest polynomial orthogonal under the weight, in units of the weighted integral of f.
     ///
     /// Up to a common factor these are the weights of barycentric interpolation too.
     const TAIL: [Self; N];
+
+    /// Adds to each sum what the weighted product f g gives up to its node, as [`RUNNING`](Self::RUNNING) has it.
+    ///
+    /// A type of few digits rounds each sum once.
+    ///
+    /// ```
+    /// use microimpact::simulation::PhaseNodes;
+    ///
+    /// let mut sums = [0.0_f64; 5];
+    /// PhaseNodes::add_running(&mut sums, &[2.0; 5], &[0.5; 5]);
+    /// for (sum, ends) in sums.iter().zip(<f64 as PhaseNodes<5>>::RUNNING_ENDS) {
+    ///     assert!((sum - (ends.0 + ends.1)).abs() < 1e-15);
+    /// }
+    /// ```
+    #[inline]
+    fn add_running(sums: &mut [Self; N], f: &[Self; N], g: &[Self; N]) {
+        for k in 0..N {
+            let product = f[k] * g[k];
+            for j in 0..N {
+                sums[j] = sums[j] + Self::RUNNING[k][j] * product;
+            }
+        }
+    }
 }
 
 /// A number type that can pass from the `N` nodes of a phase to `M` of Radau's.
@@ -318,8 +341,8 @@ macro_rules! impl_phase_nodes {
             const Z: [Self; N] = narrowed!($float, Phase::<N>::Z);
             const SHARES: [Share<Self>; N] = shares!($float, N, Phase::<N>::Z);
             const RUNNING: [[Self; N]; N] = narrowed_square!($float, Phase::<N>::RUNNING);
-            const RUNNING_POWERS: [(Self, Self); N] = {
-                let wide = Phase::<N>::RUNNING_POWERS;
+            const RUNNING_ENDS: [(Self, Self); N] = {
+                let wide = Phase::<N>::RUNNING_ENDS;
                 let mut narrow = [(0.0, 0.0); N];
                 let mut j = 0;
                 while j < N {
@@ -395,20 +418,20 @@ impl<const N: usize> Phase<N> {
         }
         whole
     };
-    const RUNNING_POWERS: [(f64, f64); N] = {
-        let mut powers = [(0.0, 0.0); N];
+    const RUNNING_ENDS: [(f64, f64); N] = {
+        let (mut ends, last_square) = ([(0.0, 0.0); N], square(Self::Z[N - 1]));
         let mut j = 0;
         while j < N {
             let mut k = 0;
             while k < N {
-                let m = 1.0 - Self::Z[k] * Self::Z[k];
-                powers[j].0 += Self::RUNNING[k][j];
-                powers[j].1 += Self::RUNNING[k][j] * m * m;
+                let first = (square(Self::Z[k]) - last_square) / (square(Self::Z[0]) - last_square);
+                ends[j].0 += Self::RUNNING[k][j] * first;
+                ends[j].1 += Self::RUNNING[k][j] * (1.0 - first);
                 k += 1;
             }
             j += 1;
         }
-        powers
+        ends
     };
 
     /// Leading coefficients of Lagrange's polynomials, times the norm of the highest orthogonal one.
@@ -457,8 +480,13 @@ impl<const N: usize> Phase<N> {
 }
 
 const fn phase_weight(z: f64) -> f64 {
+    z * z * square(z)
+}
+
+/// Square m^2 of the contact radius at z, as a share of the peak's.
+const fn square(z: f64) -> f64 {
     let m = 1.0 - z * z;
-    z * z * m * m
+    m * m
 }
 
 /// Square root by Newton's method, from above.

@@ -58,7 +58,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         let mut phase = Self { peak: T::ONE, free: zeros, loss: zeros, speed: zeros };
         phase.peak = phase.peak - (law.potential(phase.peak) - energy) / law.slope(phase.peak);
         phase.describe(law, false);
-        let start = phase.powers();
+        let start = phase.ends();
         for j in 0..N {
             phase.speed[j] = phase.free[j].max(T::SMALLEST).sqrt() + Self::gain(start, j);
         }
@@ -74,9 +74,9 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
 
     /// From the approach to the rebound from the same peak, with what damping takes estimated.
     pub(super) fn turn(&mut self, law: &impl NormalLaw<T>) {
-        let before = self.powers();
+        let before = self.ends();
         self.describe(law, true);
-        let after = self.powers();
+        let after = self.ends();
         // What damping gave to the one, seen backwards, it takes from the other; what the losses differ by comes on top.
         let change = (before.0 + after.0, before.1 + after.1);
         for j in 0..N {
@@ -87,11 +87,13 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
 
     /// Free squares and losses for the present peak.
     pub(super) fn describe(&mut self, law: &impl NormalLaw<T>, rebound: bool) {
-        let (two, four) = (T::constant(2.0), T::constant(if rebound { -4.0 } else { 4.0 }));
+        // A copy, which the compiler knows to stay the same from node to node.
+        let (peak, four) = (self.peak, T::constant(if rebound { -4.0 } else { 4.0 }));
         for j in 0..N {
             let share = &T::SHARES[j];
-            self.free[j] = two * law.fall(self.peak, share);
-            self.loss[j] = four * self.peak * law.loss_over_square(self.peak, share, rebound);
+            let fall = law.fall(peak, share);
+            self.free[j] = fall + fall;
+            self.loss[j] = four * peak * law.loss_over_square(peak, share, rebound);
         }
     }
 
@@ -111,12 +113,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     pub(super) fn sweep<const MEASURED: bool>(&mut self) -> (T, T) {
         let half = T::constant(0.5);
         let mut square = self.free;
-        for k in 0..N {
-            let power = self.loss[k] * self.speed[k];
-            for j in 0..N {
-                square[j] = square[j] + <T as PhaseNodes<N>>::RUNNING[k][j] * power;
-            }
-        }
+        T::add_running(&mut square, &self.loss, &self.speed);
         let (mut gained, mut change) = (T::ZERO, T::ZERO);
         for j in 0..N {
             // A captured sphere turns before s = 0: the floor lets the loss exceed the energy all the same.
@@ -126,7 +123,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
                 change = change + step * step;
             }
             self.speed[j] = speed;
-            gained = gained + <T as PhaseNodes<N>>::WHOLE[j] * self.loss[j] * speed;
+            gained = gained + T::WHOLE[j] * self.loss[j] * speed;
         }
         (half * gained, change)
     }
@@ -158,20 +155,18 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         Tails { lost, power: half * power_tail.abs() / energy, slowness: slowness_tail.abs() / slowness }
     }
 
-    /// The loss as c0 + c1 m^2.
+    /// Half the losses at the first and the last node.
     #[inline]
-    fn powers(&self) -> (T, T) {
-        let (first, last) = (&T::SHARES[0], &T::SHARES[N - 1]);
-        let (at_first, at_last) = (self.loss[0], self.loss[N - 1]);
-        let slope = (at_first - at_last) / (first.square - last.square);
-        (at_last - slope * last.square, slope)
+    fn ends(&self) -> (T, T) {
+        (T::constant(0.5) * self.loss[0], T::constant(0.5) * self.loss[N - 1])
     }
 
-    /// What losses c0 + c1 m^2 add to the speed at node j, to first order and as if the speed were the same everywhere.
+    /// What losses linear in m^2, given by half their [`ends`](Self::ends), add to the speed at node j, to first order and as
+    /// if the speed were the same everywhere.
     #[inline]
-    fn gain((constant, square): (T, T), j: usize) -> T {
-        let (of_one, of_square) = T::RUNNING_POWERS[j];
-        T::constant(0.5) * (constant * of_one + square * of_square)
+    fn gain((first, last): (T, T), j: usize) -> T {
+        let (of_first, of_last) = T::RUNNING_ENDS[j];
+        first * of_first + last * of_last
     }
 
     /// The whole phase at Radau's nodes, for what is integrated along it; z runs against time on approach.

@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use microimpact::Real;
-use microimpact::simulation::{PhaseNodes, Share};
+use microimpact::simulation::{Nodes, PhaseNodes, Share};
 
 /// Rounding to f64 alone.
 pub const EXACT: u8 = 0;
@@ -12,6 +12,8 @@ pub const EXACT: u8 = 0;
 pub const DOWN: u8 = 1;
 /// Rounding to the nearest of these numbers.
 pub const NEAREST: u8 = 2;
+/// Rounding to f32.
+pub const SINGLE: u8 = 3;
 
 thread_local! {
     static LARGEST: Cell<f64> = const { Cell::new(0.0) };
@@ -37,6 +39,7 @@ impl<const ROUNDING: u8> Checked<ROUNDING> {
         Self(match ROUNDING {
             DOWN => units.floor() / f64::from(1 << 24),
             NEAREST => units.round() / f64::from(1 << 24),
+            SINGLE => f64::from(value as f32),
             _ => value,
         })
     }
@@ -70,8 +73,8 @@ impl<const ROUNDING: u8> Neg for Checked<ROUNDING> {
 impl<const ROUNDING: u8> Real for Checked<ROUNDING> {
     const ZERO: Self = Self(0.0);
     const ONE: Self = Self(1.0);
-    const EPSILON: Self = Self(6e-8);
-    const SMALLEST: Self = Self(6e-8);
+    const EPSILON: Self = Self(if ROUNDING == SINGLE { f32::EPSILON as f64 } else { 6e-8 });
+    const SMALLEST: Self = Self(if ROUNDING == SINGLE { f32::MIN_POSITIVE as f64 } else { 6e-8 });
 
     fn constant(value: f64) -> Self {
         Self::recorded(value)
@@ -98,6 +101,16 @@ impl<const ROUNDING: u8> Real for Checked<ROUNDING> {
     }
 }
 
+impl<const ROUNDING: u8, const N: usize> Nodes<N> for Checked<ROUNDING> {
+    const Z: [Self; N] = all(<f64 as Nodes<N>>::Z);
+    const RUNNING: [[Self; N]; N] = rows(<f64 as Nodes<N>>::RUNNING);
+    const TURNING: [[Self; N]; N] = rows(<f64 as Nodes<N>>::TURNING);
+    const WHOLE: [Self; N] = all(<f64 as Nodes<N>>::WHOLE);
+    const WHOLE_TURNING: [Self; N] = all(<f64 as Nodes<N>>::WHOLE_TURNING);
+    const TAIL: [Self; N] = all(<f64 as Nodes<N>>::TAIL);
+    const LEGENDRE: [[Self; N]; N] = rows(<f64 as Nodes<N>>::LEGENDRE);
+}
+
 impl<const ROUNDING: u8, const N: usize> PhaseNodes<N> for Checked<ROUNDING> {
     const Z: [Self; N] = all(<f64 as PhaseNodes<N>>::Z);
     const SHARES: [Share<Self>; N] = {
@@ -116,19 +129,12 @@ impl<const ROUNDING: u8, const N: usize> PhaseNodes<N> for Checked<ROUNDING> {
         }
         shares
     };
-    const RUNNING: [[Self; N]; N] = {
-        let (mut rows, mut i) = ([[Checked(0.0); N]; N], 0);
-        while i < N {
-            rows[i] = all(<f64 as PhaseNodes<N>>::RUNNING[i]);
-            i += 1;
-        }
-        rows
-    };
-    const RUNNING_POWERS: [(Self, Self); N] = {
+    const RUNNING: [[Self; N]; N] = rows(<f64 as PhaseNodes<N>>::RUNNING);
+    const RUNNING_ENDS: [(Self, Self); N] = {
         let (mut pairs, mut i) = ([(Checked(0.0), Checked(0.0)); N], 0);
         while i < N {
-            let (one, square) = <f64 as PhaseNodes<N>>::RUNNING_POWERS[i];
-            pairs[i] = (Checked(one), Checked(square));
+            let (first, last) = <f64 as PhaseNodes<N>>::RUNNING_ENDS[i];
+            pairs[i] = (Checked(first), Checked(last));
             i += 1;
         }
         pairs
@@ -141,6 +147,15 @@ const fn all<const ROUNDING: u8, const N: usize>(from: [f64; N]) -> [Checked<ROU
     let (mut to, mut i) = ([Checked(0.0); N], 0);
     while i < N {
         to[i] = Checked(from[i]);
+        i += 1;
+    }
+    to
+}
+
+const fn rows<const ROUNDING: u8, const N: usize>(from: [[f64; N]; N]) -> [[Checked<ROUNDING>; N]; N] {
+    let (mut to, mut i) = ([[Checked(0.0); N]; N], 0);
+    while i < N {
+        to[i] = all(from[i]);
         i += 1;
     }
     to
