@@ -150,8 +150,13 @@ fn c(to: &mut impl Write, parts: &Parts, subject: &str) -> io::Result<()> {
     let Parts { smallest, margin, cells, .. } = parts;
     writeln!(to, "/* Critical speeds: {subject}. */")?;
     writeln!(to, "#include <stdint.h>\n#include <string.h>\n")?;
+    writeln!(
+        to,
+        "/* With microimpact.h: {{BOUNDARY_SMALLEST_RADIUS, BOUNDARY_MARGIN, boundary, BOUNDARY_CELLS}} is a table. */"
+    )?;
     writeln!(to, "#define BOUNDARY_CELLS {}u", cells.len())?;
-    writeln!(to, "#define BOUNDARY_FIRST {}u /* bits of the smallest radius, {smallest:e} m */", smallest.to_bits())?;
+    writeln!(to, "#define BOUNDARY_SMALLEST_RADIUS {smallest:e}f /* m */")?;
+    writeln!(to, "#define BOUNDARY_FIRST {}u /* bits of the smallest radius */", smallest.to_bits())?;
     writeln!(to, "#define BOUNDARY_MARGIN {margin}u\n")?;
     writeln!(to, "static const int32_t boundary[BOUNDARY_CELLS][4] = {{")?;
     for [constant, linear, square, cube] in cells {
@@ -166,7 +171,7 @@ const C_FUNCTION: &str = "\
 enum boundary_verdict { BOUNDARY_REBOUND, BOUNDARY_CAPTURE, BOUNDARY_TOO_CLOSE_TO_CALL, BOUNDARY_OUTSIDE_TABLE };
 
 /* Radius in m; approach speed in m/s, from 1e-12 to 1e6. Right shifts of negative numbers keep the sign. */
-static enum boundary_verdict boundary_classify(float radius, float speed)
+static inline enum boundary_verdict boundary_classify(float radius, float speed)
 {
     uint32_t r, v, from_first, f, q;
     memcpy(&r, &radius, sizeof r);

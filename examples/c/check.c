@@ -99,6 +99,120 @@ static void simulate(void)
     free(scene), free(motions), free(written), free(results);
 }
 
+static void boundary(void)
+{
+    enum { CELLS = 2 };
+    int32_t(*cells)[4] = malloc(CELLS * sizeof *cells);
+    memset(cells, 0, CELLS * sizeof *cells);
+    MicroimpactContactScene *scene = copy(&CONTACT, sizeof CONTACT);
+    MicroimpactMotion *motion = copy(&MOTION, sizeof MOTION);
+    MicroimpactBoundaryTable *table = malloc(sizeof *table);
+    MicroimpactVerdict *verdict = malloc(sizeof *verdict);
+    MicroimpactError error;
+
+    assert(microimpact_boundary_make(scene, 5e-6f, cells, CELLS, table, &error) == MICROIMPACT_STATUS_OK);
+    assert(table->cells == cells && table->count == CELLS && table->smallest_radius <= 5e-6f);
+    assert(microimpact_boundary_check(table, &error) == MICROIMPACT_STATUS_OK);
+    assert(microimpact_boundary_classify(table, 5e-6f, motion, verdict, &error) == MICROIMPACT_STATUS_OK);
+    assert(*verdict == MICROIMPACT_VERDICT_REBOUND);
+    motion->approach = 0.5f;
+    assert(microimpact_boundary_classify(table, 5e-6f, motion, verdict, NULL) == MICROIMPACT_STATUS_OK);
+    assert(*verdict == MICROIMPACT_VERDICT_CAPTURE);
+    const float outside[] = {NAN, INFINITY, -INFINITY, -5e-6f, 0.0f, 1e-6f, 1e-5f, 3.4e38f};
+    for (size_t i = 0; i < sizeof outside / sizeof outside[0]; i++) {
+        assert(microimpact_boundary_classify(table, outside[i], motion, verdict, &error) == MICROIMPACT_STATUS_OK);
+        assert(*verdict == MICROIMPACT_VERDICT_OUTSIDE_TABLE);
+    }
+
+    assert(microimpact_boundary_make(NULL, 5e-6f, cells, CELLS, table, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_boundary_make(scene, 5e-6f, NULL, CELLS, table, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_boundary_make(scene, 5e-6f, cells, CELLS, NULL, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_boundary_make(scene, 5e-6f, cells, SIZE_MAX, table, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_boundary_make(scene, NAN, cells, CELLS, table, &error) == MICROIMPACT_STATUS_INPUT);
+    assert(error.fault == MICROIMPACT_FAULT_NOT_FINITE);
+    /* The cells of a failure hold no table. */
+    assert(microimpact_boundary_check(table, &error) == MICROIMPACT_STATUS_INPUT);
+    assert(microimpact_boundary_make(scene, 5e-6f, cells, CELLS, table, NULL) == MICROIMPACT_STATUS_OK);
+    assert(microimpact_boundary_check(NULL, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_boundary_classify(NULL, 5e-6f, motion, verdict, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_boundary_classify(table, 5e-6f, NULL, verdict, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_boundary_classify(table, 5e-6f, motion, NULL, &error) == MICROIMPACT_STATUS_POINTER);
+    motion->approach = NAN;
+    assert(microimpact_boundary_classify(table, 5e-6f, motion, verdict, &error) == MICROIMPACT_STATUS_INPUT);
+    motion->approach = 2.8f;
+
+    /* A cell that is spoilt, in the whole table and around a radius, and a margin that is too small. */
+    cells[0][0] = INT32_MAX;
+    assert(microimpact_boundary_check(table, &error) == MICROIMPACT_STATUS_INPUT);
+    assert(microimpact_boundary_classify(table, 5e-6f, motion, verdict, &error) == MICROIMPACT_STATUS_INPUT);
+    cells[0][0] = cells[1][0];
+    table->margin = 0;
+    assert(microimpact_boundary_check(table, &error) == MICROIMPACT_STATUS_INPUT);
+    assert(microimpact_boundary_classify(table, 5e-6f, motion, verdict, &error) == MICROIMPACT_STATUS_INPUT);
+    /* A scene without a boundary. */
+    scene->adhesion_strength = 0.0f;
+    assert(microimpact_boundary_make(scene, 5e-6f, cells, CELLS, table, &error) == MICROIMPACT_STATUS_INPUT);
+    /* A table that was never filled. */
+    memset(table, 0, sizeof *table);
+    assert(microimpact_boundary_classify(table, 5e-6f, motion, verdict, &error) == MICROIMPACT_STATUS_POINTER);
+    memset(table, 0xff, sizeof *table);
+    assert(microimpact_boundary_classify(table, 5e-6f, motion, verdict, &error) == MICROIMPACT_STATUS_POINTER);
+
+    free(cells), free(scene), free(motion), free(table), free(verdict);
+}
+
+static void restitution(void)
+{
+    MicroimpactContactScene *scene = copy(&CONTACT, sizeof CONTACT);
+    MicroimpactMotion *motion = copy(&MOTION, sizeof MOTION);
+    MicroimpactRestitutionTable *table = malloc(sizeof *table);
+    MicroimpactTableReading *reading = malloc(sizeof *reading);
+    MicroimpactError error;
+
+    memset(table, 0, sizeof *table);
+    assert(microimpact_restitution_read(table, 5e-6f, motion, reading, &error) == MICROIMPACT_STATUS_UNMADE);
+    memset(table, 0xff, sizeof *table);
+    assert(microimpact_restitution_read(table, 5e-6f, motion, reading, &error) == MICROIMPACT_STATUS_UNMADE);
+
+    assert(microimpact_restitution_make(scene, 2e-6f, 10.0f, table, &error) == MICROIMPACT_STATUS_OK);
+    assert(microimpact_restitution_read(table, 5.06e-6f, motion, reading, NULL) == MICROIMPACT_STATUS_OK);
+    assert(reading->verdict == MICROIMPACT_VERDICT_REBOUND && reading->surface_motion != MICROIMPACT_SURFACE_MOTION_NONE);
+    assert(reading->restitution > 0.74f && reading->restitution < 0.75f && reading->restitution_error < 1e-3f);
+    motion->approach = 0.5f;
+    assert(microimpact_restitution_read(table, 5.06e-6f, motion, reading, &error) == MICROIMPACT_STATUS_OK);
+    assert(reading->verdict == MICROIMPACT_VERDICT_CAPTURE && reading->restitution == 0.0f);
+    const float outside[] = {NAN, INFINITY, -INFINITY, -5e-6f, 0.0f, 1e-6f, 1e-5f, 3.4e38f};
+    for (size_t i = 0; i < sizeof outside / sizeof outside[0]; i++) {
+        assert(microimpact_restitution_read(table, outside[i], motion, reading, &error) == MICROIMPACT_STATUS_OK);
+        assert(reading->verdict == MICROIMPACT_VERDICT_OUTSIDE_TABLE && reading->restitution < 0.0f);
+    }
+
+    assert(microimpact_restitution_read(NULL, 5e-6f, motion, reading, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_restitution_read(table, 5e-6f, NULL, reading, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_restitution_read(table, 5e-6f, motion, NULL, &error) == MICROIMPACT_STATUS_POINTER);
+    const MicroimpactRestitutionTable *crooked = (const MicroimpactRestitutionTable *)((uintptr_t)table + 1);
+    assert(microimpact_restitution_read(crooked, 5e-6f, motion, reading, &error) == MICROIMPACT_STATUS_POINTER);
+    motion->tangential = NAN;
+    assert(microimpact_restitution_read(table, 5e-6f, motion, reading, &error) == MICROIMPACT_STATUS_INPUT);
+    /* Everything in it but the mark is spoilt. */
+    motion->tangential = 0.0f;
+    for (size_t i = 0; i < sizeof table->words / sizeof table->words[0]; i++) {
+        uint32_t word = table->words[i];
+        table->words[i] = 0xffffffffu;
+        microimpact_restitution_read(table, 5e-6f, motion, reading, &error);
+        table->words[i] = word;
+    }
+
+    assert(microimpact_restitution_make(NULL, 2e-6f, 10.0f, table, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_restitution_make(scene, 2e-6f, 10.0f, NULL, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_restitution_make(scene, 2e-6f, 0.5f, table, &error) == MICROIMPACT_STATUS_INPUT);
+    char name[32];
+    microimpact_parameter_name(error.parameter, name, sizeof name);
+    assert(strstr(name, "speed"));
+
+    free(scene), free(motion), free(table), free(reading);
+}
+
 static void parameter_names(void)
 {
     for (size_t capacity = 0; capacity < 10; capacity++) {
@@ -133,6 +247,8 @@ int main(int count, char **arguments)
     }
     classify();
     simulate();
+    boundary();
+    restitution();
     parameter_names();
     return 0;
 }

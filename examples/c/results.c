@@ -1,9 +1,11 @@
-/* Classifies and simulates some impacts and prints every bit of the results. Runs on a microcontroller and on a host. */
+/* Classifies and simulates some impacts, looks them up in tables, and prints every bit of the results. Runs on a
+   microcontroller and on a host. */
 
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "boundary.h"
 #include "microimpact.h"
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
@@ -17,11 +19,68 @@ static const MicroimpactMotion MOTIONS[] = {
     {1.85f, 0.0f, 0.0f}, {0.5f, 0.0f, 0.0f},    {1.75f, 0.2f, 0.0f}, {1.0f, 5.0f, 0.0f},
 };
 
+/* Of one material on one surface, for the tables. */
+static const float RADII[] = {1e-6f, 2.5e-6f, 5.06e-6f, 1e-5f};
+static const MicroimpactMotion LOOKED_UP[] = {
+    {5.15957f, 0.0f, 0.0f}, {2.8f, 0.0f, 0.7388f}, {2.8f, 20.0f, 0.0f}, {1.4f, 0.0f, 0.0f}, {9.0f, 1.0f, -2.5f}, {300.0f, 0.0f, 0.0f},
+};
+static const float SMALLEST_RADIUS = 2e-6f, LARGEST_SPEED_RATIO = 10.0f;
+
+/* As the example `boundary` of the library has written it. */
+static const MicroimpactBoundaryTable CONSTANT = {BOUNDARY_SMALLEST_RADIUS, BOUNDARY_MARGIN, boundary, BOUNDARY_CELLS};
+
 static unsigned long bits(float number)
 {
     uint32_t word;
     memcpy(&word, &number, sizeof word);
     return word;
+}
+
+static int classify(const char *name, const MicroimpactBoundaryTable *table)
+{
+    MicroimpactVerdict verdict;
+    for (size_t i = 0; i < COUNT(RADII); i++) {
+        for (size_t j = 0; j < COUNT(LOOKED_UP); j++) {
+            if (microimpact_boundary_classify(table, RADII[i], &LOOKED_UP[j], &verdict, NULL) != MICROIMPACT_STATUS_OK)
+                return 0;
+            printf("%s %lu %lu %d\n", name, (unsigned long)i, (unsigned long)j, (int)verdict);
+            /* The function that comes with the constant says the same. */
+            if (table == &CONSTANT && (int)verdict != (int)boundary_classify(RADII[i], LOOKED_UP[j].approach))
+                return 0;
+        }
+    }
+    return 1;
+}
+
+static int boundaries(void)
+{
+    static int32_t cells[4][4];
+    MicroimpactBoundaryTable made;
+    if (microimpact_boundary_check(&CONSTANT, NULL) != MICROIMPACT_STATUS_OK || !classify("constant", &CONSTANT))
+        return 0;
+    if (microimpact_boundary_make(&CONTACT, SMALLEST_RADIUS, cells, COUNT(cells), &made, NULL) != MICROIMPACT_STATUS_OK)
+        return 0;
+    printf("made %08lx %lu\n", bits(made.smallest_radius), (unsigned long)made.margin);
+    for (size_t i = 0; i < made.count; i++)
+        printf("cell %ld %ld %ld %ld\n", (long)cells[i][0], (long)cells[i][1], (long)cells[i][2], (long)cells[i][3]);
+    return classify("boundary", &made);
+}
+
+static int restitutions(void)
+{
+    static MicroimpactRestitutionTable table;
+    MicroimpactTableReading r;
+    if (microimpact_restitution_make(&CONTACT, SMALLEST_RADIUS, LARGEST_SPEED_RATIO, &table, NULL) != MICROIMPACT_STATUS_OK)
+        return 0;
+    for (size_t i = 0; i < COUNT(RADII); i++) {
+        for (size_t j = 0; j < COUNT(LOOKED_UP); j++) {
+            if (microimpact_restitution_read(&table, RADII[i], &LOOKED_UP[j], &r, NULL) != MICROIMPACT_STATUS_OK)
+                return 0;
+            printf("restitution %lu %lu %d %d %08lx %08lx %08lx %08lx\n", (unsigned long)i, (unsigned long)j, (int)r.verdict,
+                   (int)r.surface_motion, bits(r.restitution), bits(r.restitution_error), bits(r.tangential), bits(r.peripheral));
+        }
+    }
+    return 1;
 }
 
 int main(void)
@@ -42,5 +101,9 @@ int main(void)
     for (size_t i = 0; i < written; i++)
         printf("contact %lu %d %08lx %08lx %08lx %08lx\n", (unsigned long)i, (int)contacts[i].impact_class, bits(contacts[i].restitution),
                bits(contacts[i].peak_indentation), bits(contacts[i].tangential), bits(contacts[i].spin));
+    if (!boundaries())
+        return 3;
+    if (!restitutions())
+        return 4;
     return 0;
 }

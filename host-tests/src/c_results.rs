@@ -2,8 +2,14 @@
 
 use std::fmt::Write;
 
-use microimpact::simulation::{Collocation, SimulatedImpact, Simulation, TangentialContact};
-use microimpact::{InputError, NormalMotion, RigidBody, SpeedRestitution, Sphere, Stiffness};
+use microimpact::boundary::{BoundarySlice, BoundaryTable, Reading, Rebound, RestitutionTable};
+use microimpact::simulation::{
+    Collocation, ContactImpulses, HystereticDamping, Ring, SimulatedImpact, Simulation, TangentialContact,
+};
+use microimpact::{
+    Coulomb, InputError, NormalMotion, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
+    SurfaceMotion,
+};
 
 /// Approach speed, tangential and peripheral velocity of each impact, m/s.
 pub const MOTIONS: [[f32; 3]; 8] = [
@@ -17,20 +23,38 @@ pub const MOTIONS: [[f32; 3]; 8] = [
     [1.0, 5.0, 0.0],
 ];
 
-/// The lines of both models, with every bit of each number.
+/// Radius of each sphere that is looked up in the tables, m.
+pub const RADII: [f32; 4] = [1e-6, 2.5e-6, 5.06e-6, 1e-5];
+
+/// Motions that are looked up, as [`MOTIONS`].
+pub const LOOKED_UP: [[f32; 3]; 6] =
+    [[5.15957, 0.0, 0.0], [2.8, 0.0, 0.7388], [2.8, 20.0, 0.0], [1.4, 0.0, 0.0], [9.0, 1.0, -2.5], [300.0, 0.0, 0.0]];
+
+/// Where the tables begin, m.
+const SMALLEST_RADIUS: f32 = 2e-6;
+const LARGEST_SPEED_RATIO: f32 = 10.0;
+
+/// Arguments with which the example `boundary` writes the constant of the C example.
+pub const CONSTANT: [&str; 6] = ["--smallest-radius", "2e-6", "--cells", "8", "--format", "c"];
+
+/// All lines, with every bit of each number.
 ///
 /// # Errors
 /// None for the values here.
 pub fn expected() -> Result<String, InputError> {
+    Ok(impacts()? + &boundaries()? + &restitutions()?)
+}
+
+/// The lines of both models.
+fn impacts() -> Result<String, InputError> {
     let sphere = Sphere::solid(5.06e-6_f32, 2600.0)?;
     let body = RigidBody::new(sphere, SpeedRestitution::new(130.0)?).with_work_of_adhesion(2.22e-12)?;
     let body = body.with_friction(0.1)?;
-    let contact = Simulation::new(sphere, Stiffness::new(7.5e10)?).with_damping(10.5)?.with_ring(250.0, 6.25)?;
-    let contact = contact.with_friction(0.1)?;
+    let contact = surface(5.06e-6)?.with_friction(0.1)?;
     let method = Collocation::<7, f32>::new(1e-6)?;
     let (mut rigid, mut simulated) = (String::new(), String::new());
-    for (index, [approach, tangential, peripheral]) in MOTIONS.into_iter().enumerate() {
-        let motion = NormalMotion::new(approach)?.with_tangential(tangential)?.with_peripheral_velocity(peripheral)?;
+    for (index, before) in MOTIONS.into_iter().enumerate() {
+        let motion = motion(before)?;
         let (impact, classification) = (body.impact(&motion), body.classify(&motion));
         line(
             &mut rigid,
@@ -56,6 +80,80 @@ pub fn expected() -> Result<String, InputError> {
         );
     }
     Ok(rigid + &simulated)
+}
+
+type Surface<T> = Simulation<T, HystereticDamping<T>, Ring<T>>;
+
+fn surface<T: Real>(radius: T) -> Result<Surface<T>, InputError> {
+    let c = T::constant;
+    let sphere = Sphere::solid(radius, c(2600.0))?;
+    Simulation::new(sphere, Stiffness::new(c(7.5e10))?).with_damping(c(10.5))?.with_ring(c(250.0), c(6.25))
+}
+
+fn motion([approach, tangential, peripheral]: [f32; 3]) -> Result<PlanarMotion<f32>, InputError> {
+    NormalMotion::new(approach)?.with_tangential(tangential)?.with_peripheral_velocity(peripheral)
+}
+
+/// The lines of the tables of critical speeds: that which the example `boundary` writes, and one made in single precision.
+fn boundaries() -> Result<String, InputError> {
+    let constant = BoundaryTable::<8>::new(2e-6_f64, |radius| {
+        surface(radius)?.critical_speed(&Collocation::<9, f64>::new(1e-9)?)
+    })?;
+    let made = BoundaryTable::<4>::new(SMALLEST_RADIUS, |radius| {
+        surface(radius)?.critical_speed(&Collocation::<7, f32>::new(1e-6)?)
+    })?;
+    let mut text = verdicts("constant", constant.as_slice())?;
+    let (smallest, margin, cells) = made.parts();
+    line(&mut text, "made", &[smallest]);
+    text.pop();
+    let _ = writeln!(text, " {margin}");
+    for [constant, linear, square, cube] in cells {
+        let _ = writeln!(text, "cell {constant} {linear} {square} {cube}");
+    }
+    Ok(text + &verdicts("boundary", made.as_slice())?)
+}
+
+fn verdicts(name: &str, table: BoundarySlice<'_>) -> Result<String, InputError> {
+    let mut text = String::new();
+    for (i, radius) in RADII.into_iter().enumerate() {
+        for (j, before) in LOOKED_UP.into_iter().enumerate() {
+            let verdict = table.classify(radius, &motion(before)?);
+            let _ = writeln!(text, "{name} {i} {j} {}", verdict as u8);
+        }
+    }
+    Ok(text)
+}
+
+/// The lines of the table of restitutions.
+fn restitutions() -> Result<String, InputError> {
+    let method = Collocation::<7, f32>::new(1e-6)?;
+    let boundary = BoundaryTable::new(SMALLEST_RADIUS, |radius| surface(radius)?.critical_speed(&method))?;
+    let table = RestitutionTable::<f32, 8, 6, 10>::new(boundary, LARGEST_SPEED_RATIO, |radius, speed| {
+        let surface = surface(radius)?;
+        let impact: SimulatedImpact<_, (), ContactImpulses<f32>> =
+            surface.observe(&method, &NormalMotion::new(speed)?)?;
+        let impulse = impact.outputs.elastic / (surface.sphere().mass() * speed);
+        Ok(Rebound { restitution: impact.normal.overall_restitution(), impulse })
+    })?;
+    let friction = Coulomb::new(0.1)?;
+    let mut text = String::new();
+    for (i, radius) in RADII.into_iter().enumerate() {
+        for (j, before) in LOOKED_UP.into_iter().enumerate() {
+            let motion = motion(before)?;
+            let (verdict, surface_motion, numbers) = match table.read(radius, &motion) {
+                Reading::Rebound { rebound, error } => {
+                    let after = rebound.separation(&friction, 0.4, &motion);
+                    let numbers = [rebound.restitution, error, after.tangential, after.peripheral];
+                    (0, if after.motion == SurfaceMotion::Sliding { 1 } else { 2 }, numbers)
+                }
+                Reading::Capture => (1, 0, [0.0; 4]),
+                Reading::TooCloseToCall => (2, 0, [-1.0, -1.0, 0.0, 0.0]),
+                Reading::OutsideTable => (3, 0, [-1.0, -1.0, 0.0, 0.0]),
+            };
+            line(&mut text, &format!("restitution {i} {j} {verdict} {surface_motion}"), &numbers);
+        }
+    }
+    Ok(text)
 }
 
 fn line(text: &mut String, start: &str, numbers: &[f32]) {

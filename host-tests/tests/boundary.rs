@@ -3,7 +3,7 @@
 use std::process::Command;
 
 use host_tests::run_example;
-use microimpact::boundary::{BoundaryTable, Reading, Rebound, RestitutionTable, Single, Verdict};
+use microimpact::boundary::{BoundarySlice, BoundaryTable, Reading, Rebound, RestitutionTable, Single, Verdict};
 use microimpact::simulation::{
     Collocation, ContactImpulses, HystereticDamping, Nodes, Ring, SimulatedImpact, Simulation, TangentialContact,
 };
@@ -450,6 +450,44 @@ fn table_of_the_firmware_is_current() {
     }
 }
 
+/// Radii within and around a table, and speeds close to the critical one and far from it.
+fn queries(table: &BoundaryTable<4>) -> Vec<(f32, f32)> {
+    let mut queries = Vec::new();
+    for k in 0..400 {
+        let radius = 1.8e-6 * 1.004_f32.powi(k);
+        let critical = table.critical_speed(radius).unwrap_or(1.0);
+        let factors = [1e-12 / critical, 0.5, 0.999, 0.999_95, 1.0, 1.000_05, 1.001, 2.0, 1e5];
+        queries.extend(factors.map(|factor| (radius, (critical * factor).clamp(1e-12, 1e6))));
+    }
+    queries.extend([0.0, -3e-6, f32::NAN, f32::INFINITY, 1e-45].map(|radius| (radius, 1.0)));
+    queries
+}
+
+/// A cell that is read alone gives the verdicts of the table, and tells of the table whether it is one.
+#[test]
+fn cells_say_what_the_table_says() {
+    let table = PAPER.table::<4>(2e-6).unwrap();
+    let (smallest, margin, cells) = table.parts();
+    let alone = |cells: &[[i32; 4]], radius: f32, speed: f32| {
+        let motion = NormalMotion::new(speed).unwrap();
+        let cell = BoundarySlice::cell(smallest, margin, cells, radius)?;
+        Ok(cell.map_or(Verdict::OutsideTable, |cell| cell.classify(radius, &motion)))
+    };
+    for (radius, speed) in queries(&table) {
+        assert_eq!(alone(cells, radius, speed), Ok(classify(&table, radius, speed)), "{radius:e} {speed:e}");
+    }
+    let mut spoilt = *cells;
+    spoilt[1][0] = 0;
+    let error = InputError { parameter: Parameter::CriticalSpeed, fault: Fault::TooSmall };
+    assert_eq!(BoundarySlice::from_parts(smallest, margin, &spoilt), Err(error));
+    // Cells are linear in the radius within an octave.
+    let second = smallest * 1.25..smallest * 1.5;
+    for (radius, speed) in queries(&table) {
+        let expected = if second.contains(&radius) { Err(error) } else { Ok(classify(&table, radius, speed)) };
+        assert_eq!(alone(&spoilt, radius, speed), expected, "{radius:e}");
+    }
+}
+
 /// The function in C gives the verdicts of the library, everywhere.
 #[test]
 fn example_writes_c_that_says_the_same() {
@@ -468,14 +506,7 @@ fn example_writes_c_that_says_the_same() {
     assert!(built.success());
 
     let table = PAPER.table::<4>(2e-6).unwrap();
-    let mut queries: Vec<(f32, f32)> = Vec::new();
-    for k in 0..400 {
-        let radius = 1.8e-6 * 1.004_f32.powi(k);
-        let critical = table.critical_speed(radius).unwrap_or(1.0);
-        let factors = [1e-12 / critical, 0.5, 0.999, 0.999_95, 1.0, 1.000_05, 1.001, 2.0, 1e5];
-        queries.extend(factors.map(|factor| (radius, (critical * factor).clamp(1e-12, 1e6))));
-    }
-    queries.extend([0.0, -3e-6, f32::NAN, f32::INFINITY, 1e-45].map(|radius| (radius, 1.0)));
+    let queries = queries(&table);
     let input: String = queries.iter().map(|(radius, speed)| format!("{radius:e} {speed:e}\n")).collect();
     std::fs::write(folder.join("queries"), input).unwrap();
     let queried = std::fs::File::open(folder.join("queries")).unwrap();

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use host_tests::c_results;
+
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/c")
 }
@@ -12,6 +14,19 @@ fn header() -> String {
     let bindings = cbindgen::Builder::new().with_crate(folder()).with_config(config).generate().unwrap();
     bindings.write(&mut text);
     String::from_utf8(text).unwrap()
+}
+
+/// The table that the example `boundary` writes for C.
+fn constant() -> String {
+    let output = host_tests::run_example("boundary", &c_results::CONSTANT, b"");
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let arguments = c_results::CONSTANT.join(" ");
+    let made_by = format!("/* Made by cargo run --release --example boundary -- {arguments} */\n");
+    made_by + &String::from_utf8(output.stdout).unwrap()
+}
+
+fn constant_file() -> PathBuf {
+    folder().join("boundary.h")
 }
 
 fn header_file() -> PathBuf {
@@ -26,9 +41,15 @@ fn header_is_current() {
 }
 
 #[test]
-#[ignore = "writes the header anew"]
-fn write_header() {
+fn constant_is_current() {
+    assert_eq!(std::fs::read_to_string(constant_file()).unwrap(), constant());
+}
+
+#[test]
+#[ignore = "writes the headers anew"]
+fn write_headers() {
     std::fs::write(header_file(), header()).unwrap();
+    std::fs::write(constant_file(), constant()).unwrap();
 }
 
 /// The C programs under the sanitizers; the library is built for that of addresses too, so that it sees what Rust writes.
@@ -89,6 +110,23 @@ mod sanitized {
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let printed = String::from_utf8(output.stdout).unwrap();
         assert_eq!(printed, c_results::expected().unwrap());
-        assert_eq!(printed.lines().count(), 2 * c_results::MOTIONS.len());
+        let lines = |kind: &str| printed.lines().filter(|line| line.starts_with(kind)).count();
+        assert_eq!(lines("rigid") + lines("contact"), 2 * c_results::MOTIONS.len());
+        // Every verdict of each table, and both motions along the surface.
+        let looked_up = c_results::RADII.len() * c_results::LOOKED_UP.len();
+        for table in ["constant", "boundary", "restitution"] {
+            assert_eq!(lines(table), looked_up);
+            for verdict in ["0", "1", "2", "3"] {
+                let said = |line: &str| line.starts_with(table) && line.split(' ').nth(3) == Some(verdict);
+                assert!(printed.lines().any(said), "{table} {verdict}");
+            }
+        }
+        for surface_motion in ["0 1", "0 2"] {
+            let said = |line: &str| {
+                line.starts_with("restitution")
+                    && line.split(' ').skip(3).take(2).collect::<Vec<_>>().join(" ") == surface_motion
+            };
+            assert!(printed.lines().any(said), "{surface_motion}");
+        }
     }
 }

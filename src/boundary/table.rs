@@ -1,25 +1,12 @@
 //! The critical speed over a range of radii.
 
 use super::Verdict;
-use super::logarithm::{GREATEST_ERROR, OCTAVE, Single, exact_logarithm, logarithm, number};
-use crate::{Approach, CriticalSpeed, Fault, InputError, Parameter, Real};
-
-/// Cells to an octave of radii: the uppermost bits of the fraction of a radius tell its cell.
-const CELLS_PER_OCTAVE: u32 = 4;
-const CELL: u32 = OCTAVE / CELLS_PER_OCTAVE;
-
-/// Parts of a cell that a place in it is counted in.
-const PARTS: u32 = 1 << 16;
-const BITS_PER_PART: u32 = CELL / PARTS;
-
-/// The largest margin of a table: 0.05, in units of 2^-23 octaves.
-const LARGEST_MARGIN: u32 = 590_000;
+use super::logarithm::{OCTAVE, Single, logarithm, number};
+use super::slice::{BoundarySlice, CELL, of_single};
+use crate::{Approach, CriticalSpeed, InputError, Real};
 
 /// The relative error that one unit of a logarithm is.
 const UNIT: f64 = core::f64::consts::LN_2 / OCTAVE as f64;
-
-/// The logarithm of the critical speed, less the margin, as a cubic of the radius, lowest power first, counted from the middle of a cell.
-type Cubic = [i32; 4];
 
 /// The critical speeds of a surface and a material over a range of radii, in `N` cells, with a bound for the error.
 ///
@@ -49,25 +36,10 @@ type Cubic = [i32; 4];
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BoundaryTable<const N: usize> {
-    cells: [Cubic; N],
+    cells: [[i32; 4]; N],
     /// Bits of the radius in the middle of the first cell.
     first: u32,
     pub(super) margin: u32,
-}
-
-/// A cubic at a place, counted in parts of the cell from its middle.
-#[inline]
-const fn at(cubic: &Cubic, place: i32) -> i32 {
-    let [constant, linear, square, cube] = *cubic;
-    let square = square.wrapping_add(times(cube, place));
-    let linear = linear.wrapping_add(times(square, place));
-    constant.wrapping_add(times(linear, place))
-}
-
-/// A coefficient times a place.
-#[inline]
-const fn times(coefficient: i32, place: i32) -> i32 {
-    ((coefficient as i64 * place as i64) >> 16) as i32
 }
 
 impl<const N: usize> BoundaryTable<N> {
@@ -86,6 +58,8 @@ impl<const N: usize> BoundaryTable<N> {
     ///
     /// [`Simulation::critical_speed`]: crate::simulation::Simulation::critical_speed
     /// [`RigidBody::critical_speed`]: crate::RigidBody::critical_speed
+    /// [`Parameter::CriticalSpeed`]: crate::Parameter::CriticalSpeed
+    /// [`Parameter::BoundaryMargin`]: crate::Parameter::BoundaryMargin
     ///
     /// ```
     /// use microimpact::boundary::BoundaryTable;
@@ -103,36 +77,12 @@ impl<const N: usize> BoundaryTable<N> {
     /// ```
     pub fn new<T: Single>(
         smallest: T,
-        mut critical: impl FnMut(T) -> Result<CriticalSpeed<T>, InputError>,
+        critical: impl FnMut(T) -> Result<CriticalSpeed<T>, InputError>,
     ) -> Result<Self, InputError> {
-        let smallest = Parameter::Radius.check(smallest)?.single();
-        let mut table = Self { cells: [[0; 4]; N], first: Self::first_middle(smallest), margin: 0 };
-        let (mut middle, mut worst, mut coarsest) = (table.first, 0_u32, 0);
-        for cubic in &mut table.cells {
-            let mut curve = |place: i32| {
-                // A place stands for the radii up to the next one.
-                let bits = middle.wrapping_add_signed(place * BITS_PER_PART as i32) + BITS_PER_PART / 2;
-                exact_critical_speed(Parameter::Radius.check(of_single(bits))?, &mut critical)
-            };
-            *cubic = interpolated(&mut curve)?;
-            let mut error = 0;
-            for place in EXTREMES {
-                error = curve(place)?.abs_diff(at(cubic, place)).max(error);
-            }
-            worst = error.max(worst);
-            coarsest = half_step(cubic).max(coarsest);
-            middle += CELL;
-        }
-        // Two units are the errors of the curve itself, three those of rounding a cubic, and three those of rounding the
-        // radius and the speed of a query to single precision.
-        let rounding = GREATEST_ERROR + 2 + 3 + 3 + coarsest;
-        table.margin = table.widest_jump().max(worst.saturating_mul(2)).saturating_add(rounding);
-        // A larger one is refused below.
-        let margin = table.margin.min(LARGEST_MARGIN) as i32;
-        for cubic in &mut table.cells {
-            cubic[0] = cubic[0].saturating_sub(margin);
-        }
-        table.checked()
+        const { Self::COUNTED }
+        let mut cells = [[0; 4]; N];
+        let BoundarySlice { first, margin, .. } = BoundarySlice::fill(smallest, &mut cells, critical)?;
+        Ok(Self { cells, first, margin })
     }
 
     /// A table from its parts: the radius `smallest` (m), the margin and the cells, as [`parts`](Self::parts) gives them;
@@ -141,6 +91,9 @@ impl<const N: usize> BoundaryTable<N> {
     /// # Errors
     /// A radius outside its range; [`Parameter::CriticalSpeed`] where a cell holds what is no speed;
     /// [`Parameter::BoundaryMargin`] where the margin is too large, or smaller than what neighbouring cells differ by.
+    ///
+    /// [`Parameter::CriticalSpeed`]: crate::Parameter::CriticalSpeed
+    /// [`Parameter::BoundaryMargin`]: crate::Parameter::BoundaryMargin
     ///
     /// ```
     /// use microimpact::NormalMotion;
@@ -159,16 +112,28 @@ impl<const N: usize> BoundaryTable<N> {
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub const fn from_parts(smallest: f32, margin: u32, cells: [[i32; 4]; N]) -> Result<Self, InputError> {
-        let (least, most) = Parameter::Radius.range();
-        if !(smallest >= least as f32 && smallest <= most as f32) {
-            let fault = match (smallest.is_finite(), smallest < least as f32) {
-                (false, _) => Fault::NotFinite,
-                (true, true) => Fault::TooSmall,
-                (true, false) => Fault::TooLarge,
-            };
-            return Err(InputError { parameter: Parameter::Radius, fault });
+        const { Self::COUNTED }
+        match BoundarySlice::from_parts(smallest, margin, &cells) {
+            Ok(BoundarySlice { first, margin, .. }) => Ok(Self { cells, first, margin }),
+            Err(error) => Err(error),
         }
-        Self { cells, first: Self::first_middle(smallest), margin }.checked()
+    }
+
+    const COUNTED: () = assert!(N > 0 && N <= 128, "a table has 1 to 128 cells");
+
+    /// The table without its number of cells.
+    ///
+    /// ```
+    /// use microimpact::boundary::{BoundaryTable, Verdict};
+    /// use microimpact::{CriticalSpeed, NormalMotion};
+    ///
+    /// let table = BoundaryTable::<2>::new(1e-6, |radius| Ok(CriticalSpeed::At(1e-6 / radius)))?;
+    /// assert_eq!(table.as_slice().classify(1.25e-6, &NormalMotion::new(0.9)?), Verdict::Rebound);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub const fn as_slice(&self) -> BoundarySlice<'_> {
+        BoundarySlice { cells: &self.cells, first: self.first, margin: self.margin }
     }
 
     /// Radius at which the table begins (m), margin in units of 2^-23 octaves, and cells.
@@ -248,32 +213,13 @@ impl<const N: usize> BoundaryTable<N> {
     /// ```
     #[inline]
     pub fn classify<T: Single>(&self, radius: T, motion: &impl Approach<T>) -> Verdict {
-        let Some(edge) = self.edge_at(radius) else {
-            return Verdict::OutsideTable;
-        };
-        let excess = logarithm(motion.normal().speed().single()).wrapping_sub(edge);
-        if excess as u32 <= 2 * self.margin {
-            Verdict::TooCloseToCall
-        } else if excess < 0 {
-            Verdict::Capture
-        } else {
-            Verdict::Rebound
-        }
+        self.as_slice().classify(radius, motion)
     }
 
     /// Logarithm of the critical speed of a radius.
     #[inline]
     pub(super) fn logarithm_at<T: Single>(&self, radius: T) -> Option<i32> {
-        Some(self.edge_at(radius)?.wrapping_add_unsigned(self.margin))
-    }
-
-    /// Logarithm of the slowest speed that is too close to call.
-    #[inline]
-    fn edge_at<T: Single>(&self, radius: T) -> Option<i32> {
-        // Whatever is no positive number, or too small, lies far beyond the last cell here.
-        let from_first = radius.single().to_bits().wrapping_sub(self.first);
-        let cubic = self.cells.get((from_first.wrapping_add(CELL / 2) / CELL) as usize)?;
-        Some(at(cubic, i32::from((from_first / BITS_PER_PART) as i16)))
+        Some(self.as_slice().edge_at(radius)?.wrapping_add_unsigned(self.margin))
     }
 
     /// Bits of the first and the last radius.
@@ -293,113 +239,4 @@ impl<const N: usize> BoundaryTable<N> {
         let (smallest, largest) = self.ends();
         f32::from_bits(number(logarithm).to_bits().max(smallest).min(largest))
     }
-
-    /// Bits of the middle of the cell in which a radius lies.
-    const fn first_middle(radius: f32) -> u32 {
-        const { assert!(N > 0 && N <= 128, "a table has 1 to 128 cells") };
-        radius.to_bits() / CELL * CELL + CELL / 2
-    }
-
-    /// The largest difference between neighbouring cells where they meet.
-    const fn widest_jump(&self) -> u32 {
-        let mut widest = 0;
-        let mut cells = self.cells.as_slice();
-        while let [left, rest @ ..] = cells {
-            if let [right, ..] = rest {
-                let jump = at(left, PARTS as i32 / 2).abs_diff(at(right, -(PARTS as i32) / 2));
-                if jump > widest {
-                    widest = jump;
-                }
-            }
-            cells = rest;
-        }
-        widest
-    }
-
-    /// The table itself, if it can be one.
-    const fn checked(self) -> Result<Self, InputError> {
-        let (slowest, fastest) = Parameter::CriticalSpeed.range();
-        // A curve at a bound may be interpolated beyond it.
-        let slack = 2 * LARGEST_MARGIN as i32;
-        let (slowest, fastest) = (logarithm(slowest as f32) - slack, logarithm(fastest as f32) + slack);
-        let mut cells = self.cells.as_slice();
-        while let [cubic, rest @ ..] = cells {
-            let mut place = -(PARTS as i32) / 2;
-            while place <= PARTS as i32 / 2 {
-                let value = at(cubic, place);
-                if value < slowest || value > fastest {
-                    let fault = if value < slowest { Fault::TooSmall } else { Fault::TooLarge };
-                    return Err(InputError { parameter: Parameter::CriticalSpeed, fault });
-                }
-                place += PARTS as i32 / 4;
-            }
-            cells = rest;
-        }
-        let fault = match self.margin {
-            margin if margin > LARGEST_MARGIN => Fault::TooLarge,
-            // Both cells err by the margin at most.
-            margin if margin < GREATEST_ERROR || self.widest_jump() > 2 * margin => Fault::TooSmall,
-            _ => return Ok(self),
-        };
-        Err(InputError { parameter: Parameter::BoundaryMargin, fault })
-    }
-}
-
-/// By how much a cubic changes, at most, over half the step between two places.
-fn half_step(cubic: &Cubic) -> u32 {
-    let [_, linear, square, cube] = cubic.map(i32::unsigned_abs);
-    // The slope is largest at an end of the cell: linear + square + 3/4 cube.
-    linear.saturating_add(square).saturating_add(cube) / (2 * PARTS) + 1
-}
-
-/// The number with these bits in single precision.
-fn of_single<T: Real>(bits: u32) -> T {
-    T::constant(f64::from(f32::from_bits(bits)))
-}
-
-/// Logarithm of the critical speed of a radius, if there is one.
-fn exact_critical_speed<T: Single>(
-    radius: T,
-    critical: &mut impl FnMut(T) -> Result<CriticalSpeed<T>, InputError>,
-) -> Result<i32, InputError> {
-    let fault = match critical(radius)? {
-        CriticalSpeed::At(speed) => return Ok(exact_logarithm(Parameter::CriticalSpeed.check(speed)?.single())),
-        CriticalSpeed::AlwaysRebounds => Fault::TooSmall,
-        CriticalSpeed::NeverRebounds => Fault::TooLarge,
-    };
-    Err(InputError { parameter: Parameter::CriticalSpeed, fault })
-}
-
-/// Chebyshev's places for a cubic, cos(pi/8)/2 and cos(3 pi/8)/2 to either side of the middle, in parts of a cell.
-const OUTER: i32 = 30_274;
-const INNER: i32 = 12_540;
-
-/// Where the cubic through them errs most within the cell: 0 and cos(pi/4)/2.
-const EXTREMES: [i32; 3] = [-23_170, 0, 23_170];
-
-/// The cubic through a curve at Chebyshev's places.
-fn interpolated(curve: &mut impl FnMut(i32) -> Result<i32, InputError>) -> Result<Cubic, InputError> {
-    const ALPHA: f64 = OUTER as f64 / PARTS as f64;
-    const BETA: f64 = INNER as f64 / PARTS as f64;
-    const SPREAD: f64 = ALPHA * ALPHA - BETA * BETA;
-    let [below, above] = [curve(-OUTER)?, curve(OUTER)?].map(i64::from);
-    let [left, right] = [curve(-INNER)?, curve(INNER)?].map(i64::from);
-    // Twice the even and the odd part of the curve at the outer and the inner places.
-    let (even, odd) = ((above + below, right + left), (above - below, right - left));
-    let square = scaled::<{ fixed(0.5 / SPREAD) }>(even.0 - even.1);
-    let cube = scaled::<{ fixed(0.5 / ALPHA / SPREAD) }>(odd.0) - scaled::<{ fixed(0.5 / BETA / SPREAD) }>(odd.1);
-    let linear = scaled::<{ fixed(0.5 / BETA) }>(odd.1) - scaled::<{ fixed(BETA * BETA) }>(cube);
-    let constant = (even.1 + 1) / 2 - scaled::<{ fixed(BETA * BETA) }>(square);
-    // What does not fit shows as an error of the cubic.
-    Ok([constant, linear, square, cube].map(|part| part.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32))
-}
-
-/// A factor in units of 2^-24.
-const fn fixed(factor: f64) -> i64 {
-    (factor * (1 << 24) as f64 + 0.5) as i64
-}
-
-/// A product with a factor in units of 2^-24.
-fn scaled<const FACTOR: i64>(number: i64) -> i64 {
-    (number * FACTOR + (1 << 23)) >> 24
 }

@@ -139,49 +139,62 @@ where
     A: Scale<T, Scaled: Attraction<T>>,
     X: Scale<T, Scaled: Attraction<T>>,
 {
-    let tolerance = Parameter::Tolerance.check(tolerance)?;
-    let excess = Excess::new(rebound)?;
-    let trial = |value: T| excess.of(&scene(value)?, method);
-    let (first, last) = (trial(bracket.0)?, trial(bracket.1)?);
+    let search = Search::new(scene, method, rebound, tolerance)?;
+    let (first, last) = (search.excess(bracket.0)?, search.excess(bracket.1)?);
     for (end, excess) in [(bracket.0, first), (bracket.1, last)] {
         if excess == T::ZERO {
             return Ok(end);
         }
     }
     if (first > T::ZERO) != (last > T::ZERO) {
-        return root((bracket.0, first), (bracket.1, last), tolerance, trial);
+        return search.between((bracket.0, first), (bracket.1, last));
     }
     Err(if first > T::ZERO { CalibrationError::ReboundTooSlow } else { CalibrationError::ReboundTooFast })
 }
 
-/// How far e^2 of a scene, which is smooth down to capture where e is not, lies above the measured one.
-struct Excess<T> {
+/// The search for a value with which a scene rebounds as measured.
+struct Search<'a, T, C, S> {
+    /// Makes the scene of a value.
+    scene: C,
+    method: &'a S,
     motion: NormalMotion<T>,
+    /// The square of the measured restitution.
     measured: T,
+    tolerance: T,
 }
 
-impl<T: Real> Excess<T> {
-    fn new(rebound: &Rebound<T>) -> Result<Self, CalibrationError> {
+impl<'a, T, D, A, F, P, X, C, S> Search<'a, T, C, S>
+where
+    T: Real,
+    D: Scale<T, Scaled: Damping<T>>,
+    A: Scale<T, Scaled: Attraction<T>>,
+    X: Scale<T, Scaled: Attraction<T>>,
+    C: Fn(T) -> Result<Simulation<T, D, A, F, P, X>, InputError>,
+    S: Method<T, ()>,
+{
+    fn new(scene: C, method: &'a S, rebound: &Rebound<T>, tolerance: T) -> Result<Self, CalibrationError> {
+        let tolerance = Parameter::Tolerance.check(tolerance)?;
         let (motion, measured) = rebound.checked()?;
-        if measured > T::ZERO { Ok(Self { motion, measured }) } else { Err(CalibrationError::Captured) }
+        if measured > T::ZERO {
+            Ok(Self { scene, method, motion, measured, tolerance })
+        } else {
+            Err(CalibrationError::Captured)
+        }
     }
 
-    fn of<D, A, F, P, X>(
-        &self,
-        scene: &Simulation<T, D, A, F, P, X>,
-        method: &impl Method<T, ()>,
-    ) -> Result<T, CalibrationError>
-    where
-        D: Scale<T, Scaled: Damping<T>>,
-        A: Scale<T, Scaled: Attraction<T>>,
-        X: Scale<T, Scaled: Attraction<T>>,
-    {
-        let contact = scene.normal_impact(method, &self.motion)?;
+    /// How far e^2 of a value's scene, which is smooth down to capture where e is not, lies above the measured one.
+    fn excess(&self, value: T) -> Result<T, CalibrationError> {
+        let contact = (self.scene)(value)?.normal_impact(self.method, &self.motion)?;
         if contact.status() != Status::Solved {
             return Err(CalibrationError::BudgetSpent);
         }
         let restitution = contact.overall_restitution();
         Ok(restitution * restitution - self.measured)
+    }
+
+    /// The value between two at which the excess, given with each, differs in sign.
+    fn between(&self, first: (T, T), last: (T, T)) -> Result<T, CalibrationError> {
+        root(first, last, self.tolerance, |value| self.excess(value))
     }
 }
 
@@ -199,21 +212,19 @@ where
     A: Scale<T, Scaled: Attraction<T>>,
     X: Scale<T, Scaled: Attraction<T>>,
 {
-    let tolerance = Parameter::Tolerance.check(tolerance)?;
-    let excess = Excess::new(rebound)?;
-    let trial = |value: T| excess.of(&scene(value)?, method);
-    let mut weaker = (T::ZERO, trial(T::ZERO)?);
+    let search = Search::new(scene, method, rebound, tolerance)?;
+    let mut weaker = (T::ZERO, search.excess(T::ZERO)?);
     if weaker.1 <= T::ZERO {
         // A rebound that loses nothing is met up to the error of the method.
-        let lossless = weaker.1.abs() <= tolerance.max(T::constant(32.0) * T::EPSILON);
+        let lossless = weaker.1.abs() <= search.tolerance.max(T::constant(32.0) * T::EPSILON);
         return if lossless { Ok(T::ZERO) } else { Err(CalibrationError::ReboundTooFast) };
     }
     let strongest = T::constant(limits.range().1);
     let mut value = T::constant(1e-2);
     for _ in 0..MOST_STEPS {
-        let stronger = (value, trial(value)?);
+        let stronger = (value, search.excess(value)?);
         if stronger.1 <= T::ZERO {
-            return root(weaker, stronger, tolerance, trial);
+            return search.between(weaker, stronger);
         }
         weaker = stronger;
         value = (value * T::constant(4.0)).min(strongest);

@@ -25,6 +25,8 @@ enum MicroimpactStatus
   MICROIMPACT_STATUS_UNSOLVED,
   // Fewer results fit than there are motions; those that fit were written.
   MICROIMPACT_STATUS_CAPACITY,
+  // A table that was never made.
+  MICROIMPACT_STATUS_UNMADE,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -81,6 +83,50 @@ enum MicroimpactFault
 typedef enum MicroimpactFault MicroimpactFault;
 #else
 typedef uint32_t MicroimpactFault;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What a table says of an impact.
+enum MicroimpactVerdict
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // The sphere leaves the surface.
+  MICROIMPACT_VERDICT_REBOUND,
+  // The surface holds the sphere.
+  MICROIMPACT_VERDICT_CAPTURE,
+  // The speed is closer to the critical one than the error of the table.
+  MICROIMPACT_VERDICT_TOO_CLOSE_TO_CALL,
+  // The table does not reach there.
+  MICROIMPACT_VERDICT_OUTSIDE_TABLE,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MicroimpactVerdict MicroimpactVerdict;
+#else
+typedef uint32_t MicroimpactVerdict;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// The motion along the surface after a rebound.
+enum MicroimpactSurfaceMotion
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // There is no rebound.
+  MICROIMPACT_SURFACE_MOTION_NONE,
+  // The contact point slips.
+  MICROIMPACT_SURFACE_MOTION_SLIDING,
+  // The sphere rolls.
+  MICROIMPACT_SURFACE_MOTION_ROLLING,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MicroimpactSurfaceMotion MicroimpactSurfaceMotion;
+#else
+typedef uint32_t MicroimpactSurfaceMotion;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -170,6 +216,41 @@ typedef struct MicroimpactContact {
   float spin;
 } MicroimpactContact;
 
+// The critical speeds of spheres of one material on one surface, over a range of radii. Made by microimpact_boundary_make,
+// or a constant that the example `boundary` has written.
+typedef struct MicroimpactBoundaryTable {
+  // Radius at which the table begins, m.
+  float smallest_radius;
+  // Greatest error of the logarithm of a critical speed, in 2^-23 octaves.
+  uint32_t margin;
+  // Cells, in flash or in memory of the caller: a quarter of an octave of radii each.
+  const int32_t (*cells)[4];
+  // Their number.
+  size_t count;
+} MicroimpactBoundaryTable;
+
+// Room for a table of restitution over two octaves of radii and a range of speeds, which microimpact_restitution_make makes.
+typedef struct MicroimpactRestitutionTable {
+  // What is in it concerns the library alone.
+  uint32_t words[164];
+} MicroimpactRestitutionTable;
+
+// What a restitution table says of an impact.
+typedef struct MicroimpactTableReading {
+  // Rebound or capture.
+  MicroimpactVerdict verdict;
+  // Sliding or rolling.
+  MicroimpactSurfaceMotion surface_motion;
+  // Overall restitution; zero for a capture, negative where the table has no answer.
+  float restitution;
+  // Greatest error of the restitution; zero for a capture, negative where the table has no answer.
+  float restitution_error;
+  // Tangential velocity after a rebound, m/s; else zero.
+  float tangential;
+  // Peripheral velocity after a rebound, m/s; else zero.
+  float peripheral;
+} MicroimpactTableReading;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -205,6 +286,59 @@ MicroimpactStatus microimpact_simulate(const struct MicroimpactContactScene *sce
 size_t microimpact_parameter_name(uint32_t parameter,
                                   char *buffer,
                                   size_t capacity);
+
+// Makes a boundary table of the material and the surface of a scene, whose radius and friction do not count, from a radius on
+// (m), in cells of the caller, which the table keeps pointing to. Where it fails, the cells hold no table. The error may be
+// null.
+//
+// # Safety
+// Each pointer is null or points to what its type says, the cells to room for `count` of them, and nobody else uses them
+// during the call.
+MicroimpactStatus microimpact_boundary_make(const struct MicroimpactContactScene *scene,
+                                            float smallest_radius,
+                                            int32_t (*cells)[4],
+                                            size_t count,
+                                            struct MicroimpactBoundaryTable *table,
+                                            struct MicroimpactError *error);
+
+// Checks all of a boundary table: a constant once, at start-up. The error may be null.
+//
+// # Safety
+// Each pointer is null or points to what its type says, and nobody else uses it during the call; so do the cells.
+MicroimpactStatus microimpact_boundary_check(const struct MicroimpactBoundaryTable *table,
+                                             struct MicroimpactError *error);
+
+// Tells rebound from capture of a sphere of a radius (m). Of the table, the cell around that radius is checked. The error may
+// be null.
+//
+// # Safety
+// Each pointer is null or points to what its type says, and nobody else uses it during the call; so do the cells.
+MicroimpactStatus microimpact_boundary_classify(const struct MicroimpactBoundaryTable *table,
+                                                float radius,
+                                                const struct MicroimpactMotion *motion,
+                                                MicroimpactVerdict *verdict,
+                                                struct MicroimpactError *error);
+
+// Makes a restitution table of the material, the surface and the friction of a scene, whose radius does not count: over two
+// octaves of radii from one on (m), and up to `speed_ratio` times the critical speed. The error may be null.
+//
+// # Safety
+// Each pointer is null or points to what its type says, and nobody else uses it during the call.
+MicroimpactStatus microimpact_restitution_make(const struct MicroimpactContactScene *scene,
+                                               float smallest_radius,
+                                               float speed_ratio,
+                                               struct MicroimpactRestitutionTable *table,
+                                               struct MicroimpactError *error);
+
+// Reads from a table what becomes of a sphere of a radius (m). The error may be null.
+//
+// # Safety
+// Each pointer is null or points to what its type says, and nobody else uses it during the call.
+MicroimpactStatus microimpact_restitution_read(const struct MicroimpactRestitutionTable *table,
+                                               float radius,
+                                               const struct MicroimpactMotion *motion,
+                                               struct MicroimpactTableReading *reading,
+                                               struct MicroimpactError *error);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -1,5 +1,7 @@
 //! The only place where pointers of C are followed.
 
+use core::slice;
+
 /// What a pointer of C points to; `None` if it is null or misaligned.
 ///
 /// # Safety
@@ -9,6 +11,46 @@ pub(crate) unsafe fn read<T: Copy>(pointer: *const T) -> Option<T> {
     let usable = !pointer.is_null() && pointer.is_aligned();
     // SAFETY: neither null nor misaligned, and by the contract of this function there is a `T`.
     usable.then(|| unsafe { pointer.read() })
+}
+
+/// The same in its place, for what is large.
+///
+/// # Safety
+/// As for [`read`]; the reference is dropped before the call ends.
+pub(crate) unsafe fn follow<'a, T: Copy>(pointer: *const T) -> Option<&'a T> {
+    let usable = !pointer.is_null() && pointer.is_aligned();
+    // SAFETY: neither null nor misaligned, and by the contract of this function there is a `T`.
+    usable.then(|| unsafe { &*pointer })
+}
+
+/// An array of C; `None` if its pointer is null or misaligned, or if no memory could hold so many.
+///
+/// # Safety
+/// As for [`follow`], of all elements.
+pub(crate) unsafe fn slice<'a, T: Copy>(array: *const T, count: usize) -> Option<&'a [T]> {
+    let usable = !array.is_null() && array.is_aligned() && fits::<T>(count);
+    // SAFETY: neither null nor misaligned, of a possible size, and by the contract of this function all elements are there.
+    usable.then(|| unsafe { slice::from_raw_parts(array, count) })
+}
+
+/// Room of C for an array, which holds zeros from then on; `None` as for [`slice`].
+///
+/// # Safety
+/// As for [`write`], of all elements, of which zeros are valid; the reference is dropped before the call ends.
+pub(crate) unsafe fn zeroed<'a, T: Copy>(array: *mut T, count: usize) -> Option<&'a mut [T]> {
+    let usable = !array.is_null() && array.is_aligned() && fits::<T>(count);
+    usable.then(|| {
+        // SAFETY: neither null nor misaligned, of a possible size, and by the contract of this function there is room.
+        unsafe {
+            array.write_bytes(0, count);
+            slice::from_raw_parts_mut(array, count)
+        }
+    })
+}
+
+/// Whether an array of so many elements can be in memory.
+fn fits<T>(count: usize) -> bool {
+    count.checked_mul(size_of::<T>()).is_some_and(|bytes| bytes <= isize::MAX as usize)
 }
 
 /// Writes a result to where C wants it; `None` if that is null or misaligned, and nothing is written.

@@ -1,7 +1,7 @@
 //! The contact simulation.
 
 use microimpact::simulation::{Collocation, HystereticDamping, Ring, SimulatedImpact, Simulation, TangentialContact};
-use microimpact::{Coulomb, InputError, Sphere, Stiffness};
+use microimpact::{Coulomb, CriticalSpeed, InputError, Sphere, Stiffness};
 
 use crate::memory;
 use crate::status::{Class, Error, Failure, Motion, Status, finish, followed};
@@ -28,15 +28,28 @@ pub struct ContactScene {
     pub tolerance: f32,
 }
 
+type Surface = Simulation<f32, HystereticDamping<f32>, Ring<f32>>;
 type Scene = Simulation<f32, HystereticDamping<f32>, Ring<f32>, Coulomb<f32>>;
+type Method = Collocation<7, f32>;
 
 impl ContactScene {
-    fn check(self) -> Result<(Scene, Collocation<7, f32>), InputError> {
+    fn check(self) -> Result<(Scene, Method), InputError> {
+        let (surface, method) = self.surface()?;
+        Ok((surface.with_friction(self.friction)?, method))
+    }
+
+    /// The scene without friction.
+    pub(crate) fn surface(self) -> Result<(Surface, Method), InputError> {
         let scene = Simulation::new(Sphere::solid(self.radius, self.density)?, Stiffness::new(self.stiffness)?)
             .with_damping(self.material_damping)?
-            .with_ring(self.adhesion_strength, self.adhesion_damping)?
-            .with_friction(self.friction)?;
+            .with_ring(self.adhesion_strength, self.adhesion_damping)?;
         Ok((scene, Collocation::new(self.tolerance)?))
+    }
+
+    /// The speed below which the surface holds a sphere of the same material.
+    pub(crate) fn critical_speed(self, radius: f32) -> Result<CriticalSpeed<f32>, InputError> {
+        let (surface, method) = Self { radius, ..self }.surface()?;
+        surface.critical_speed(&method)
     }
 }
 
@@ -95,7 +108,7 @@ pub unsafe extern "C" fn microimpact_simulate(
     }
 }
 
-fn simulate(scene: &Scene, method: &Collocation<7, f32>, motion: Motion) -> Result<Contact, Failure> {
+fn simulate(scene: &Scene, method: &Method, motion: Motion) -> Result<Contact, Failure> {
     let impact: SimulatedImpact<f32, TangentialContact<f32>, ()> = scene.observe(method, &motion.check()?)?;
     let class = impact.class().ok_or(Failure::Status(Status::Unsolved))?;
     Ok(Contact {

@@ -20,6 +20,8 @@ pub enum Status {
     Unsolved,
     /// Fewer results fit than there are motions; those that fit were written.
     Capacity,
+    /// A table that was never made.
+    Unmade,
 }
 
 /// How a number misses its range.

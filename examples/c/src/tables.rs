@@ -1,0 +1,271 @@
+//! Tables: capture or rebound, restitution, and sliding or rolling, without a simulation.
+
+use microimpact::boundary::{self, BoundarySlice, Reading, Rebound};
+use microimpact::simulation::{ContactImpulses, SimulatedImpact};
+use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, Sphere};
+
+use crate::memory;
+use crate::simulation::ContactScene;
+use crate::status::{Error, Failure, Motion, Status, finish, followed};
+
+/// What a table says of an impact.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// The sphere leaves the surface.
+    Rebound,
+    /// The surface holds the sphere.
+    Capture,
+    /// The speed is closer to the critical one than the error of the table.
+    TooCloseToCall,
+    /// The table does not reach there.
+    OutsideTable,
+}
+
+impl From<boundary::Verdict> for Verdict {
+    fn from(verdict: boundary::Verdict) -> Self {
+        match verdict {
+            boundary::Verdict::Rebound => Self::Rebound,
+            boundary::Verdict::Capture => Self::Capture,
+            boundary::Verdict::TooCloseToCall => Self::TooCloseToCall,
+            boundary::Verdict::OutsideTable => Self::OutsideTable,
+        }
+    }
+}
+
+/// The critical speeds of spheres of one material on one surface, over a range of radii. Made by microimpact_boundary_make,
+/// or a constant that the example `boundary` has written.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct BoundaryTable {
+    /// Radius at which the table begins, m.
+    pub smallest_radius: f32,
+    /// Greatest error of the logarithm of a critical speed, in 2^-23 octaves.
+    pub margin: u32,
+    /// Cells, in flash or in memory of the caller: a quarter of an octave of radii each.
+    pub cells: *const [i32; 4],
+    /// Their number.
+    pub count: usize,
+}
+
+/// Makes a boundary table of the material and the surface of a scene, whose radius and friction do not count, from a radius on
+/// (m), in cells of the caller, which the table keeps pointing to. Where it fails, the cells hold no table. The error may be
+/// null.
+///
+/// # Safety
+/// Each pointer is null or points to what its type says, the cells to room for `count` of them, and nobody else uses them
+/// during the call.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn microimpact_boundary_make(
+    scene: *const ContactScene,
+    smallest_radius: f32,
+    cells: *mut [i32; 4],
+    count: usize,
+    table: *mut BoundaryTable,
+    error: *mut Error,
+) -> Status {
+    // SAFETY: the contract of this function is that of the functions in `memory`.
+    unsafe {
+        let made = || -> Result<(), Failure> {
+            let scene = followed(memory::read(scene))?;
+            let room = followed(memory::zeroed(cells, count))?;
+            let made = BoundarySlice::fill(smallest_radius, room, |radius| scene.critical_speed(radius))?;
+            let (smallest_radius, margin, _) = made.parts();
+            followed(memory::write(table, BoundaryTable { smallest_radius, margin, cells, count }))
+        };
+        finish(made(), error)
+    }
+}
+
+/// Checks all of a boundary table: a constant once, at start-up. The error may be null.
+///
+/// # Safety
+/// Each pointer is null or points to what its type says, and nobody else uses it during the call; so do the cells.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn microimpact_boundary_check(table: *const BoundaryTable, error: *mut Error) -> Status {
+    // SAFETY: the contract of this function is that of the functions in `memory`.
+    unsafe {
+        let checked = || -> Result<(), Failure> {
+            let BoundaryTable { smallest_radius, margin, cells, count } = followed(memory::read(table))?;
+            BoundarySlice::from_parts(smallest_radius, margin, followed(memory::slice(cells, count))?)?;
+            Ok(())
+        };
+        finish(checked(), error)
+    }
+}
+
+/// Tells rebound from capture of a sphere of a radius (m). Of the table, the cell around that radius is checked. The error may
+/// be null.
+///
+/// # Safety
+/// Each pointer is null or points to what its type says, and nobody else uses it during the call; so do the cells.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn microimpact_boundary_classify(
+    table: *const BoundaryTable,
+    radius: f32,
+    motion: *const Motion,
+    verdict: *mut Verdict,
+    error: *mut Error,
+) -> Status {
+    // SAFETY: the contract of this function is that of the functions in `memory`.
+    unsafe {
+        let classified = || -> Result<(), Failure> {
+            let BoundaryTable { smallest_radius, margin, cells, count } = followed(memory::read(table))?;
+            let motion = followed(memory::read(motion))?.check()?;
+            let cells = followed(memory::slice(cells, count))?;
+            let cell = BoundarySlice::cell(smallest_radius, margin, cells, radius)?;
+            let found = cell.map_or(boundary::Verdict::OutsideTable, |cell| cell.classify(radius, &motion));
+            followed(memory::write(verdict, found.into()))
+        };
+        finish(classified(), error)
+    }
+}
+
+/// Room for a table of restitution over two octaves of radii and a range of speeds, which microimpact_restitution_make makes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct RestitutionTable {
+    /// What is in it concerns the library alone.
+    pub words: [u32; 164],
+}
+
+/// What is in the room.
+#[derive(Clone, Copy)]
+struct Made {
+    mark: u32,
+    /// Eight cells of radii, and nodes at six radii and ten speeds.
+    table: boundary::RestitutionTable<f32, 8, 6, 10>,
+    friction: Coulomb<f32>,
+    gyration_ratio: f32,
+}
+
+/// Tells a table from memory in which none was made.
+const MARK: u32 = 0x6d69_7274;
+
+const _: () = assert!(size_of::<Made>() == size_of::<RestitutionTable>());
+const _: () = assert!(align_of::<Made>() == align_of::<RestitutionTable>());
+
+/// Makes a restitution table of the material, the surface and the friction of a scene, whose radius does not count: over two
+/// octaves of radii from one on (m), and up to `speed_ratio` times the critical speed. The error may be null.
+///
+/// # Safety
+/// Each pointer is null or points to what its type says, and nobody else uses it during the call.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn microimpact_restitution_make(
+    scene: *const ContactScene,
+    smallest_radius: f32,
+    speed_ratio: f32,
+    table: *mut RestitutionTable,
+    error: *mut Error,
+) -> Status {
+    // SAFETY: the contract of this function is that of the functions in `memory`; the table is room for a `Made`.
+    unsafe {
+        let made = || -> Result<(), Failure> {
+            let made = Made::new(followed(memory::read(scene))?, smallest_radius, speed_ratio)?;
+            followed(memory::write(table.cast(), made))
+        };
+        finish(made(), error)
+    }
+}
+
+impl Made {
+    fn new(scene: ContactScene, smallest_radius: f32, speed_ratio: f32) -> Result<Self, InputError> {
+        let friction = Coulomb::new(scene.friction)?;
+        let gyration_ratio = Sphere::solid(smallest_radius, scene.density)?.gyration_ratio();
+        let boundary = boundary::BoundaryTable::new(smallest_radius, |radius| scene.critical_speed(radius))?;
+        let table = boundary::RestitutionTable::new(boundary, speed_ratio, |radius, speed| {
+            let (surface, method) = ContactScene { radius, ..scene }.surface()?;
+            let impact: SimulatedImpact<_, (), ContactImpulses<f32>> =
+                surface.observe(&method, &NormalMotion::new(speed)?)?;
+            let impulse = impact.outputs.elastic / (surface.sphere().mass() * speed);
+            Ok(Rebound { restitution: impact.normal.overall_restitution(), impulse })
+        })?;
+        Ok(Self { mark: MARK, table, friction, gyration_ratio })
+    }
+}
+
+/// The motion along the surface after a rebound.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SurfaceMotion {
+    /// There is no rebound.
+    None,
+    /// The contact point slips.
+    Sliding,
+    /// The sphere rolls.
+    Rolling,
+}
+
+/// What a restitution table says of an impact.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TableReading {
+    /// Rebound or capture.
+    pub verdict: Verdict,
+    /// Sliding or rolling.
+    pub surface_motion: SurfaceMotion,
+    /// Overall restitution; zero for a capture, negative where the table has no answer.
+    pub restitution: f32,
+    /// Greatest error of the restitution; zero for a capture, negative where the table has no answer.
+    pub restitution_error: f32,
+    /// Tangential velocity after a rebound, m/s; else zero.
+    pub tangential: f32,
+    /// Peripheral velocity after a rebound, m/s; else zero.
+    pub peripheral: f32,
+}
+
+/// Reads from a table what becomes of a sphere of a radius (m). The error may be null.
+///
+/// # Safety
+/// Each pointer is null or points to what its type says, and nobody else uses it during the call.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn microimpact_restitution_read(
+    table: *const RestitutionTable,
+    radius: f32,
+    motion: *const Motion,
+    reading: *mut TableReading,
+    error: *mut Error,
+) -> Status {
+    // SAFETY: the contract of this function is that of the functions in `memory`; `Made` is plain numbers.
+    unsafe {
+        let found = || -> Result<(), Failure> {
+            let made: &Made = followed(memory::follow(table.cast()))?;
+            if made.mark != MARK {
+                return Err(Failure::Status(Status::Unmade));
+            }
+            let motion = followed(memory::read(motion))?.check()?;
+            followed(memory::write(reading, made.read(radius, &motion)))
+        };
+        finish(found(), error)
+    }
+}
+
+impl Made {
+    fn read(&self, radius: f32, motion: &PlanarMotion<f32>) -> TableReading {
+        let without = |verdict, restitution| TableReading {
+            verdict,
+            surface_motion: SurfaceMotion::None,
+            restitution,
+            restitution_error: restitution,
+            tangential: 0.0,
+            peripheral: 0.0,
+        };
+        match self.table.read(radius, motion) {
+            Reading::Rebound { rebound, error } => {
+                let after = rebound.separation(&self.friction, self.gyration_ratio, motion);
+                let slides = after.motion == microimpact::SurfaceMotion::Sliding;
+                TableReading {
+                    verdict: Verdict::Rebound,
+                    surface_motion: if slides { SurfaceMotion::Sliding } else { SurfaceMotion::Rolling },
+                    restitution: rebound.restitution,
+                    restitution_error: error,
+                    tangential: after.tangential,
+                    peripheral: after.peripheral,
+                }
+            }
+            Reading::Capture => without(Verdict::Capture, 0.0),
+            Reading::TooCloseToCall => without(Verdict::TooCloseToCall, -1.0),
+            Reading::OutsideTable => without(Verdict::OutsideTable, -1.0),
+        }
+    }
+}
