@@ -17,30 +17,52 @@ MEMORY
 /// Targets whose boards have their memories elsewhere, and so much that the probes fit too.
 const MAPS: [(&str, &str); 2] = [("thumbv8m", "maps/mps2-an505.x"), ("riscv32", "maps/virt.x")];
 
+/// Binaries whose scenes are measured, the flash of each by what its code refers to: relocations and a map say that.
+const MEASURED: [&str; 5] = ["classify", "contacts", "variants", "collocations", "calibrate"];
+
+/// A binary with so many methods in it that only the largest boards hold it, and their map.
+const LARGE: (&str, &str) = ("methods", "maps/mps2.x");
+
 /// Binaries that log by defmt, whose strings stay out of flash.
 const LOGGING: [&str; 1] = ["instrument"];
 
 fn main() {
     let manifest = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
+    // That of the profile, in which cargo makes `build/PACKAGE/out`.
+    let binary_folder = out.ancestors().nth(3).expect("cargo has a folder for each profile");
     let target = env::var("TARGET").expect("cargo sets it");
     let (map, probe_map) = match MAPS.iter().find(|(prefix, _)| target.starts_with(prefix)) {
         Some((_, map)) => (manifest.join(map), None),
         None => (manifest.join("../../memory.x"), Some(PROBE_MAP)),
     };
+    let large_map = if probe_map.is_some() { manifest.join(LARGE.1) } else { map.clone() };
     let binaries = manifest.join("src/bin");
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-changed={}", map.display());
+    println!("cargo:rerun-if-changed={}", large_map.display());
     println!("cargo:rerun-if-changed={}", binaries.display());
 
     // link.x includes memory.x by its name alone: the linker looks for it in a folder that depends on the binary.
     let board_map = fs::read_to_string(&map).expect("the memory map can be read");
     let board = folder(&out, "board", &board_map);
+    let large = folder(&out, "large", &fs::read_to_string(&large_map).expect("the memory map can be read"));
     let probe = folder(&out, "probe", probe_map.unwrap_or(&board_map));
     for file in fs::read_dir(&binaries).expect("the binaries can be listed").flatten() {
         if let Some(name) = file.path().file_stem().and_then(OsStr::to_str) {
-            let folder = if name.starts_with(PROBES) { &probe } else { &board };
+            let folder = match name {
+                _ if name.starts_with(PROBES) => &probe,
+                _ if name == LARGE.0 => &large,
+                _ => &board,
+            };
             println!("cargo:rustc-link-arg-bin={name}=-L{}", folder.display());
+            if MEASURED.contains(&name) {
+                println!("cargo:rustc-link-arg-bin={name}=--emit-relocs");
+                println!(
+                    "cargo:rustc-link-arg-bin={name}=-Map={}",
+                    binary_folder.join(name).with_extension("map").display()
+                );
+            }
             if LOGGING.contains(&name) {
                 println!("cargo:rustc-link-arg-bin={name}=-Tdefmt.x");
             }

@@ -5,17 +5,17 @@ use core::hint::black_box;
 use core::marker::PhantomData;
 
 use microimpact::simulation::{
-    Collocation, FixedCost, HystereticDamping, Method, NoPeeling, NormalContact, Ring, SimulatedImpact, Simulation,
-    SurfaceState, TangentialContact, TangentialScene, TangentialVelocities,
+    Attraction, Collocation, Damping, FixedCost, HystereticDamping, Method, NoPeeling, NormalContact, Ring, Scale,
+    SimulatedImpact, Simulation, SurfaceState, TangentialContact, TangentialScene, TangentialVelocities,
 };
 use microimpact::{Class, Coulomb, InputError, NoFriction, NormalMotion, Outcome, PlanarMotion, Sphere, Stiffness};
 
 use super::impacts::{CONTACTS, Impact};
 use super::scenes::{Answer, DENSITY_KG_M3, FRICTION, Measured, Number, RADIUS_M, Scene, Visitor, given};
 
-const STIFFNESS_PA: f64 = 7.5e10;
-const MATERIAL_DAMPING: f64 = 10.5;
-const RING_N_M: f64 = 250.0;
+pub(super) const STIFFNESS_PA: f64 = 7.5e10;
+pub(super) const MATERIAL_DAMPING: f64 = 10.5;
+pub(super) const RING_N_M: f64 = 250.0;
 const RING_DAMPING: f64 = 6.25;
 
 /// The class of an impact that the library refuses.
@@ -92,14 +92,19 @@ impl<T: Number, M: Setting + Method<T, ()>> Scene<T> for NormalContacts<T, M> {
         Some(Self { scene: surface().ok()?, method: M::new()? })
     }
 
+    // What is counted is the library, not a second call around it.
+    #[inline(always)]
     fn motion(&self, measured: &Measured<T>) -> Option<Self::Motion> {
         NormalMotion::new(measured.approach_m_s).ok()
     }
 
-    // What is counted is the library, not a second call around it.
     #[inline(always)]
     fn classify(&self, motion: &Self::Motion) -> Self::Verdict {
         self.scene.normal_impact(&self.method, motion)
+    }
+
+    fn restitution(impact: &Impact) -> Option<f64> {
+        exact_restitution(surface(), impact)
     }
 
     fn impacts() -> impl Iterator<Item = &'static Impact> {
@@ -123,6 +128,8 @@ where
         Some(Self { scene, method: Setting::new()?, result: PhantomData })
     }
 
+    // What is counted is the library, not a second call around it.
+    #[inline(always)]
     fn motion(&self, measured: &Measured<T>) -> Option<Self::Motion> {
         NormalMotion::new(measured.approach_m_s)
             .and_then(|normal| normal.with_tangential(measured.tangential_m_s))
@@ -130,10 +137,13 @@ where
             .ok()
     }
 
-    // What is counted is the library, not a second call around it.
     #[inline(always)]
     fn classify(&self, motion: &Self::Motion) -> Self::Verdict {
         self.scene.observe(&self.method.0, motion)
+    }
+
+    fn restitution(impact: &Impact) -> Option<f64> {
+        exact_restitution(surface(), impact)
     }
 
     fn impacts() -> impl Iterator<Item = &'static Impact> {
@@ -151,6 +161,21 @@ pub(super) fn surface_of<T: Number>(radius: T) -> Result<Surface<T>, InputError>
     Simulation::new(sphere, Stiffness::new(given(STIFFNESS_PA))?)
         .with_damping(given(MATERIAL_DAMPING))?
         .with_ring(given(RING_N_M), given(RING_DAMPING))
+}
+
+/// Overall restitution in f64, by the most exact method.
+pub(super) fn exact_restitution<D, A, X>(
+    scene: Result<Simulation<f64, D, A, NoFriction, NoPeeling, X>, InputError>,
+    impact: &Impact,
+) -> Option<f64>
+where
+    D: Scale<f64, Scaled: Damping<f64>>,
+    A: Scale<f64, Scaled: Attraction<f64>>,
+    X: Scale<f64, Scaled: Attraction<f64>>,
+{
+    let method = Collocation::<14, f64>::new(1e-13).ok()?;
+    let contact = scene.ok()?.normal_impact(&method, &NormalMotion::new(impact.approach_m_s).ok()?).ok()?;
+    Some(contact.overall_restitution())
 }
 
 impl<T: Number> From<Result<NormalContact<T>, InputError>> for Answer<T> {
@@ -184,7 +209,7 @@ fn answer<T: Number>(class: &'static str, contact: Option<NormalContact<T>>) -> 
 }
 
 /// Goes through the scenes of the simulation in both number types.
-pub(super) fn visit_contacts(visitor: &mut impl Visitor) {
+pub fn visit_contacts(visitor: &mut impl Visitor) {
     visitor.visit::<f32, NormalContacts<f32, FixedCost<4>>>();
     visitor.visit::<f32, NormalContacts<f32, FixedCost<5>>>();
     visitor.visit::<f32, NormalContacts<f32, FixedCost<7>>>();

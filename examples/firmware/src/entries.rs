@@ -21,15 +21,20 @@ use microimpact::{
 
 mod boundary;
 mod calibrate;
+mod fixed_point;
 #[cfg(feature = "probe")]
 mod instrument;
 mod simulation;
 
 /// Calls everything, with one number type.
-pub fn call_all<T: simulation::AnyNodes + Single + microimpact::uncertainty::NormalDistribution>() {
+pub fn call_all<T>()
+where
+    T: simulation::AnyNodes + Single + microimpact::uncertainty::NormalDistribution + Into<f64>,
+{
     call_rigid_body::<T>();
     keep(boundary::call_all::<T>());
     keep(simulation::call_all::<T>());
+    keep(fixed_point::call_all::<T>());
     calibrate::call_all::<T>();
     #[cfg(feature = "probe")]
     keep(instrument::call_all::<T>());

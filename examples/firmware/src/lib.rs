@@ -1,8 +1,8 @@
 //! What the firmware binaries share: the impacts, the scenes that classify
 //! them, and calls of all of the library.
 //!
-//! `impacts`, `scenes`, `contacts`, `fixed_contacts` and `tables` know nothing of a microcontroller; the
-//! runner `cargo qemu` compiles the same five files for the host and compares.
+//! `approximate`, `impacts`, `scenes`, `contacts`, `fixed_contacts`, `tables`, `variants` and `calibrations` know nothing of a
+//! microcontroller; the runner `cargo qemu` compiles the same eight files for the host and compares.
 
 #![no_std]
 
@@ -13,12 +13,17 @@ pub use cortex_m_rt::entry;
 #[cfg(target_arch = "riscv32")]
 pub use riscv_rt::entry;
 
+pub mod approximate;
+pub mod calibrations;
 pub mod contacts;
 pub mod entries;
 pub mod fixed_contacts;
 pub mod flash;
 pub mod impacts;
+#[cfg(feature = "methods")]
+pub mod methods;
 pub mod scenes;
 #[cfg(feature = "instrument")]
 pub mod station;
 pub mod tables;
+pub mod variants;

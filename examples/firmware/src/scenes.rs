@@ -5,12 +5,14 @@ use core::fmt::LowerExp;
 use core::hint::black_box;
 
 use microimpact::rigid::{AdhesionCoefficient, ReboundAdhesion, WorkOfAdhesion};
+use microimpact::simulation::FixedCost;
 use microimpact::{
-    Class, Classification, ContactClass, Coulomb, NormalMotion, Outcome, PlanarMotion, Real, RigidBody,
+    Class, Classification, ContactClass, Coulomb, InputError, NormalMotion, Outcome, PlanarMotion, Real, RigidBody,
     SpeedRestitution, Sphere,
 };
 
-use super::contacts::visit_contacts;
+use super::approximate::Approximate;
+use super::contacts::NormalContacts;
 use super::fixed_contacts::visit_fixed_contacts;
 use super::impacts::{IMPACTS, Impact};
 use super::tables::visit_tables;
@@ -21,7 +23,7 @@ pub(super) const DENSITY_KG_M3: f64 = 2600.0;
 pub(super) const FRICTION: f64 = 0.1;
 const RESTITUTION_SPEED_M_S: f64 = 130.0;
 const ADHESION_COEFFICIENT: f64 = 0.237;
-const WORK_OF_ADHESION_J: f64 = 2.22e-12;
+pub(super) const WORK_OF_ADHESION_J: f64 = 2.22e-12;
 
 /// A number type of the comparison.
 pub trait Number: Real + LowerExp {
@@ -35,6 +37,10 @@ impl Number for f32 {
 
 impl Number for f64 {
     const NAME: &'static str = "f64";
+}
+
+impl Number for Approximate {
+    const NAME: &'static str = "micromath";
 }
 
 /// What an instrument measures before an impact.
@@ -89,6 +95,11 @@ pub trait Scene<T: Number>: Sized {
     /// The classification itself.
     fn classify(&self, motion: &Self::Motion) -> Self::Verdict;
 
+    /// Overall restitution to some twelve digits, where it is simulated.
+    fn restitution(_impact: &Impact) -> Option<f64> {
+        None
+    }
+
     /// The impacts that suit this scene.
     fn impacts() -> impl Iterator<Item = &'static Impact> {
         IMPACTS.iter().filter(|impact| Self::PLANAR || impact.is_normal())
@@ -96,10 +107,10 @@ pub trait Scene<T: Number>: Sized {
 }
 
 /// Normal impacts only.
-pub struct Normal<T, A>(RigidBody<T, SpeedRestitution<T>, A>);
+pub struct Normal<T, A>(pub(super) RigidBody<T, SpeedRestitution<T>, A>);
 
 /// Friction and spin.
-pub struct Planar<T, A>(RigidBody<T, SpeedRestitution<T>, A, Coulomb<T>>);
+pub struct Planar<T, A>(pub(super) RigidBody<T, SpeedRestitution<T>, A, Coulomb<T>>);
 
 impl<T: Number, A: Adhesion<T>> Scene<T> for Normal<T, A> {
     const NAME: &'static str = A::NORMAL_SCENE;
@@ -111,11 +122,12 @@ impl<T: Number, A: Adhesion<T>> Scene<T> for Normal<T, A> {
         A::scene().map(Self)
     }
 
+    // What is counted is the library, not a second call around it.
+    #[inline(always)]
     fn motion(&self, measured: &Measured<T>) -> Option<Self::Motion> {
         NormalMotion::new(measured.approach_m_s).ok()
     }
 
-    // What is counted is the library, not a second call around it.
     #[inline(always)]
     fn classify(&self, motion: &Self::Motion) -> Self::Verdict {
         self.0.classify(motion)
@@ -132,6 +144,8 @@ impl<T: Number, A: Adhesion<T>> Scene<T> for Planar<T, A> {
         A::scene()?.with_friction(given(FRICTION)).ok().map(Self)
     }
 
+    // What is counted is the library, not a second call around it.
+    #[inline(always)]
     fn motion(&self, measured: &Measured<T>) -> Option<Self::Motion> {
         NormalMotion::new(measured.approach_m_s)
             .and_then(|normal| normal.with_tangential(measured.tangential_m_s))
@@ -139,7 +153,6 @@ impl<T: Number, A: Adhesion<T>> Scene<T> for Planar<T, A> {
             .ok()
     }
 
-    // What is counted is the library, not a second call around it.
     #[inline(always)]
     fn classify(&self, motion: &Self::Motion) -> Self::Verdict {
         self.0.classify(motion)
@@ -162,7 +175,7 @@ impl<T: Number> Adhesion<T> for AdhesionCoefficient<T> {
     const PLANAR_SCENE: &'static str = "planar/coefficient";
 
     fn scene() -> Option<RigidBody<T, SpeedRestitution<T>, Self>> {
-        bare_scene()?.with_adhesion_coefficient(given(ADHESION_COEFFICIENT)).ok()
+        bare_scene().and_then(|scene| scene.with_adhesion_coefficient(given(ADHESION_COEFFICIENT))).ok()
     }
 }
 
@@ -171,14 +184,14 @@ impl<T: Number> Adhesion<T> for WorkOfAdhesion<T> {
     const PLANAR_SCENE: &'static str = "planar/work";
 
     fn scene() -> Option<RigidBody<T, SpeedRestitution<T>, Self>> {
-        bare_scene()?.with_work_of_adhesion(given(WORK_OF_ADHESION_J)).ok()
+        bare_scene().and_then(|scene| scene.with_work_of_adhesion(given(WORK_OF_ADHESION_J))).ok()
     }
 }
 
-fn bare_scene<T: Number>() -> Option<RigidBody<T, SpeedRestitution<T>>> {
-    let sphere = Sphere::solid(given(RADIUS_M), given(DENSITY_KG_M3)).ok()?;
-    let restitution = SpeedRestitution::new(given(RESTITUTION_SPEED_M_S)).ok()?;
-    Some(RigidBody::new(sphere, restitution))
+pub(super) fn bare_scene<T: Number>() -> Result<RigidBody<T, SpeedRestitution<T>>, InputError> {
+    let sphere = Sphere::solid(given(RADIUS_M), given(DENSITY_KG_M3))?;
+    let restitution = SpeedRestitution::new(given(RESTITUTION_SPEED_M_S))?;
+    Ok(RigidBody::new(sphere, restitution))
 }
 
 /// A number that the compiler does not know, as if it were read from a configuration:
@@ -224,13 +237,19 @@ pub trait Visitor {
     fn visit<T: Number, S: Scene<T>>(&mut self);
 }
 
-/// Goes through all scenes in both number types.
+/// Goes through the scenes of the rigid body in both number types, and those of fixed point and of tables.
 pub fn visit_scenes(visitor: &mut impl Visitor) {
     visit_scenes_of::<f32>(visitor);
     visit_scenes_of::<f64>(visitor);
-    visit_contacts(visitor);
     visit_fixed_contacts(visitor);
     visit_tables(visitor);
+    visit_approximate(visitor);
+}
+
+/// Goes through the scenes that show what approximate functions would save.
+fn visit_approximate(visitor: &mut impl Visitor) {
+    visitor.visit::<Approximate, Planar<Approximate, WorkOfAdhesion<Approximate>>>();
+    visitor.visit::<Approximate, NormalContacts<Approximate, FixedCost<4>>>();
 }
 
 fn visit_scenes_of<T: Number>(visitor: &mut impl Visitor) {

@@ -7,7 +7,7 @@ use microimpact::boundary::{BoundaryTable, Reading, Rebound, RestitutionTable, S
 use microimpact::simulation::{Collocation, Nodes, SimulatedImpact, TangentialContact};
 use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, SurfaceMotion};
 
-use super::contacts::surface_of;
+use super::contacts::{exact_restitution, surface_of};
 use super::impacts::{CONTACTS, Impact};
 use super::scenes::{Answer, FRICTION, Measured, Number, RADIUS_M, Scene, Visitor, given};
 
@@ -57,11 +57,12 @@ impl<T: Number + Single> Scene<T> for Boundary<T> {
         Some(Self { table: black_box(TABLE), radius: given(RADIUS_M) })
     }
 
+    // What is counted is the library, not a second call around it.
+    #[inline(always)]
     fn motion(&self, measured: &Measured<T>) -> Option<Self::Motion> {
         NormalMotion::new(measured.approach_m_s).ok()
     }
 
-    // What is counted is the library, not a second call around it.
     #[inline(always)]
     fn classify(&self, motion: &Self::Motion) -> Verdict {
         self.table.classify(self.radius, motion)
@@ -107,6 +108,8 @@ impl<T: Number + Nodes<7> + Single> Scene<T> for Restitution<T> {
         Some(Self { table: surface::<T>().ok()?, friction, radius: given(RADIUS_M) })
     }
 
+    // What is counted is the library, not a second call around it.
+    #[inline(always)]
     fn motion(&self, measured: &Measured<T>) -> Option<Self::Motion> {
         NormalMotion::new(measured.approach_m_s)
             .and_then(|normal| normal.with_tangential(measured.tangential_m_s))
@@ -114,7 +117,6 @@ impl<T: Number + Nodes<7> + Single> Scene<T> for Restitution<T> {
             .ok()
     }
 
-    // What is counted is the library, not a second call around it.
     #[inline(always)]
     fn classify(&self, motion: &Self::Motion) -> Self::Verdict {
         let reading = self.table.read(self.radius, motion);
@@ -123,6 +125,10 @@ impl<T: Number + Nodes<7> + Single> Scene<T> for Restitution<T> {
             _ => None,
         };
         (reading, separation)
+    }
+
+    fn restitution(impact: &Impact) -> Option<f64> {
+        exact_restitution(surface_of(given(RADIUS_M)), impact)
     }
 
     fn impacts() -> impl Iterator<Item = &'static Impact> {

@@ -64,6 +64,11 @@ impl Emulator {
 
 /// Runs a firmware to its end and returns what it printed.
 pub fn run(board: &Board, firmware: &Path) -> Result<String, String> {
+    run_within(LIMIT, board, firmware)
+}
+
+/// The same with a time limit of its own.
+pub fn run_within(limit: Duration, board: &Board, firmware: &Path) -> Result<String, String> {
     let Emulator { program, instruction_time, options, .. } = board.emulator;
     let mut command = Command::new(program);
     command
@@ -75,12 +80,12 @@ pub fn run(board: &Board, firmware: &Path) -> Result<String, String> {
         .arg("-kernel")
         .arg(firmware);
     let finished =
-        process::run(&mut command, LIMIT).map_err(|error| format!("{}: cannot run {program}: {error}", board.core))?;
+        process::run(&mut command, limit).map_err(|error| format!("{}: cannot run {program}: {error}", board.core))?;
     if finished.status.is_none() {
         return Err(format!(
             "{}: the firmware did not end within {} s; it printed:\n{}",
             board.core,
-            LIMIT.as_secs(),
+            limit.as_secs(),
             finished.tail(5)
         ));
     }

@@ -13,33 +13,72 @@ pub enum Quantity {
     Classify,
     /// A classification and the validation of the measured motion before it.
     SetUpAndClassify,
-    /// The deepest stack of a classification.
+    /// A calibration.
+    Calibrate,
+    /// The deepest stack of a classification or a calibration.
     Stack,
-    /// Code and constants.
+    /// Code and constants that a scene adds to a firmware which does nothing else.
     Flash,
+    /// Code and constants that set-up, validation and classification refer to, in a firmware with other scenes.
+    Code,
     /// Memory taken for as long as the firmware runs.
     StaticMemory,
+    /// Bytes that differ from a build in which the terms that a scene does not use do not exist.
+    AbsentTerms,
+    /// The largest error of the restitution, or relative error of the margins where there is none.
+    Error,
 }
 
 impl Quantity {
-    const ALL: [Self; 5] = [Self::Classify, Self::SetUpAndClassify, Self::Stack, Self::Flash, Self::StaticMemory];
+    const ALL: [Self; 9] = [
+        Self::Classify,
+        Self::SetUpAndClassify,
+        Self::Calibrate,
+        Self::Stack,
+        Self::Flash,
+        Self::Code,
+        Self::StaticMemory,
+        Self::AbsentTerms,
+        Self::Error,
+    ];
 
     /// Its name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Classify => "classify",
             Self::SetUpAndClassify => "set up and classify",
+            Self::Calibrate => "calibrate",
             Self::Stack => "stack",
             Self::Flash => "flash",
+            Self::Code => "code and constants",
             Self::StaticMemory => "static memory",
+            Self::AbsentTerms => "absent terms",
+            Self::Error => "error",
         }
     }
 
     /// Its unit.
     pub fn unit(self) -> &'static str {
         match self {
-            Self::Classify | Self::SetUpAndClassify => "instructions",
-            Self::Stack | Self::Flash | Self::StaticMemory => "bytes",
+            Self::Classify | Self::SetUpAndClassify | Self::Calibrate => "instructions",
+            Self::Stack | Self::Flash | Self::Code | Self::StaticMemory | Self::AbsentTerms => "bytes",
+            Self::Error => "1",
+        }
+    }
+
+    /// A value with as many digits as it has, or few where it is no whole number.
+    pub fn digits(self, value: f64) -> String {
+        match self {
+            Self::Error => format!("{value:.1e}"),
+            _ => value.to_string(),
+        }
+    }
+
+    /// What it may grow by in any case: below that the layout of unrelated code counts, or the last bits of a root.
+    fn tolerated(self) -> f64 {
+        match self {
+            Self::Error => 1e-12,
+            _ => 2.0,
         }
     }
 }
@@ -71,12 +110,12 @@ impl Display for Subject {
 }
 
 /// One measured number.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// What the number belongs to.
     pub subject: Subject,
     /// In the unit of its quantity.
-    pub value: u32,
+    pub value: f64,
 }
 
 const COLUMNS: [&str; 8] = ["compiler", "core", "scene", "scalar", "impact", "quantity", "value", "unit"];
@@ -139,7 +178,7 @@ impl Stored {
                 comparison.unknown += 1;
                 continue;
             };
-            if is_worse(before.value, figure.value) {
+            if is_worse(figure.subject.quantity, before.value, figure.value) {
                 comparison.worse.push(format!(
                     "{}: {} {}, {} when stored; make it better, or accept it with `cargo qemu \
                      --overwrite`",
@@ -165,7 +204,15 @@ impl Stored {
         write(&rows, file).map_err(|error| wrong(&error))
     }
 
-    fn rows_of(&self, compiler: &str) -> impl Iterator<Item = &Figure> {
+    /// The compilers that have figures, the earliest in the file first.
+    pub fn compilers(&self) -> Vec<&str> {
+        let mut compilers: Vec<&str> = self.rows.iter().map(|(by, _)| &**by).collect();
+        compilers.dedup();
+        compilers
+    }
+
+    /// The figures of one compiler.
+    pub fn rows_of(&self, compiler: &str) -> impl Iterator<Item = &Figure> {
         let own = self.rows.iter().filter(move |(by, _)| by == compiler);
         own.map(|(_, figure)| figure)
     }
@@ -181,10 +228,10 @@ pub struct Comparison {
     pub worse: Vec<String>,
 }
 
-/// More than 5 %, and more than 2, below which the layout of unrelated code counts.
-fn is_worse(before: u32, now: u32) -> bool {
-    let more = now.saturating_sub(before);
-    more > 2 && u64::from(more) * 20 > u64::from(before)
+/// More than 5 %, and more than is tolerated in any case.
+fn is_worse(quantity: Quantity, before: f64, now: f64) -> bool {
+    let more = now - before;
+    more > quantity.tolerated() && more > 0.05 * before
 }
 
 fn parse(record: &csv::StringRecord) -> Option<(String, Figure)> {

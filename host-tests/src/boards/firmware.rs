@@ -11,6 +11,9 @@ use super::toolchain::{Toolchain, target_variable};
 /// Generous: the first build on a slow machine compiles `core` too.
 const LIMIT: Duration = Duration::from_secs(900);
 
+/// Where the firmware is in the repository.
+pub const FOLDER: &str = "examples/firmware";
+
 /// The feature of the probes, which changes nothing in the other binaries.
 const PROBE: &str = "probe";
 
@@ -60,6 +63,12 @@ pub fn try_build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Res
     run_cargo(toolchain, board, "release", PROBE, binaries)
 }
 
+/// Builds binaries of a copy of the repository and returns the folder they are in.
+pub fn build_copy(toolchain: &Toolchain, board: &Board, copy: &Path, binaries: &[&str]) -> Result<PathBuf, String> {
+    let finished = run_cargo_in(&copy.join(FOLDER), toolchain, board, "release", None, binaries)?;
+    built(toolchain, board, binaries, "release", finished)
+}
+
 fn run_cargo(
     toolchain: &Toolchain,
     board: &Board,
@@ -67,12 +76,22 @@ fn run_cargo(
     feature: &str,
     binaries: &[&str],
 ) -> Result<Finished, String> {
+    run_cargo_in(&repository().join(FOLDER), toolchain, board, profile, Some(feature), binaries)
+}
+
+fn run_cargo_in(
+    folder: &Path,
+    toolchain: &Toolchain,
+    board: &Board,
+    profile: &str,
+    feature: Option<&str>,
+    binaries: &[&str],
+) -> Result<Finished, String> {
     let mut cargo = toolchain.cargo(board.triple);
-    cargo
-        .current_dir(repository().join("examples/firmware"))
-        .args(["--profile", profile, "--features", feature])
-        .arg("--target-dir")
-        .arg(target_folder(toolchain, board));
+    cargo.current_dir(folder).args(["--profile", profile]).arg("--target-dir").arg(target_folder(toolchain, board));
+    if let Some(feature) = feature {
+        cargo.args(["--features", feature]);
+    }
     for binary in binaries {
         cargo.args(["--bin", binary]);
     }

@@ -3,13 +3,16 @@
 // Every error is a sentence for the person who runs the command.
 #![allow(clippy::missing_errors_doc)]
 
+pub mod absent;
 pub mod emulator;
 pub mod figures;
 pub mod firmware;
 pub mod footprint;
 pub mod packages;
 pub mod process;
+pub mod reachable;
 pub mod toolchain;
+pub mod without;
 
 use emulator::{ARM, Emulator, RISCV32};
 

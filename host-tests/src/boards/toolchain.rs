@@ -37,9 +37,9 @@ pub struct Toolchain {
 
 const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
 const DEBIAN_CARGO: &str = "/usr/bin/cargo";
-/// A linker and its package for each architecture, by how its targets begin.
-const DEBIAN_LINKERS: [(&str, &str, &str); 2] =
-    [("thumb", "arm-none-eabi-ld", "binutils-arm-none-eabi"), ("riscv32", "ld.lld", "lld")];
+/// The linker for all targets: LLVM's, as rustup's compiler has it, since its map is read.
+const DEBIAN_LINKER: &str = "ld.lld";
+const DEBIAN_LINKER_PACKAGE: &str = "lld";
 const DEBIAN_RUST_PACKAGES: [&str; 3] = ["rustc-web", "cargo-web", "rust-web-src"];
 /// The oldest release that compiles the library: `rust-version` in its Cargo.toml.
 const OLDEST_RELEASE: (u32, u32) = (1, 88);
@@ -56,7 +56,7 @@ impl Toolchain {
             }
         }
         if choice != Choice::Rustup {
-            match debian(triples, permission) {
+            match debian(permission) {
                 Ok(toolchain) => return Ok(toolchain),
                 Err(obstacle) => obstacles.push(obstacle),
             }
@@ -92,9 +92,7 @@ impl Toolchain {
                 .env("PATH", path_starting_with("/usr/bin"))
                 .env("RUSTC_BOOTSTRAP", "1")
                 .arg("-Zbuild-std=core");
-            for (linker, _) in debian_linkers(&[triple]) {
-                command.env(target_variable(triple, "LINKER"), linker);
-            }
+            command.env(target_variable(triple, "LINKER"), DEBIAN_LINKER);
         }
         command
     }
@@ -136,18 +134,17 @@ fn in_use(triples: &[&str], permission: Permission) -> Result<Toolchain, String>
     Ok(Toolchain { route: Route::InUse, compiler })
 }
 
-fn debian(triples: &[&str], permission: Permission) -> Result<Toolchain, String> {
-    let missing = debian_missing(triples);
+fn debian(permission: Permission) -> Result<Toolchain, String> {
+    let missing = debian_missing();
     if !missing.is_empty() {
         packages::install(&missing, permission)
             .map_err(|why| format!("- on Debian, `apt-get install {}` ({why})", missing.join(" ")))?;
-        let still_missing = debian_missing(triples);
+        let still_missing = debian_missing();
         if !still_missing.is_empty() {
             return Err(format!(
-                "- on Debian, a usable {} (installed, but {DEBIAN_RUSTC}, {DEBIAN_CARGO} and {} \
-                 with Rust {}.{} or newer and the library's source are not all there)",
+                "- on Debian, a usable {} (installed, but {DEBIAN_RUSTC}, {DEBIAN_CARGO} and \
+                 {DEBIAN_LINKER} with Rust {}.{} or newer and the library's source are not all there)",
                 still_missing.join(" "),
-                debian_linkers(triples).map(|(linker, _)| linker).collect::<Vec<_>>().join(", "),
                 OLDEST_RELEASE.0,
                 OLDEST_RELEASE.1,
             ));
@@ -158,21 +155,15 @@ fn debian(triples: &[&str], permission: Permission) -> Result<Toolchain, String>
     Ok(Toolchain { route: Route::Debian, compiler })
 }
 
-fn debian_missing(triples: &[&str]) -> Vec<&'static str> {
+fn debian_missing() -> Vec<&'static str> {
     let mut missing = Vec::new();
     if !debian_rust_is_usable() {
         missing.extend(DEBIAN_RUST_PACKAGES);
     }
-    let lacking =
-        debian_linkers(triples).filter(|(linker, _)| !process::succeeds(Command::new(linker).arg("--version")));
-    missing.extend(lacking.map(|(_, package)| package));
+    if !process::succeeds(Command::new(DEBIAN_LINKER).arg("--version")) {
+        missing.push(DEBIAN_LINKER_PACKAGE);
+    }
     missing
-}
-
-/// The linkers that some targets need, each with its package.
-fn debian_linkers(triples: &[&str]) -> impl Iterator<Item = (&'static str, &'static str)> {
-    let needed = DEBIAN_LINKERS.iter().filter(|(start, ..)| triples.iter().any(|triple| triple.starts_with(start)));
-    needed.map(|&(_, linker, package)| (linker, package))
 }
 
 fn debian_rust_is_usable() -> bool {

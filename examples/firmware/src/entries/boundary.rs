@@ -2,8 +2,8 @@
 
 use core::hint::black_box;
 
-use microimpact::boundary::{BoundaryTable, Reading, Rebound, RestitutionTable, Single};
-use microimpact::{Coulomb, CriticalSpeed, InputError, Sphere};
+use microimpact::boundary::{BoundarySlice, BoundaryTable, Reading, Rebound, RestitutionTable, Single};
+use microimpact::{Coulomb, CriticalSpeed, InputError, NormalMotion, Sphere};
 
 use super::{any, keep, motions};
 
@@ -28,6 +28,16 @@ fn boundary<const N: usize, T: Single>() -> Result<(), InputError> {
     keep(table.classify(any::<T>(), &planar));
     keep((table.critical_speed(any::<T>()), table.radii::<T>(), table.margin::<T>()));
     keep(table.parts());
+    keep(table.as_slice().parts());
+    slice(black_box(&mut [[1; 4]; N][..]), &normal)
+}
+
+fn slice<T: Single>(cells: &mut [[i32; 4]], motion: &NormalMotion<T>) -> Result<(), InputError> {
+    let filled = BoundarySlice::fill(any::<T>(), cells, |_| Ok(black_box(CriticalSpeed::At(any::<T>()))))?;
+    keep(filled.classify(any::<T>(), motion));
+    let (smallest, margin, cells) = filled.parts();
+    keep(BoundarySlice::from_parts(smallest, margin, cells));
+    keep(BoundarySlice::cell(smallest, margin, cells, any::<T>())?.map(|cell| cell.classify(any::<T>(), motion)));
     Ok(())
 }
 

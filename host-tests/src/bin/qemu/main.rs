@@ -2,21 +2,26 @@
 //! cores, runs it in QEMU, compares every class with the host's, and reports what
 //! the library costs: instructions, flash, static memory and stack.
 
+use std::collections::BTreeMap;
 use std::io;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 
-use answers::Protocol;
+use answers::{Case, Code, Expected, Protocol};
 use host_tests::boards::emulator::Emulator;
 use host_tests::boards::figures::{Figure, Quantity, Stored, Subject};
 use host_tests::boards::footprint::Footprint;
 use host_tests::boards::packages::Permission;
+use host_tests::boards::reachable::Pieces;
 use host_tests::boards::toolchain::{Choice, Toolchain};
-use host_tests::boards::{BOARDS, Board, REFERENCE_CORE, emulator, figures, firmware};
+use host_tests::boards::{BOARDS, Board, REFERENCE_CORE, absent, emulator, figures, firmware};
 
 mod answers;
 mod c;
+mod calibrate;
+mod counts;
 mod instrument;
 mod limits;
 mod panics;
@@ -34,6 +39,10 @@ mod session;
 struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
+    /// The largest figures of each scene, number type and core in one row: instructions, flash, stack, static memory and error;
+    /// panicking paths are not looked for
+    #[arg(long)]
+    counts: bool,
     /// Form of the figures on standard output
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -92,6 +101,7 @@ fn main() -> ExitCode {
 fn run(arguments: &Arguments, permission: Permission) -> Result<Vec<String>, String> {
     let stored = Stored::read(&Stored::path())?;
     let expected = answers::expected()?;
+    let calibrated = calibrate::expected()?;
     let (toolchain, emulator) = match tools(arguments.toolchain, &BOARDS, permission) {
         Ok(tools) => tools,
         Err(missing) => return Ok(missing),
@@ -100,22 +110,44 @@ fn run(arguments: &Arguments, permission: Permission) -> Result<Vec<String>, Str
 
     let mut failures = Vec::new();
     let mut protocols = Vec::new();
+    let mut figures = Vec::new();
     let mut proved = Vec::new();
     for board in &BOARDS {
         match run_board(&toolchain, board) {
-            Ok(protocol) => {
+            Ok((protocol, code)) => {
                 let differences = protocol.differences(&expected);
                 failures.extend(differences.iter().map(|text| format!("{}: {text}", board.core)));
+                figures.extend(measured(board, &protocol, &expected));
+                figures.extend(code);
                 protocols.push((board, protocol));
             }
             Err(error) => failures.push(error),
         }
-        eprintln!("looking for panicking paths on {} ...", board.core);
-        let doubts = panics::doubts(&toolchain, board);
-        proved.push((board, doubts.is_empty()));
-        failures.extend(doubts);
+        match run_calibrations(&toolchain, board) {
+            Ok((protocol, code)) => {
+                let differences = protocol.differences(&calibrated);
+                failures.extend(differences.iter().map(|text| format!("{}: {text}", board.core)));
+                figures.extend(protocol.figures(board.core));
+                figures.extend(code);
+            }
+            Err(error) => failures.push(error),
+        }
+        if !arguments.counts {
+            eprintln!("looking for panicking paths on {} ...", board.core);
+            let doubts = panics::doubts(&toolchain, board);
+            proved.push((board, doubts.is_empty()));
+            failures.extend(doubts);
+        }
     }
-    let mut figures = measured(&protocols);
+    for board in BOARDS.iter().filter(|board| absent::CORES.contains(&board.core)) {
+        eprintln!("looking for bytes of absent terms on {} ...", board.core);
+        match absent::differing(&toolchain, board) {
+            Ok(bytes) => figures.extend(absent::PROOFS.iter().zip(bytes).map(|(proof, bytes)| {
+                of_scene(board, proof.scene, limits::SCALAR, Quantity::AbsentTerms, bytes.into())
+            })),
+            Err(error) => failures.push(error),
+        }
+    }
     match flash(&toolchain) {
         Ok(sizes) => figures.extend(sizes),
         Err(error) => failures.push(error),
@@ -123,11 +155,18 @@ fn run(arguments: &Arguments, permission: Permission) -> Result<Vec<String>, Str
     let checked = limits::check(&figures);
     failures.extend(limits::broken(&checked));
     failures.extend(limits::broken_elsewhere(&figures));
+    failures.extend(limits::doubtful_bytes(&figures));
 
     match arguments.format {
+        Format::Table if arguments.counts => {
+            println!("{}", counts::table(&figures));
+            println!("{}", counts::absent_terms(&figures));
+        }
+        Format::Csv if arguments.counts => counts::write(&toolchain.compiler, &figures, io::stdout())?,
         Format::Table => {
             println!("{}", report::classes(&protocols));
             println!("{}", report::footprint(&checked));
+            println!("{}", counts::absent_terms(&figures));
             println!("{}", report::panics(&proved));
         }
         Format::Csv => {
@@ -169,46 +208,78 @@ fn tools(choice: Choice, boards: &[Board], permission: Permission) -> Result<(To
     Err(missing)
 }
 
-fn run_board(toolchain: &Toolchain, board: &Board) -> Result<Protocol, String> {
-    eprintln!("building for {} ({}) ...", board.core, board.triple);
-    let folder = firmware::build(toolchain, board, &["classify"])?;
-    eprintln!("running on {} ({}) ...", board.core, board.machine);
-    let output = emulator::run(board, &folder.join("classify"))?;
-    Protocol::parse(&output).map_err(|error| format!("{}: {error}", board.core))
+/// The binaries that measure; together they hold more than the smallest board does.
+const MEASURING: [&str; 4] = ["classify", "contacts", "variants", "collocations"];
+
+/// What the firmware says on a board, and what each scene needs of it.
+fn run_board(toolchain: &Toolchain, board: &Board) -> Result<(Protocol, Vec<Figure>), String> {
+    let (mut all, mut figures) = (Protocol::default(), Vec::new());
+    let folder = built(toolchain, board, &MEASURING)?;
+    for binary in MEASURING {
+        let firmware = folder.join(binary);
+        let protocol = Protocol::parse(&emulator::run(board, &firmware)?)
+            .map_err(|error| format!("{}, {binary}: {error}", board.core))?;
+        figures.extend(needs(board, &firmware, &protocol.code)?);
+        all.append(protocol);
+    }
+    Ok((all, figures))
 }
 
-/// The figures that the boards printed.
-fn measured(protocols: &[(&Board, Protocol)]) -> Vec<Figure> {
+/// The same of calibrations.
+fn run_calibrations(toolchain: &Toolchain, board: &Board) -> Result<(calibrate::Protocol, Vec<Figure>), String> {
+    let firmware = built(toolchain, board, &["calibrate"])?.join("calibrate");
+    let protocol = calibrate::Protocol::parse(&emulator::run(board, &firmware)?)
+        .map_err(|error| format!("{}, calibrate: {error}", board.core))?;
+    let figures = needs(board, &firmware, &protocol.code)?;
+    Ok((protocol, figures))
+}
+
+/// The folder in which binaries for a board are.
+fn built(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<PathBuf, String> {
+    eprintln!("building {} for {} ({}) ...", binaries.join(", "), board.core, board.triple);
+    let folder = firmware::build(toolchain, board, binaries)?;
+    eprintln!("running on {} ({}) ...", board.core, board.machine);
+    Ok(folder)
+}
+
+/// What the functions need whose addresses a firmware has printed.
+fn needs(board: &Board, firmware: &Path, code: &[Code]) -> Result<Vec<Figure>, String> {
+    let pieces = Pieces::of(firmware)?;
     let mut figures = Vec::new();
-    for (board, protocol) in protocols {
-        for measurement in &protocol.measurements {
-            let figure = |quantity, value| Figure {
-                subject: Subject {
-                    core: board.core.to_owned(),
-                    scene: measurement.case.scene.clone(),
-                    scalar: measurement.case.scalar.clone(),
-                    impact: measurement.case.impact.clone(),
-                    quantity,
-                },
-                value,
-            };
-            figures.push(figure(Quantity::Classify, measurement.instructions));
-            figures.push(figure(Quantity::SetUpAndClassify, measurement.with_set_up));
-        }
-        for (scene, scalar, bytes) in &protocol.stacks {
-            figures.push(Figure {
-                subject: Subject {
-                    core: board.core.to_owned(),
-                    scene: scene.clone(),
-                    scalar: scalar.clone(),
-                    impact: String::new(),
-                    quantity: Quantity::Stack,
-                },
-                value: *bytes,
-            });
+    for Code { scene, scalar, function } in code {
+        let needed = pieces.needed_by(*function)?;
+        figures.push(of_scene(board, scene, scalar, Quantity::Code, needed.flash.into()));
+        figures.push(of_scene(board, scene, scalar, Quantity::StaticMemory, needed.static_memory.into()));
+    }
+    Ok(figures)
+}
+
+/// The figures that a board printed.
+fn measured(board: &Board, protocol: &Protocol, expected: &BTreeMap<Case, Expected>) -> Vec<Figure> {
+    let mut figures = Vec::new();
+    for measurement in &protocol.measurements {
+        let Case { scene, scalar, impact } = &measurement.case;
+        let counts =
+            [(Quantity::Classify, measurement.instructions), (Quantity::SetUpAndClassify, measurement.with_set_up)];
+        for (quantity, count) in counts {
+            let mut figure = of_scene(board, scene, scalar, quantity, count.into());
+            figure.subject.impact.clone_from(impact);
+            figures.push(figure);
         }
     }
+    for (scene, scalar, bytes) in &protocol.stacks {
+        figures.push(of_scene(board, scene, scalar, Quantity::Stack, (*bytes).into()));
+    }
+    for (scene, scalar, error) in protocol.errors(expected) {
+        figures.push(of_scene(board, &scene, &scalar, Quantity::Error, error));
+    }
     figures
+}
+
+/// A figure of a whole scene.
+fn of_scene(board: &Board, scene: &str, scalar: &str, quantity: Quantity, value: f64) -> Figure {
+    let (core, scene, scalar) = (board.core.to_owned(), scene.to_owned(), scalar.to_owned());
+    Figure { subject: Subject { core, scene, scalar, impact: String::new(), quantity }, value }
 }
 
 /// The firmware that each scene makes larger, on the core of the promises.
@@ -241,18 +312,11 @@ fn flash(toolchain: &Toolchain) -> Result<Vec<Figure>, String> {
             let empty = Footprint::of(&folder.join("flash_empty"))?;
             for (scene, binary) in scenes {
                 let added = Footprint::of(&folder.join(binary))?.minus(empty);
-                let figure = |quantity, value| Figure {
-                    subject: Subject {
-                        core: board.core.to_owned(),
-                        scene: (*scene).to_owned(),
-                        scalar: "f32".to_owned(),
-                        impact: String::new(),
-                        quantity,
-                    },
-                    value,
-                };
-                figures.push(figure(Quantity::Flash, added.flash));
-                figures.push(figure(Quantity::StaticMemory, added.static_memory));
+                figures.push(of_scene(board, scene, limits::SCALAR, Quantity::Flash, added.flash.into()));
+                if limits::is_small(scene) {
+                    let variables = added.static_memory.into();
+                    figures.push(of_scene(board, scene, limits::SCALAR, Quantity::StaticMemory, variables));
+                }
             }
         }
     }

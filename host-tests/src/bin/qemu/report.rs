@@ -45,21 +45,28 @@ fn cost(protocol: &Protocol, case: &Case) -> String {
     })
 }
 
-/// The promises and what became of them, the rigid body's first, then those of the simulation and of tables; a column
-/// for each scene.
+/// The promises and what became of them, the rigid body's first, then those of the simulation, of tables, of fixed point and
+/// of calibrations; a column for each scene.
 pub(crate) fn footprint(checked: &[Checked]) -> String {
+    let (fixed_point, others): (Vec<_>, Vec<_>) =
+        checked.iter().partition(|checked| limits::is_fixed_point(&checked.subject.scene));
     let (simulated, others): (Vec<_>, Vec<_>) =
-        checked.iter().partition(|checked| limits::is_simulated(&checked.subject.scene));
-    let (tables, rigid): (Vec<_>, Vec<_>) =
+        others.into_iter().partition(|checked| limits::is_simulated(&checked.subject.scene));
+    let (tables, others): (Vec<_>, Vec<_>) =
         others.into_iter().partition(|checked| limits::is_table(&checked.subject.scene));
+    let (calibrations, rigid): (Vec<_>, Vec<_>) =
+        others.into_iter().partition(|checked| limits::is_calibration(&checked.subject.scene));
     format!(
-        "Footprint on {REFERENCE_CORE}, {}\n{}\n\n{}\n\n{}\n\
-         Instructions are not cycles. Flash and static memory: a firmware that validates a scene and\n\
-         motions and classifies them, less the same firmware without that.\n",
+        "Footprint on {REFERENCE_CORE}, {}\n{}\n\n{}\n\n{}\n\n{}\n\n{}\n\
+         Instructions are not cycles. Flash: a firmware that validates a scene and motions and classifies them, less the same\n\
+         firmware without that. Code and constants, static memory: what the same refers to in a firmware with other scenes,\n\
+         between which the compiler shares more and joins less.\n",
         limits::SCALAR,
         footprint_table(&rigid),
         footprint_table(&simulated),
         footprint_table(&tables),
+        footprint_table(&fixed_point),
+        footprint_table(&calibrations),
     )
 }
 
@@ -83,7 +90,7 @@ fn footprint_table(checked: &[&Checked]) -> Table {
         let mut row = vec![format!("{}, {}", quantity.name(), quantity.unit()), limit];
         row.extend(scenes.iter().map(|scene| {
             let same = |found: &&&Checked| found.subject.quantity == quantity && found.subject.scene == *scene;
-            checked.iter().find(same).map_or_else(String::new, |found| found.value.to_string())
+            checked.iter().find(same).map_or_else(String::new, |found| quantity.digits(found.value))
         }));
         table.add_row(row);
     }
@@ -102,7 +109,7 @@ pub(crate) fn panics(proved: &[(&Board, bool)]) -> String {
     text
 }
 
-fn new_table() -> Table {
+pub(crate) fn new_table() -> Table {
     let mut table = Table::new();
     table
         .load_preset(NOTHING)
@@ -111,7 +118,7 @@ fn new_table() -> Table {
     table
 }
 
-fn align_right(table: &mut Table, columns: Range<usize>) {
+pub(crate) fn align_right(table: &mut Table, columns: Range<usize>) {
     for column in columns {
         if let Some(column) = table.column_mut(column) {
             column.set_cell_alignment(CellAlignment::Right);

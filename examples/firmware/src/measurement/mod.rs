@@ -1,22 +1,19 @@
-//! Classifies every impact in every scene and prints one line for each, with
-//! class, margins, restitution and cost: `word key=value key=value ...`.
+//! The body of the binaries that measure: classifies every impact in every scene of a list and prints one line for each,
+//! with class, margins, restitution and cost: `word key=value key=value ...`.
 //!
 //! Counts are instructions, not cycles: a division or a square root counts 1, and
 //! there are no wait states. Runs in QEMU, with `-icount`.
-
-#![no_std]
-#![no_main]
 
 use core::fmt::{self, Display, LowerExp};
 use core::hint::black_box;
 use core::panic::PanicInfo;
 
-use microimpact_firmware::entry;
-use microimpact_firmware::scenes::{Answer, Measured, Number, Scene, Visitor, visit_scenes};
+use microimpact_firmware::scenes::{Answer, Measured, Number, Scene, Visitor};
 
 #[cfg(target_arch = "arm")]
 use arm as processor;
-use processor::{Counter, NO_COUNTER, hprintln, stop};
+pub(crate) use processor::hprintln;
+use processor::{Counter, NO_COUNTER, stop};
 #[cfg(target_arch = "riscv32")]
 use riscv32 as processor;
 
@@ -24,25 +21,26 @@ use riscv32 as processor;
 mod arm;
 #[cfg(target_arch = "riscv32")]
 mod riscv32;
-mod stack;
+pub(crate) mod stack;
 
-#[entry]
-fn main() -> ! {
+/// Measures the scenes that `visit` goes through, and ends the emulation.
+pub(crate) fn run(visit: impl FnOnce(&mut Measurement)) -> ! {
     let Some(counter) = Counter::new() else {
         fail(NO_COUNTER);
     };
-    visit_scenes(&mut Measurement { counter });
+    visit(&mut Measurement { counter });
     hprintln!("done");
     stop(true)
 }
 
-struct Measurement {
-    counter: Counter,
+/// What measures a scene, or a calibration.
+pub(crate) struct Measurement {
+    pub(crate) counter: Counter,
 }
 
 impl Visitor for Measurement {
     fn visit<T: Number, S: Scene<T>>(&mut self) {
-        let Some(scene) = S::new() else {
+        let Some(scene) = set_up::<T, S>() else {
             fail(S::NAME);
         };
         let mut deepest = 0;
@@ -74,6 +72,22 @@ impl Visitor for Measurement {
             }
         }
         hprintln!("stack scene={} scalar={} bytes={}", S::NAME, T::NAME, deepest);
+        let code: fn(&Measured<T>) = code::<T, S>;
+        hprintln!("code scene={} scalar={} address={}", S::NAME, T::NAME, black_box(code) as usize);
+    }
+}
+
+#[inline(never)]
+fn set_up<T: Number, S: Scene<T>>() -> Option<S> {
+    S::new()
+}
+
+/// Never called: what it refers to is the code of a scene. The address of a function that is counted must not be taken, or the
+/// compiler would have to leave it a plain interface.
+#[inline(never)]
+fn code<T: Number, S: Scene<T>>(measured: &Measured<T>) {
+    if let Some(scene) = set_up::<T, S>() {
+        set_up_and_classify(black_box(&scene), measured);
     }
 }
 
@@ -104,7 +118,8 @@ impl<T: LowerExp> Display for Digits<T> {
     }
 }
 
-fn fail(reason: &str) -> ! {
+/// Ends the emulation for a reason.
+pub(crate) fn fail(reason: &str) -> ! {
     hprintln!("error: {}", reason);
     stop(false)
 }

@@ -1,11 +1,11 @@
 //! How much stack a piece of work touches, measured by painting.
 
-use crate::processor::paint;
+use super::processor::paint;
 
 /// What unused stack is painted with.
 const PAINT: u32 = 0xa5c3_5a3c;
 /// Bytes of stack that are painted; work that reaches further cannot be measured.
-const REACH: u32 = 8192;
+const REACH: u32 = 12_288;
 const WORD: u32 = 4;
 
 /// Bytes of stack from the caller's to the deepest word that `work` writes, its

@@ -1,0 +1,15 @@
+//! Measures the scenes of the rigid body, of tables and of fixed point.
+
+#![no_std]
+#![no_main]
+
+use microimpact_firmware::entry;
+use microimpact_firmware::scenes::visit_scenes;
+
+#[path = "../measurement/mod.rs"]
+mod measurement;
+
+#[entry]
+fn main() -> ! {
+    measurement::run(visit_scenes)
+}

@@ -1,0 +1,15 @@
+//! Measures simulations to a tolerance with terms that only they have.
+
+#![no_std]
+#![no_main]
+
+use microimpact_firmware::entry;
+use microimpact_firmware::variants::visit_collocations;
+
+#[path = "../measurement/mod.rs"]
+mod measurement;
+
+#[entry]
+fn main() -> ! {
+    measurement::run(visit_collocations)
+}

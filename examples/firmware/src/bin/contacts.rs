@@ -1,0 +1,15 @@
+//! Measures the scenes of the contact simulation.
+
+#![no_std]
+#![no_main]
+
+use microimpact_firmware::contacts::visit_contacts;
+use microimpact_firmware::entry;
+
+#[path = "../measurement/mod.rs"]
+mod measurement;
+
+#[entry]
+fn main() -> ! {
+    measurement::run(visit_contacts)
+}

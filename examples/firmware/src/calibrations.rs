@@ -1,0 +1,232 @@
+//! Measurements from which a device calibrates itself, and what it makes of them: one parameter of the contact of Brach &
+//! Dunn (1995), Table 1, from one impact, and restitution law, adhesion and friction from a few.
+
+use core::marker::PhantomData;
+
+use microimpact::calibrate::{
+    CalibrationError, Estimate, ImpulseRatios, Rebound, RestitutionFit, adhesion_damping, friction, material_damping,
+    parameter, ring_strength,
+};
+use microimpact::simulation::{Collocation, Method, Simulation};
+use microimpact::{InputError, Sphere, Stiffness};
+
+use super::contacts::{MATERIAL_DAMPING, RING_N_M, STIFFNESS_PA, Setting, surface_of};
+use super::scenes::{DENSITY_KG_M3, Number, RADIUS_M, given};
+
+/// A calibration, with what was measured for it.
+pub trait Calibration<T: Number>: Sized {
+    /// Its name in tables.
+    const NAME: &'static str;
+    /// The parameters that it finds, each with its standard error where there is one.
+    type Answer: AsRef<[T]>;
+
+    /// What was measured, validated as far as that does not depend on the calibration.
+    fn new() -> Option<Self>;
+    /// The calibration itself.
+    fn calibrate(&self) -> Result<Self::Answer, CalibrationError>;
+}
+
+/// A measured rebound of the sphere, and the method and the tolerance with which it is explained.
+struct OneRebound<T, M> {
+    rebound: Rebound<T>,
+    method: M,
+    tolerance: T,
+}
+
+impl<T: Number, M: Tolerant> OneRebound<T, M> {
+    fn new(speed: f64, restitution: f64) -> Option<Self> {
+        let rebound = Rebound { speed: given(speed), restitution: given(restitution) };
+        Some(Self { rebound, method: M::new()?, tolerance: given(M::TOLERANCE) })
+    }
+}
+
+/// A method, and how exactly a parameter is to be found with it.
+pub trait Tolerant: Setting {
+    /// Relative tolerance of the parameter.
+    const TOLERANCE: f64;
+}
+
+impl Tolerant for Collocation<7, f32> {
+    const TOLERANCE: f64 = 1e-5;
+}
+
+impl Tolerant for Collocation<9, f64> {
+    const TOLERANCE: f64 = 1e-9;
+}
+
+/// zeta_H from R, at a speed where adhesion hardly counts.
+pub struct MaterialDamping<T, M>(OneRebound<T, M>);
+
+impl<T: Number, M: Tolerant + Method<T, ()>> Calibration<T> for MaterialDamping<T, M> {
+    const NAME: &'static str = "calibrate/material-damping";
+    type Answer = [T; 1];
+
+    fn new() -> Option<Self> {
+        OneRebound::new(13.0, 0.909).map(Self)
+    }
+
+    #[inline(always)]
+    fn calibrate(&self) -> Result<[T; 1], CalibrationError> {
+        let OneRebound { rebound, method, tolerance } = &self.0;
+        Ok([material_damping(&bare()?, method, rebound, *tolerance)?])
+    }
+}
+
+/// zeta_A from e of Table 1.
+pub struct AdhesionDamping<T, M>(OneRebound<T, M>);
+
+impl<T: Number, M: Tolerant + Method<T, ()>> Calibration<T> for AdhesionDamping<T, M> {
+    const NAME: &'static str = "calibrate/adhesion-damping";
+    type Answer = [T; 1];
+
+    fn new() -> Option<Self> {
+        OneRebound::new(2.8, 0.746).map(Self)
+    }
+
+    #[inline(always)]
+    fn calibrate(&self) -> Result<[T; 1], CalibrationError> {
+        let OneRebound { rebound, method, tolerance } = &self.0;
+        let damped = bare()?.with_damping(given(MATERIAL_DAMPING))?;
+        Ok([adhesion_damping(&damped, given(RING_N_M), method, rebound, *tolerance)?])
+    }
+}
+
+/// The radius from e of Table 1, between 2 um and 20 um.
+pub struct Radius<T, M>(OneRebound<T, M>);
+
+impl<T: Number, M: Tolerant + Method<T, ()>> Calibration<T> for Radius<T, M> {
+    const NAME: &'static str = "calibrate/radius";
+    type Answer = [T; 1];
+
+    fn new() -> Option<Self> {
+        OneRebound::new(2.8, 0.746).map(Self)
+    }
+
+    #[inline(always)]
+    fn calibrate(&self) -> Result<[T; 1], CalibrationError> {
+        let OneRebound { rebound, method, tolerance } = &self.0;
+        Ok([parameter((given(2e-6), given(20e-6)), surface_of, method, rebound, *tolerance)?])
+    }
+}
+
+/// f0 from the contact radius of a particle at rest, here 7 % of its own.
+pub struct AdhesionStrength<T>(PhantomData<T>);
+
+impl<T: Number> Calibration<T> for AdhesionStrength<T> {
+    const NAME: &'static str = "calibrate/adhesion-strength";
+    type Answer = [T; 1];
+
+    fn new() -> Option<Self> {
+        Some(Self(PhantomData))
+    }
+
+    #[inline(always)]
+    fn calibrate(&self) -> Result<[T; 1], CalibrationError> {
+        Ok([ring_strength(&sphere()?, Stiffness::new(given(STIFFNESS_PA))?, given(0.07 * RADIUS_M))?])
+    }
+}
+
+/// k and W_A from speeds (m/s) and restitutions.
+pub struct RestitutionLaw<T>([Rebound<T>; REBOUNDS.len()]);
+
+/// Rebounds with k = 130 m/s and W_A = 2.22e-12 J, read to three digits, two of them misread.
+const REBOUNDS: [(f64, f64); 12] = [
+    (2.1, 0.510),
+    (2.8, 0.747),
+    (3.5, 0.829),
+    (5.0, 0.894),
+    (6.0, 0.400),
+    (7.0, 0.914),
+    (9.0, 0.914),
+    (14.0, 0.894),
+    (20.0, 0.862),
+    (25.0, 0.990),
+    (30.0, 0.811),
+    (40.0, 0.763),
+];
+
+impl<T: Number> Calibration<T> for RestitutionLaw<T> {
+    const NAME: &'static str = "calibrate/restitution-law";
+    type Answer = [T; 4];
+
+    fn new() -> Option<Self> {
+        Some(Self(
+            REBOUNDS.map(|(speed, restitution)| Rebound { speed: given(speed), restitution: given(restitution) }),
+        ))
+    }
+
+    #[inline(always)]
+    fn calibrate(&self) -> Result<[T; 4], CalibrationError> {
+        let RestitutionFit { restitution_speed, work_of_adhesion, .. } = RestitutionFit::of(&sphere()?, &self.0)?;
+        let ([k, error_of_k], [work, error_of_work]) = (numbers(restitution_speed), numbers(work_of_adhesion));
+        Ok([k, error_of_k, work, error_of_work])
+    }
+}
+
+/// The friction coefficient from impulse ratios mu, each with that which rolls.
+pub struct Friction<T>([ImpulseRatios<T>; RATIOS.len()]);
+
+/// |mu| = min(f, |mu_0|) with f = 0.1 and some noise, towards glancing incidence; one misread.
+const RATIOS: [(f64, f64); 12] = [
+    (-0.031, -0.03),
+    (-0.058, -0.06),
+    (-0.092, -0.09),
+    (-0.101, -0.15),
+    (-0.098, -0.20),
+    (-0.103, -0.25),
+    (-0.100, -0.30),
+    (-0.250, -0.35),
+    (-0.099, -0.40),
+    (-0.104, -0.45),
+    (-0.097, -0.50),
+    (-0.102, -0.55),
+];
+
+impl<T: Number> Calibration<T> for Friction<T> {
+    const NAME: &'static str = "calibrate/friction";
+    type Answer = [T; 2];
+
+    fn new() -> Option<Self> {
+        Some(Self(
+            RATIOS.map(|(measured, rolling)| ImpulseRatios { measured: given(measured), rolling: given(rolling) }),
+        ))
+    }
+
+    #[inline(always)]
+    fn calibrate(&self) -> Result<[T; 2], CalibrationError> {
+        Ok(numbers(friction(&self.0)?.estimate))
+    }
+}
+
+fn numbers<T>(Estimate { value, standard_error }: Estimate<T>) -> [T; 2] {
+    [value, standard_error]
+}
+
+fn sphere<T: Number>() -> Result<Sphere<T>, InputError> {
+    Sphere::solid(given(RADIUS_M), given(DENSITY_KG_M3))
+}
+
+fn bare<T: Number>() -> Result<Simulation<T>, InputError> {
+    Ok(Simulation::new(sphere()?, Stiffness::new(given(STIFFNESS_PA))?))
+}
+
+/// Work to do for every calibration and number type.
+pub trait CalibrationVisitor {
+    /// Does it for one of them.
+    fn visit<T: Number, C: Calibration<T>>(&mut self);
+}
+
+/// Goes through all calibrations in both number types.
+pub fn visit_calibrations(visitor: &mut impl CalibrationVisitor) {
+    visit_calibrations_of::<f32, Collocation<7, f32>>(visitor);
+    visit_calibrations_of::<f64, Collocation<9, f64>>(visitor);
+}
+
+fn visit_calibrations_of<T: Number, M: Tolerant + Method<T, ()>>(visitor: &mut impl CalibrationVisitor) {
+    visitor.visit::<T, MaterialDamping<T, M>>();
+    visitor.visit::<T, AdhesionDamping<T, M>>();
+    visitor.visit::<T, AdhesionStrength<T>>();
+    visitor.visit::<T, Radius<T, M>>();
+    visitor.visit::<T, RestitutionLaw<T>>();
+    visitor.visit::<T, Friction<T>>();
+}

@@ -1,0 +1,74 @@
+//! The inputs of an impact, as plain numbers in SI units.
+
+use microimpact::simulation::{HystereticDamping, Ring, Simulation};
+use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, Real, Sphere, Stiffness};
+
+/// Sphere, surface and motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inputs {
+    /// r, m.
+    pub radius: f64,
+    /// kg/m^3.
+    pub density: f64,
+    /// K, Pa.
+    pub stiffness: f64,
+    /// f0, N/m.
+    pub ring: f64,
+    /// zeta_H.
+    pub material_damping: f64,
+    /// zeta_A.
+    pub ring_damping: f64,
+    /// f.
+    pub friction: f64,
+    /// m/s.
+    pub approach: f64,
+    /// v_t, m/s.
+    pub tangential: f64,
+    /// w, rad/s.
+    pub spin: f64,
+}
+
+/// Brach & Dunn (1995), Table 1, with half of the printed zeta_A, which is what their program computed.
+pub const TABLE_1: Inputs = Inputs {
+    radius: 5.06e-6,
+    density: 2600.0,
+    stiffness: 7.5e10,
+    ring: 250.0,
+    material_damping: 10.5,
+    ring_damping: 6.25,
+    friction: 0.1,
+    approach: 2.8,
+    tangential: 0.0,
+    spin: 1.454e5,
+};
+
+/// Damped, with adhesion, without friction.
+pub type NormalScene<T> = Simulation<T, HystereticDamping<T>, Ring<T>>;
+
+/// The same with friction.
+pub type ObliqueScene<T> = Simulation<T, HystereticDamping<T>, Ring<T>, Coulomb<T>>;
+
+impl Inputs {
+    /// The scene along the normal and its motion.
+    ///
+    /// # Errors
+    /// A value outside its range.
+    pub fn normal<T: Real>(&self) -> Result<(NormalScene<T>, NormalMotion<T>), InputError> {
+        let sphere = Sphere::solid(T::constant(self.radius), T::constant(self.density))?;
+        let scene = Simulation::new(sphere, Stiffness::new(T::constant(self.stiffness))?)
+            .with_damping(T::constant(self.material_damping))?
+            .with_ring(T::constant(self.ring), T::constant(self.ring_damping))?;
+        Ok((scene, NormalMotion::new(T::constant(self.approach))?))
+    }
+
+    /// The scene with friction and its motion.
+    ///
+    /// # Errors
+    /// A value outside its range.
+    pub fn oblique<T: Real>(&self) -> Result<(ObliqueScene<T>, PlanarMotion<T>), InputError> {
+        let (scene, motion) = self.normal()?;
+        let motion =
+            motion.with_tangential(T::constant(self.tangential))?.with_spin(scene.sphere(), T::constant(self.spin))?;
+        Ok((scene.with_friction(T::constant(self.friction))?, motion))
+    }
+}

@@ -1,0 +1,199 @@
+//! The methods of this library, the paper's among them, from a scene and a motion in SI units.
+
+use core::hint::black_box;
+
+use microimpact::simulation::{
+    Adaptive, AdaptiveNodes, Collocation, FixedCost, Method, NoPeeling, Nodes, PhaseNodes, PhaseSamples, Ring,
+    RungeKuttaGill, SimulatedImpact, Status, TangentialContact, TangentialScene, TangentialVelocities,
+};
+use microimpact::{Coulomb, FixedPoint, PlanarMotion, Real};
+
+use super::inputs::Inputs;
+use super::{Amount, Contestant, Extent, Number, Reply, Task, Variant, Visitor};
+
+/// Name of the method that chooses by itself.
+pub const ADAPTIVE: &str = "Adaptive";
+/// Name of collocation in stretches.
+pub const COLLOCATION: &str = "Collocation";
+/// Name of the method of fixed cost.
+pub const FIXED_COST: &str = "FixedCost";
+/// Name of the paper's method.
+pub const PAPER: &str = "the paper's method";
+
+/// A number type with the tables of all methods.
+pub trait Tables:
+    Number + AdaptiveNodes + Nodes<5> + PhaseNodes<4> + PhaseSamples<5, 7> + PhaseSamples<7, 9> + PhaseSamples<9, 11>
+{
+}
+
+impl<T> Tables for T where
+    T: Number
+        + AdaptiveNodes
+        + Nodes<5>
+        + PhaseNodes<4>
+        + PhaseSamples<5, 7>
+        + PhaseSamples<7, 9>
+        + PhaseSamples<9, 11>
+{
+}
+
+/// Numbers of sweeps that are worth their cost.
+fn sweeps(extent: Extent) -> impl Iterator<Item = u32> {
+    (2..=8).step_by(if extent.sparse { 2 } else { 1 })
+}
+
+/// The motion along the normal.
+pub fn normal<T: Tables>(inputs: &Inputs, extent: Extent, visitor: &mut impl Visitor) {
+    let double = T::ROUNDING < 1e-10;
+    for sweeps in sweeps(extent) {
+        fixed_cost::<T, 4>(inputs, sweeps, visitor);
+        fixed_cost::<T, 5>(inputs, sweeps, visitor);
+        fixed_cost::<T, 7>(inputs, sweeps, visitor);
+        fixed_cost::<T, 9>(inputs, sweeps, visitor);
+        if double {
+            fixed_cost::<T, 13>(inputs, sweeps, visitor);
+        }
+    }
+    for tolerance in extent.tolerances::<T>() {
+        collocation::<T, 5>(inputs, tolerance, visitor);
+        collocation::<T, 7>(inputs, tolerance, visitor);
+        if double {
+            collocation::<T, 9>(inputs, tolerance, visitor);
+            collocation::<T, 12>(inputs, tolerance, visitor);
+        }
+        let Ok(method) = Adaptive::new(T::constant(tolerance)) else { continue };
+        visit_normal(inputs, ADAPTIVE, Variant::Only, Amount::Tolerance(tolerance), method, visitor);
+    }
+    for steps in extent.steps(16) {
+        let method = RungeKuttaGill::new(steps);
+        visit_normal::<T, _>(inputs, PAPER, Variant::Only, Amount::Steps(steps), method, visitor);
+    }
+}
+
+/// The same with friction and spin, for velocities along the surface.
+pub fn oblique<T: Tables>(inputs: &Inputs, extent: Extent, visitor: &mut impl Visitor) {
+    let double = T::ROUNDING < 1e-10;
+    for sweeps in sweeps(extent) {
+        oblique_fixed_cost::<T, 5, 7>(inputs, sweeps, visitor);
+        oblique_fixed_cost::<T, 7, 9>(inputs, sweeps, visitor);
+        if double {
+            oblique_fixed_cost::<T, 9, 11>(inputs, sweeps, visitor);
+        }
+    }
+    for tolerance in extent.tolerances::<T>() {
+        oblique_collocation::<T, 7>(inputs, tolerance, visitor);
+        if double {
+            oblique_collocation::<T, 9>(inputs, tolerance, visitor);
+            oblique_collocation::<T, 12>(inputs, tolerance, visitor);
+        }
+        let Ok(method) = Adaptive::new(T::constant(tolerance)) else { continue };
+        visit_oblique(inputs, ADAPTIVE, Variant::Only, Amount::Tolerance(tolerance), visitor, method);
+    }
+    let Ok((scene, motion)) = inputs.oblique::<T>() else { return };
+    for steps in extent.steps(16) {
+        let contestant =
+            Contestant { task: Task::Oblique, method: PAPER, variant: Variant::Only, amount: Amount::Steps(steps) };
+        let method = RungeKuttaGill::new(steps);
+        visitor.visit::<T>(contestant, move || {
+            let impact: SimulatedImpact<T, TangentialContact<T>, ()> =
+                black_box(&scene).observe(black_box(&method), black_box(&motion)).ok()?;
+            let surface = Some([impact.tangential.velocity(), impact.tangential.spin()]);
+            solved(impact.normal.overall_restitution(), surface, impact.run.status)
+        });
+    }
+}
+
+/// Motion along the normal in fixed point, from dimensionless numbers.
+pub fn fixed_point(inputs: &Inputs, extent: Extent, visitor: &mut impl Visitor) {
+    for sweeps in sweeps(extent).take(4) {
+        in_fixed_point::<4>(inputs, sweeps, visitor);
+        in_fixed_point::<5>(inputs, sweeps, visitor);
+        in_fixed_point::<7>(inputs, sweeps, visitor);
+    }
+}
+
+fn in_fixed_point<const N: usize>(inputs: &Inputs, sweeps: u32, visitor: &mut impl Visitor)
+where
+    FixedPoint: PhaseNodes<N>,
+{
+    let impact = inputs.normal::<f32>().and_then(|(scene, motion)| scene.dimensionless(&motion)?.in_fixed_point());
+    let (Ok(impact), Ok(method)) = (impact, FixedCost::<N>::new(sweeps)) else { return };
+    let contestant = Contestant {
+        task: Task::Normal,
+        method: FIXED_COST,
+        variant: Variant::Nodes(N),
+        amount: Amount::Sweeps(sweeps),
+    };
+    visitor.visit::<FixedPoint>(contestant, move || {
+        let contact = black_box(&impact).solve(black_box(&method));
+        solved(contact.overall_restitution(), None, contact.status)
+    });
+}
+
+fn fixed_cost<T: Number + PhaseNodes<N>, const N: usize>(inputs: &Inputs, sweeps: u32, visitor: &mut impl Visitor) {
+    let Ok(method) = FixedCost::<N>::new(sweeps) else { return };
+    visit_normal::<T, _>(inputs, FIXED_COST, Variant::Nodes(N), Amount::Sweeps(sweeps), method, visitor);
+}
+
+fn collocation<T: Number + Nodes<N>, const N: usize>(inputs: &Inputs, tolerance: f64, visitor: &mut impl Visitor) {
+    let Ok(method) = Collocation::<N, T>::new(T::constant(tolerance)) else { return };
+    visit_normal(inputs, COLLOCATION, Variant::Nodes(N), Amount::Tolerance(tolerance), method, visitor);
+}
+
+fn oblique_fixed_cost<T, const N: usize, const M: usize>(inputs: &Inputs, sweeps: u32, visitor: &mut impl Visitor)
+where
+    T: Number + PhaseSamples<N, M>,
+{
+    let Ok(method) = FixedCost::<N>::new(sweeps) else { return };
+    let method = method.with_outputs::<M>();
+    visit_oblique::<T, _>(inputs, FIXED_COST, Variant::Nodes(N), Amount::Sweeps(sweeps), visitor, method);
+}
+
+fn oblique_collocation<T: Number + Nodes<N>, const N: usize>(
+    inputs: &Inputs,
+    tolerance: f64,
+    visitor: &mut impl Visitor,
+) {
+    let Ok(method) = Collocation::<N, T>::new(T::constant(tolerance)) else { return };
+    visit_oblique(inputs, COLLOCATION, Variant::Nodes(N), Amount::Tolerance(tolerance), visitor, method);
+}
+
+fn visit_normal<T: Number, M: Method<T, ()> + 'static>(
+    inputs: &Inputs,
+    name: &'static str,
+    variant: Variant,
+    amount: Amount,
+    method: M,
+    visitor: &mut impl Visitor,
+) {
+    let Ok((scene, motion)) = inputs.normal::<T>() else { return };
+    visitor.visit::<T>(Contestant { task: Task::Normal, method: name, variant, amount }, move || {
+        let contact = black_box(&scene).normal_impact(black_box(&method), black_box(&motion)).ok()?;
+        solved(contact.overall_restitution(), None, contact.status())
+    });
+}
+
+/// What is integrated for velocities along the surface.
+type Velocities<T> =
+    <Coulomb<T> as TangentialScene<T, PlanarMotion<T>, Ring<T>, NoPeeling, TangentialVelocities<T>>>::Observer;
+
+fn visit_oblique<T: Number, M: Method<T, ((), Velocities<T>)> + 'static>(
+    inputs: &Inputs,
+    name: &'static str,
+    variant: Variant,
+    amount: Amount,
+    visitor: &mut impl Visitor,
+    method: M,
+) {
+    let Ok((scene, motion)) = inputs.oblique::<T>() else { return };
+    visitor.visit::<T>(Contestant { task: Task::Oblique, method: name, variant, amount }, move || {
+        let impact: SimulatedImpact<T, TangentialVelocities<T>, ()> =
+            black_box(&scene).observe(black_box(&method), black_box(&motion)).ok()?;
+        let surface = Some([impact.tangential.velocity, impact.tangential.spin]);
+        solved(impact.normal.overall_restitution(), surface, impact.run.status)
+    });
+}
+
+fn solved<T: Real>(restitution: T, surface: Option<[T; 2]>, status: Status) -> Option<Reply<T>> {
+    (status == Status::Solved).then_some(Reply { restitution, surface })
+}
