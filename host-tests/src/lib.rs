@@ -2,6 +2,7 @@
 
 pub mod boards;
 pub mod c_results;
+pub mod contest;
 pub mod fit;
 pub mod link;
 

@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use microimpact::simulation::Collocation;
+
 const README: &str = include_str!("../../README.md");
 const FOOTPRINT: &str = include_str!("../data/footprint.csv");
 
@@ -16,8 +18,13 @@ const SCENES: [(&str, &str); 4] = [
 /// The columns of README's table, by the names of the measured quantities.
 const QUANTITIES: [&str; 4] = ["classify", "set up and classify", "flash", "stack"];
 
-/// The largest figure of each scene and quantity on the core that README speaks of, over impacts and compilers.
-fn measured() -> HashMap<(String, String), u32> {
+/// The largest figure of each scene and quantity on the core that README mostly speaks of, over impacts and compilers.
+fn measured() -> HashMap<(String, String), f64> {
+    measured_on("Cortex-M4F")
+}
+
+/// The same on any core.
+fn measured_on(name: &str) -> HashMap<(String, String), f64> {
     let mut largest = HashMap::new();
     let mut reader = csv::Reader::from_reader(FOOTPRINT.as_bytes());
     let names = reader.headers().unwrap().clone();
@@ -26,9 +33,9 @@ fn measured() -> HashMap<(String, String), u32> {
     let (quantity, value) = (column("quantity"), column("value"));
     for record in reader.records() {
         let record = record.unwrap();
-        if &record[core] == "Cortex-M4F" && &record[scalar] == "f32" {
-            let figure = largest.entry((record[scene].to_owned(), record[quantity].to_owned())).or_insert(0);
-            *figure = record[value].parse::<u32>().unwrap().max(*figure);
+        if &record[core] == name && &record[scalar] == "f32" {
+            let figure = largest.entry((record[scene].to_owned(), record[quantity].to_owned())).or_insert(0.0);
+            *figure = record[value].parse::<f64>().unwrap().max(*figure);
         }
     }
     largest
@@ -55,6 +62,11 @@ const FLASH: [(&str, [&str; 2]); 2] = [
 
 const SIMULATED_QUANTITIES: [&str; 2] = ["classify", "stack"];
 
+/// README in one line, as its lines break anywhere.
+fn words() -> String {
+    README.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 fn assert_rows_are_current(scenes: &[(&str, &str)], quantities: &[&str]) {
     let measured = measured();
     for (name, scene) in scenes {
@@ -77,10 +89,18 @@ fn flash_of_the_simulation_is_current() {
         let row = format!("| {name} | {} |", scenes.map(flash).join(" | "));
         assert!(README.contains(&row), "README.md lacks the row\n{row}");
     }
-    let words = README.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = words();
     let (normal, oblique) = (flash("simulation/normal"), flash("simulation/oblique"));
     let statement = format!("and {normal} bytes of flash, {oblique} with friction and spin");
     assert!(words.contains(&statement), "README.md lacks: {statement}");
+}
+
+#[test]
+fn instructions_in_fixed_point_are_current() {
+    let count = |core: &str| measured_on(core)[&("simulation/fixed-point".into(), "classify".into())];
+    let (larger, smaller) = (count("Cortex-M3"), count("Cortex-M0"));
+    let statement = format!("takes {larger} instructions on a Cortex-M3 and {smaller} on a Cortex-M0");
+    assert!(words().contains(&statement), "README.md lacks: {statement}");
 }
 
 /// What the adaptive method promises.
@@ -100,7 +120,7 @@ fn promise_of_the_adaptive_method_is_the_tested_one() {
 fn static_memory_is_none() {
     assert!(README.contains("No static memory."));
     for (_, scene) in SCENES {
-        assert_eq!(measured()[&(scene.into(), "static memory".into())], 0);
+        assert_eq!(measured()[&(scene.into(), "static memory".into())], 0.0);
     }
 }
 
@@ -113,7 +133,7 @@ fn stated_accuracy_is_the_tested_one() {
         (include_str!("scalars.rs"), "> 1e-5", "wherever a margin is farther than 1e-5 from one"),
     ] {
         assert!(file.contains(tolerance), "{tolerance}");
-        assert!(README.split_whitespace().collect::<Vec<_>>().join(" ").contains(statement), "{statement}");
+        assert!(words().contains(statement), "{statement}");
     }
 }
 
@@ -133,5 +153,44 @@ fn accuracy_of_the_simulation_is_the_tested_one() {
         let row =
             format!("| {setting} | {} | {} | {} |", bound("restitution:"), bound("indentation:"), bound("others:"));
         assert!(README.contains(&row), "README.md lacks the row\n{row}");
+    }
+}
+
+/// Numbers in prose come from the data, the library or the bound of the test that checks them.
+#[test]
+fn numbers_in_prose_are_the_tested_ones() {
+    let words = words();
+    let stretches = Collocation::<9, f64>::MOST_STRETCHES;
+    for statement in [
+        format!("compared with {} solutions to 20 digits", host_tests::cases().len()),
+        format!("end in a result within {stretches} stretches"),
+        format!("Rust {} or newer", env!("CARGO_PKG_RUST_VERSION")),
+    ] {
+        assert!(words.contains(&statement), "README.md lacks: {statement}");
+    }
+    for (file, bound, statement) in [
+        (
+            include_str!("simulation_exact.rs"),
+            "const SCENES: u32 = 500_000;",
+            "Half a million scenes over twelve decades",
+        ),
+        (include_str!("simulation_exact.rs"), "(-6.0..6.0, -6.0..6.0, -6.0..6.0, -6.0..3.0)", "twelve decades of most"),
+        (include_str!("table1.rs"), "(spin / 4.16e4 - 1.0).abs() < 0.004", "but for the final spin (0.4 %)"),
+    ] {
+        assert!(file.contains(bound) && words.contains(statement), "{bound}: {statement}");
+    }
+}
+
+/// The errors of the methods of fixed cost stand in the names of their rows.
+#[test]
+fn errors_of_fixed_cost_are_the_tested_ones() {
+    let tests = include_str!("fixed_cost.rs");
+    for (method, row) in [
+        ("&FixedCost::<5>::new(3)", "`FixedCost<5>`, 3 sweeps, error of e"),
+        ("&FixedCost::<7>::new(3)", "`FixedCost<7>`, 3 sweeps, error of e"),
+    ] {
+        let test = tests.split("#[test]").find(|test| test.contains(method)).unwrap();
+        let bound = test.split_once("error < ").unwrap().1.split_once(',').unwrap().0;
+        assert!(README.contains(&format!("{row} {bound} |")), "README.md lacks: {row} {bound}");
     }
 }

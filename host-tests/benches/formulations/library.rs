@@ -8,9 +8,9 @@ use microimpact::simulation::{
 };
 use microimpact::{CriticalSpeed, NormalMotion, Stiffness};
 
-use crate::common::contestant::{Answer, Contestant, tolerances};
-use crate::common::regularised::Regularised;
-use crate::common::scene::{NormalScene, case, normal_scene, solution, solved};
+use host_tests::contest::contestant::{Answer, Contestant, tolerances};
+use host_tests::contest::problem::Problem;
+use host_tests::contest::scene::{NormalScene, case, normal_scene, solution, solved};
 
 /// The formulation that the others are compared with.
 pub const COLLOCATION: &str = "Collocation";
@@ -84,9 +84,8 @@ impl Scene {
         Answer { restitution, contact_time: impact.outputs.contact, impulse: None, effort: None }
     }
 
-    pub fn equations(&self) -> Regularised {
-        let groups = self.scene.groups(&self.motion).unwrap();
-        Regularised::new(&groups, self.scene.sphere(), self.stiffness, &self.motion)
+    pub fn equations(&self) -> Problem {
+        Problem::new(&self.scene, self.stiffness, &self.motion)
     }
 
     /// The methods of the library.

@@ -1,25 +1,25 @@
 //! Formulations of the normal motion beside the one that the library uses, at equal error.
 //!
-//! The paper's equations with a fixed step; the [regularised equations](common::regularised) by a Runge-Kutta method,
-//! by splitting and by Taylor series; the energy by collocation over a whole phase, with plain nodes and, as the
-//! library's `FixedCost`, with nodes for the weight of the losses; and the energy by collocation in stretches, the
-//! library's `Collocation`, which is the measure of time. `FixedCost` gives e alone. The library starts from SI units,
-//! all others from scaled ones.
+//! The paper's equations with a fixed step; the [regularised equations] by a Runge-Kutta method, by splitting and by
+//! Taylor series; the energy by collocation over a whole phase, with plain nodes and, as the library's `FixedCost`,
+//! with nodes for the weight of the losses; and the energy by collocation in stretches, the library's `Collocation`,
+//! which is the measure of time. `FixedCost` gives e alone. The library starts from SI units, all others from scaled
+//! ones.
 //!
 //! A whole phase costs least where damping is mild, but it has no estimate of its error and does not converge where
 //! damping is overwhelming. Stretches have the one and need not fear the other.
+//!
+//! [regularised equations]: host_tests::contest::methods::regularised
 
-#[path = "../common/mod.rs"]
-mod common;
 mod gauss;
 mod library;
-mod runge_kutta;
 mod splitting;
 mod taylor;
 mod whole_phase;
 
-use common::contestant::Contestant;
-use common::table::compare;
+use host_tests::contest::contestant::Contestant;
+use host_tests::contest::runge_kutta;
+use host_tests::contest::table::compare;
 use library::{COLLOCATION, Scene};
 
 fn main() {

@@ -6,9 +6,10 @@
 
 use std::hint::black_box;
 
-use crate::common::contestant::{Answer, Contestant};
-use crate::common::regularised::Regularised;
-use crate::runge_kutta::{LONGEST, UNDAMPED_LENGTH};
+use host_tests::contest::contestant::{Answer, Contestant};
+use host_tests::contest::methods::regularised::{LONGEST, UNDAMPED_LENGTH};
+use host_tests::contest::problem::Equations;
+use host_tests::contest::problem::Problem;
 
 /// Parts of a step: kicks, and the drifts between them; both read the same from either end.
 const KICKS: [f64; 4] =
@@ -16,7 +17,7 @@ const KICKS: [f64; 4] =
 const DRIFTS: [f64; 3] = [0.245_298_957_184_271, 0.604_872_665_711_080, -0.350_171_622_895_351];
 
 /// Numbers of steps in a contact of the length that an undamped one without adhesion has in z.
-pub fn contestants(equations: Regularised) -> Vec<Contestant> {
+pub fn contestants(equations: Problem) -> Vec<Contestant> {
     let contestant = |half_octaves: i32| {
         let steps = (4.0 * 2f64.powf(0.5 * f64::from(half_octaves))).round();
         Contestant::new("splitting in z", "Blanes and Moan", format!("{steps} steps"), move || {
@@ -29,12 +30,12 @@ pub fn contestants(equations: Regularised) -> Vec<Contestant> {
 /// s, y and time.
 type State = [f64; 3];
 
-fn solve(equations: &Regularised, step: f64) -> Option<Answer> {
+fn solve(equations: &Problem, step: f64) -> Option<Answer> {
     let mut kicks = 0;
     let [s, y, time, _] = equations.start();
     let mut state = [s, y, time];
-    for (equations, event) in [(*equations, 1), (equations.on_rebound(), 0)] {
-        let mut most = (LONGEST / step) as u32;
+    for (equations, event) in [(**equations, 1), (equations.on_rebound(), 0)] {
+        let mut most = (f64::from(LONGEST) * UNDAMPED_LENGTH / step) as u32;
         loop {
             let next = advance(&equations, state, step);
             kicks += 7;
@@ -61,7 +62,7 @@ fn solve(equations: &Regularised, step: f64) -> Option<Answer> {
     Some(Answer { impulse: None, effort: Some((kicks, "kicks")), ..answer })
 }
 
-fn advance(equations: &Regularised, [mut s, mut y, mut time]: State, step: f64) -> State {
+fn advance(equations: &Equations, [mut s, mut y, mut time]: State, step: f64) -> State {
     let lost = if equations.rebound { equations.adhesion * equations.adhesion_damping } else { 0.0 };
     for stage in 0..7 {
         let from_end = stage.min(6 - stage);

@@ -5,15 +5,15 @@
 
 use std::hint::black_box;
 
-use crate::common::contestant::{Answer, Contestant};
-use crate::common::regularised::Regularised;
+use host_tests::contest::contestant::{Answer, Contestant};
+use host_tests::contest::problem::{Equations, Problem};
 
 /// Orders 15 and 19 with tolerances from loose to tight.
-pub fn contestants(equations: Regularised) -> Vec<Contestant> {
+pub fn contestants(equations: Problem) -> Vec<Contestant> {
     (3..=16).flat_map(|digits| [contestant::<16>(equations, digits), contestant::<20>(equations, digits)]).collect()
 }
 
-fn contestant<const C: usize>(equations: Regularised, digits: i32) -> Contestant {
+fn contestant<const C: usize>(equations: Problem, digits: i32) -> Contestant {
     let tolerance = 10f64.powi(-digits);
     Contestant::new("Taylor series in z", format!("order {}", C - 1), format!("{tolerance:.0e}"), move || {
         solve::<C>(black_box(&equations), tolerance)
@@ -22,9 +22,9 @@ fn contestant<const C: usize>(equations: Regularised, digits: i32) -> Contestant
 
 const MOST_STEPS: usize = 1000;
 
-fn solve<const C: usize>(equations: &Regularised, tolerance: f64) -> Option<Answer> {
-    let [mut s, mut y, mut time, _] = equations.start();
-    let mut equations = *equations;
+fn solve<const C: usize>(problem: &Problem, tolerance: f64) -> Option<Answer> {
+    let [mut s, mut y, mut time, _] = problem.start();
+    let mut equations = **problem;
     for steps in 1..MOST_STEPS {
         let (radius, speed) = series::<C>(&equations, s, y);
         // Both the last two coefficients have to be small at the end of the step.
@@ -44,7 +44,7 @@ fn solve<const C: usize>(equations: &Regularised, tolerance: f64) -> Option<Answ
             return Some(Answer {
                 impulse: None,
                 effort: Some((steps, "series")),
-                ..equations.answer([s, y, time, 0.0], None)
+                ..problem.answer([s, y, time, 0.0], None)
             });
         }
         if ends {
@@ -55,7 +55,7 @@ fn solve<const C: usize>(equations: &Regularised, tolerance: f64) -> Option<Answ
 }
 
 /// Coefficients of s and y.
-fn series<const C: usize>(equations: &Regularised, s: f64, y: f64) -> ([f64; C], [f64; C]) {
+fn series<const C: usize>(equations: &Equations, s: f64, y: f64) -> ([f64; C], [f64; C]) {
     let lost = if equations.rebound { equations.adhesion * equations.adhesion_damping } else { 0.0 };
     let (mut radius, mut speed, mut square) = ([0.0; C], [0.0; C], [0.0; C]);
     let (mut damped, mut pull) = ([0.0; C], [0.0; C]);

@@ -6,12 +6,12 @@
 
 use std::hint::black_box;
 
-use crate::common::contestant::{Answer, Contestant};
-use crate::common::regularised::Regularised;
 use crate::gauss::Nodes;
+use host_tests::contest::contestant::{Answer, Contestant};
+use host_tests::contest::problem::{Equations, Problem};
 
 /// Numbers of nodes, and changes of the speeds at which the sweeps end.
-pub fn contestants(equations: Regularised) -> Vec<Contestant> {
+pub fn contestants(equations: Problem) -> Vec<Contestant> {
     let mut all = Vec::new();
     for digits in [4, 6, 8, 10, 12, 14] {
         all.push(contestant::<6>(equations, digits));
@@ -24,7 +24,7 @@ pub fn contestants(equations: Regularised) -> Vec<Contestant> {
     all
 }
 
-fn contestant<const N: usize>(equations: Regularised, digits: i32) -> Contestant {
+fn contestant<const N: usize>(equations: Problem, digits: i32) -> Contestant {
     let (nodes, settled) = (Nodes::<N>::new(), 10f64.powi(-digits));
     let setting = format!("{N} nodes to {settled:.0e}");
     Contestant::new("whole phase, plain Gauss", "fixed point", setting, move || {
@@ -34,13 +34,13 @@ fn contestant<const N: usize>(equations: Regularised, digits: i32) -> Contestant
 
 const MOST_SWEEPS: usize = 60;
 
-fn solve<const N: usize>(equations: &Regularised, nodes: &Nodes<N>, settled: f64) -> Option<Answer> {
-    let start = equations.start()[1];
+fn solve<const N: usize>(problem: &Problem, nodes: &Nodes<N>, settled: f64) -> Option<Answer> {
+    let start = problem.start()[1];
     let energy = 0.5 * start * start;
     let mut peak = 1.0;
     let (mut sweeps, mut time) = (0, 0.0);
     let mut left = energy;
-    for equations in [*equations, equations.on_rebound()] {
+    for equations in [**problem, problem.on_rebound()] {
         let sign = if equations.rebound { -1.0 } else { 1.0 };
         let mut phase = Phase::new(&equations, nodes, peak);
         loop {
@@ -65,7 +65,7 @@ fn solve<const N: usize>(equations: &Regularised, nodes: &Nodes<N>, settled: f64
         left = potential(&equations, peak) - if equations.rebound { phase.lost(&nodes.whole) } else { 0.0 };
         time += phase.time(nodes);
     }
-    let answer = equations.answer([0.0, -(2.0 * left).sqrt(), time, 0.0], None);
+    let answer = problem.answer([0.0, -(2.0 * left).sqrt(), time, 0.0], None);
     Some(Answer { impulse: None, effort: Some((sweeps, "products")), ..answer })
 }
 
@@ -81,7 +81,7 @@ struct Phase<const N: usize> {
 }
 
 impl<const N: usize> Phase<N> {
-    fn new(equations: &Regularised, nodes: &Nodes<N>, peak: f64) -> Self {
+    fn new(equations: &Equations, nodes: &Nodes<N>, peak: f64) -> Self {
         let zeros = [0.0; N];
         let mut phase = Self { s: zeros, y: zeros, free: zeros, loss: zeros, spent: zeros };
         phase.describe(equations, nodes, peak);
@@ -89,7 +89,7 @@ impl<const N: usize> Phase<N> {
         phase
     }
 
-    fn describe(&mut self, equations: &Regularised, nodes: &Nodes<N>, peak: f64) {
+    fn describe(&mut self, equations: &Equations, nodes: &Nodes<N>, peak: f64) {
         let adhesion = if equations.rebound { equations.adhesion * equations.adhesion_damping } else { 0.0 };
         for j in 0..N {
             self.s[j] = peak * (1.0 - nodes.z[j] * nodes.z[j]);
@@ -127,11 +127,11 @@ impl<const N: usize> Phase<N> {
     }
 }
 
-fn potential(equations: &Regularised, s: f64) -> f64 {
+fn potential(equations: &Equations, s: f64) -> f64 {
     s * s * s * (0.4 * equations.elastic * s * s - 2.0 / 3.0 * equations.adhesion)
 }
 
 /// The slope of the potential.
-fn force(equations: &Regularised, s: f64) -> f64 {
+fn force(equations: &Equations, s: f64) -> f64 {
     2.0 * s * s * (equations.elastic * s * s - equations.adhesion)
 }

@@ -1,0 +1,81 @@
+//! What a report consists of: sections of text, tables and figures, each table and figure with a CSV file beside it.
+
+use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
+
+/// A part of the report under a heading of its own.
+pub(crate) struct Section {
+    /// Heading.
+    pub(crate) title: &'static str,
+    /// Name in links and file names: lower case, joined by hyphens.
+    pub(crate) name: &'static str,
+    pub(crate) parts: Vec<Part>,
+}
+
+/// One block of a section, from top to bottom.
+pub(crate) enum Part {
+    /// A paragraph, without markup.
+    Text(String),
+    Table(Table),
+    Figure(Figure),
+}
+
+/// Cells under columns; also the data of a figure.
+pub(crate) struct Table {
+    /// Of its CSV file, without the extension; unique in the report.
+    pub(crate) name: String,
+    pub(crate) caption: String,
+    /// With units, as in `indentation, m`.
+    pub(crate) columns: Vec<String>,
+    pub(crate) rows: Vec<Vec<Cell>>,
+}
+
+/// A value with as many digits as it has; the page shows few, the CSV file all of them.
+pub(crate) enum Cell {
+    Text(String),
+    /// Empty where there is no number.
+    Number(Option<f64>),
+    Count(u64),
+}
+
+impl From<&str> for Cell {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl From<f64> for Cell {
+    fn from(number: f64) -> Self {
+        Self::Number(Some(number))
+    }
+}
+
+impl From<Option<f64>> for Cell {
+    fn from(number: Option<f64>) -> Self {
+        Self::Number(number)
+    }
+}
+
+/// A drawing and what it shows.
+pub(crate) struct Figure {
+    /// A whole `<svg>` element, as a backend of `plotters` writes it.
+    pub(crate) drawing: String,
+    pub(crate) data: Table,
+}
+
+/// How much a run is to do, and where it tells how far it is.
+pub(crate) struct Run {
+    /// Within a minute rather than a quarter of an hour.
+    pub(crate) quick: bool,
+}
+
+impl Run {
+    /// A bar on the terminal for so many steps, which ends when it is dropped; where there is no terminal, nothing.
+    pub(crate) fn progress(&self, steps: usize, message: &str) -> ProgressBar {
+        let bar = ProgressBar::new(steps as u64).with_finish(ProgressFinish::AndClear).with_message(message.to_owned());
+        // The template is right or wrong whatever the run; without it there is a plain bar.
+        match ProgressStyle::with_template("  {msg} [{wide_bar}] {pos}/{len}, {eta} left") {
+            Ok(style) => bar.with_style(style),
+            Err(_) => bar,
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! What the energies of each impact lack in sum: the works of damping and friction are integrals of their own.
+
+use super::maps::{Map, listed};
+use super::trial::Method;
+use crate::content::{Cell, Figure, Part, Table};
+use crate::plot::{self, Axis, Line, Mark};
+
+/// The methods that keep a ledger.
+const METHODS: [Method; 3] = [Method::Double, Method::Single, Method::Paper];
+
+pub(super) fn parts(maps: &[Map]) -> Result<Vec<Part>, String> {
+    let mut rows = Vec::new();
+    let mut lines = Vec::new();
+    for method in METHODS {
+        let residuals = sorted(maps.iter().flat_map(Map::points).filter_map(|point| point.trial(method).residual));
+        let (Some(median), Some(largest)) = (quantile(&residuals, 0.5), residuals.last()) else { continue };
+        rows.push(vec![
+            Cell::from(method.name()),
+            Cell::Count(residuals.len() as u64),
+            Cell::from(median),
+            Cell::from(quantile(&residuals, 0.99)),
+            Cell::from(*largest),
+        ]);
+        lines.push(Line::new(method.name(), Mark::Solid, exceeding(&residuals)));
+    }
+    let caption = "Share of the impacts of all maps whose energies lack more than so much";
+    let (x, y) = ("lacking energy over that of the motion", "share of the impacts");
+    let drawing = plot::chart(caption, &Axis::logarithmic(x).between(1e-17, 1.0), &Axis::logarithmic(y), &lines)?;
+    let points = lines.iter().flat_map(|line| {
+        line.points.iter().map(|at| vec![Cell::Text(line.name.clone()), Cell::from(at.0), Cell::from(at.1)])
+    });
+    let data = Table {
+        name: "stability-ledger-shares".to_owned(),
+        caption: caption.to_owned(),
+        columns: ["method", x, y].map(str::to_owned).to_vec(),
+        rows: points.collect(),
+    };
+    let table = Table {
+        name: "stability-ledger".to_owned(),
+        caption: "Energy that the ledgers lack, over that of the motion".to_owned(),
+        columns: ["method", "impacts", "median", "99 of 100 below", "largest"].map(str::to_owned).to_vec(),
+        rows,
+    };
+    let text = "The kinetic energy before is that after and what damping and friction took, each an integral of its \
+                own, so that what they lack in sum shows the error of a run. Of a rebound it counts over the energy \
+                before; of a capture, along the normal and up to its first turning point, over the largest kinetic \
+                energy of the undamped motion. Spheres that creep to rest have no turning point, and the energies of \
+                some are too small in joules for single precision; both are left out. The paper's method tells no \
+                turning point: its ledger is that of the rebounds. Where its steps are unstable they make energy.";
+    let ours = [Method::Double, Method::Single];
+    let lacking = ours.iter().flat_map(|method| maps.iter().flat_map(|map| map.lacking(*method))).collect();
+    let none = "No ledger in f64 or f32 lacks more than its bound.";
+    let caption = "Regions in which a ledger lacks more than its bound";
+    Ok(vec![
+        Part::Text(text.to_owned()),
+        Part::Table(table),
+        listed("stability-regions-ledger", caption, none, lacking),
+        Part::Figure(Figure { drawing, data }),
+    ])
+}
+
+fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<_> = values.collect();
+    values.sort_unstable_by(f64::total_cmp);
+    values
+}
+
+/// The value that a share of the sorted values does not exceed.
+fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
+    let last = sorted.len().checked_sub(1)?;
+    sorted.get((share * last as f64).round() as usize).copied()
+}
+
+/// Values with the share of all that exceed them, thinned to a few hundred points.
+fn exceeding(sorted: &[f64]) -> Vec<(f64, f64)> {
+    let count = sorted.len();
+    // Evenly over the logarithm of the share.
+    let mut points = Vec::new();
+    let mut above = count as f64;
+    while above >= 1.0 {
+        let rank = above as usize;
+        points.push((sorted[count - rank].max(1e-17), rank as f64 / count as f64));
+        above = (0.97 * above).min(above - 1.0);
+    }
+    points
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_fall_from_all_to_one() {
+        let values = sorted([3e-9, 1e-9, 4e-9, 2e-9].into_iter());
+        assert_eq!(exceeding(&values), [(1e-9, 1.0), (2e-9, 0.75), (3e-9, 0.5), (4e-9, 0.25)]);
+        assert_eq!(quantile(&values, 1.0), Some(4e-9));
+        assert_eq!(quantile(&[], 0.5), None);
+    }
+}

@@ -1,0 +1,204 @@
+//! Methods tried on one impact, and the bounds they are held to.
+
+use microimpact::simulation::Collocation;
+
+use super::impact::Impact;
+use super::independent;
+use super::solution::{
+    Found, TOLERANCE, by_the_paper, exactly, in_double_precision, in_fixed_point, in_single_precision,
+};
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Method {
+    Double,
+    Single,
+    Fixed,
+    Paper,
+}
+
+impl Method {
+    pub(super) const ALL: [Self; 4] = [Self::Double, Self::Single, Self::Fixed, Self::Paper];
+
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::Double => "f64",
+            Self::Single => "f32",
+            Self::Fixed => "fixed point",
+            Self::Paper => "the paper's",
+        }
+    }
+
+    /// Of its files.
+    pub(super) const fn file(self) -> &'static str {
+        match self {
+            Self::Double => "f64",
+            Self::Single => "f32",
+            Self::Fixed => "fixed",
+            Self::Paper => "paper",
+        }
+    }
+
+    /// Largest error: of e^2 and of the peak indentation, in fixed point of e.
+    pub(super) const fn bound(self) -> f64 {
+        match self {
+            // What the adaptive method promises.
+            Self::Double => 3.0 * TOLERANCE,
+            Self::Single => 2e-6,
+            // What rounding adds to the error of the method.
+            Self::Fixed => 1e-5,
+            // Not a promise; what is worse is no solution.
+            Self::Paper => 1e-3,
+        }
+    }
+
+    /// Largest energy that may lack in a ledger, over that of the motion.
+    pub(super) const fn ledger_bound(self) -> f64 {
+        match self {
+            // The errors of e^2 and of the works.
+            Self::Double => 1e-10,
+            Self::Single => 2e-5,
+            Self::Fixed | Self::Paper => 1e-3,
+        }
+    }
+}
+
+/// Stretches after which a run gives up.
+pub(super) const MOST_STRETCHES: u32 = Collocation::<14, f64>::MOST_STRETCHES;
+
+/// What became of a method on an impact.
+#[derive(Clone, Copy)]
+pub(super) struct Trial {
+    pub(super) verdict: Verdict,
+    /// Where there is a solution.
+    pub(super) error: Option<f64>,
+    pub(super) steps: Option<u32>,
+    pub(super) residual: Option<f64>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Verdict {
+    /// An input lies outside its range.
+    Refused,
+    Within,
+    /// e^2, in fixed point e, errs by more than the bound.
+    InexactRestitution,
+    InexactPeak,
+    /// What the energies lack exceeds the bound.
+    LackingEnergy,
+    /// A capture for a rebound or the reverse, by more than the bound.
+    WrongOutcome,
+    NoSolution,
+    /// No solution in fixed point and none in double precision: damped too strongly for a method of fixed cost.
+    Declined,
+    TooManySteps,
+}
+
+impl Verdict {
+    pub(super) const fn text(self) -> &'static str {
+        match self {
+            Self::Refused => "refused",
+            Self::Within => "within the bound",
+            Self::InexactRestitution => "restitution beyond the bound",
+            Self::InexactPeak => "peak indentation beyond the bound",
+            Self::LackingEnergy => "energies do not add up",
+            Self::WrongOutcome => "wrong outcome",
+            Self::NoSolution => "no solution",
+            Self::Declined => "declined by the method",
+            Self::TooManySteps => "too many steps",
+        }
+    }
+
+    pub(super) const fn fails(self) -> bool {
+        !matches!(self, Self::Refused | Self::Declined | Self::Within)
+    }
+}
+
+/// An impact with all that was tried on it.
+#[derive(Clone, Copy)]
+pub(super) struct Point {
+    /// e; `None` where an input is refused.
+    pub(super) restitution: Option<f64>,
+    /// In the order of [`Method::ALL`].
+    pub(super) trials: [Trial; 4],
+    /// Difference of e^2 from an independent solution, where there is one.
+    pub(super) unlike: Option<f64>,
+}
+
+impl Point {
+    const REFUSED: Self = Self { restitution: None, trials: [Trial::REFUSED; 4], unlike: None };
+
+    pub(super) fn at(impact: Option<Impact>) -> Self {
+        let Some((impact, exact)) = impact.and_then(|impact| Some((impact, exactly(&impact).ok()?))) else {
+            return Self::REFUSED;
+        };
+        let single = impact.in_single_precision();
+        let trials = [
+            Trial::of(Method::Double, in_double_precision(&impact).ok(), Some(exact)),
+            Trial::of(Method::Single, in_single_precision(&single).ok(), exactly(&single).ok()),
+            Trial::in_fixed_point(&single),
+            Trial::of(Method::Paper, by_the_paper(&impact).ok(), Some(exact)),
+        ];
+        let unlike = exact.solution.and_then(|exact| Some((independent::confirmed(&impact)? - exact.square).abs()));
+        Self { restitution: exact.solution.map(|exact| exact.square.sqrt()), trials, unlike }
+    }
+
+    pub(super) fn trial(&self, method: Method) -> &Trial {
+        &self.trials[method as usize]
+    }
+}
+
+impl Trial {
+    const REFUSED: Self = Self { verdict: Verdict::Refused, error: None, steps: None, residual: None };
+
+    fn of(method: Method, found: Option<Found>, exact: Option<Found>) -> Self {
+        let Some(found) = found else {
+            return Self::REFUSED;
+        };
+        let unsolved =
+            Self { verdict: Verdict::NoSolution, error: None, steps: Some(found.steps), residual: found.residual };
+        let (Some(solution), Some(exact)) = (found.solution, exact.and_then(|exact| exact.solution)) else {
+            return unsolved;
+        };
+        let error = solution.error(&exact);
+        let bound = method.bound();
+        let verdict = match method {
+            _ if error > bound && solution.rebounds != exact.rebounds => Verdict::WrongOutcome,
+            _ if solution.error_of_square(&exact) > bound => Verdict::InexactRestitution,
+            // NaN is beyond it too.
+            _ if error.is_nan() || error > bound => Verdict::InexactPeak,
+            Method::Paper if found.residual.is_some_and(|residual| residual > method.ledger_bound()) => {
+                Verdict::LackingEnergy
+            }
+            Method::Double | Method::Single if found.steps > MOST_STRETCHES => Verdict::TooManySteps,
+            _ => Verdict::Within,
+        };
+        Self { verdict, error: Some(error).filter(|error| !error.is_nan()), ..unsolved }
+    }
+
+    /// The bound holds for what fixed point adds to the error in double precision, where e exceeds 0.2 and p is below 0.95;
+    /// the outcome is that of double precision wherever e exceeds 0.02.
+    fn in_fixed_point(impact: &Impact) -> Self {
+        let (Ok((narrow, wide)), Ok(exact)) = (in_fixed_point(impact), exactly(impact)) else {
+            return Self::REFUSED;
+        };
+        let unsolved = Self { verdict: Verdict::NoSolution, error: None, steps: Some(narrow.steps), residual: None };
+        let (solution, wide) = match (narrow.solution, wide.solution) {
+            (Some(narrow), Some(wide)) => (narrow, wide),
+            (None, None) => return Self { verdict: Verdict::Declined, ..unsolved },
+            _ => return unsolved,
+        };
+        let [e, of_wide] = [solution, wide].map(|solution| solution.square.sqrt());
+        let verdict = match () {
+            () if solution.rebounds != wide.rebounds && of_wide.max(e) > 0.02 => Verdict::WrongOutcome,
+            () if of_wide > 0.2
+                && impact.adhesion_strength().is_some_and(|p| p < 0.95)
+                && (e - of_wide).abs() > Method::Fixed.bound() =>
+            {
+                Verdict::InexactRestitution
+            }
+            () => Verdict::Within,
+        };
+        let error = exact.solution.map(|exact| solution.error_of_square(&exact));
+        Self { verdict, error, ..unsolved }
+    }
+}
