@@ -56,7 +56,7 @@ pub(crate) fn of(scene: &str, quantity: Quantity) -> Option<f64> {
         Quantity::Flash if scene == "small/fixed-oblique-1e-5" => Some(6.0 * 1024.0),
         Quantity::Flash if is_small(scene) => None,
         Quantity::StaticMemory | Quantity::AbsentTerms => Some(0.0),
-        Quantity::Classify if scene == "table/boundary" => Some(62.0),
+        Quantity::Classify if scene == "table/boundary" => Some(60.0),
         Quantity::Classify if scene == "table/restitution" => Some(300.0),
         _ if is_simulated(scene) || is_table(scene) || is_calibration(scene) => None,
         Quantity::Classify => Some(150.0),
