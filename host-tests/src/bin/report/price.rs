@@ -28,13 +28,19 @@ struct Family {
     title: &'static str,
     /// Name in those of files.
     name: &'static str,
+    /// What is counted.
+    work: (Quantity, &'static str),
     steps: &'static [Step],
 }
 
-const FAMILIES: [Family; 4] = [
+const CLASSIFICATION: (Quantity, &str) = (Quantity::Classify, "instructions of the dearest impact");
+const CALIBRATION: (Quantity, &str) = (Quantity::Calibrate, "instructions");
+
+const FAMILIES: [Family; 5] = [
     Family {
         title: "Rigid body with R = k/(k + v), classified",
         name: "rigid-body",
+        work: CLASSIFICATION,
         steps: &[
             start("rigid/bare", "normal, restitution alone"),
             more("rigid/adhesion", "+ work of adhesion", "rigid/bare"),
@@ -46,6 +52,7 @@ const FAMILIES: [Family; 4] = [
     Family {
         title: "Simulation by FixedCost<5>, 3 sweeps, to class and restitution",
         name: "fixed-cost",
+        work: CLASSIFICATION,
         steps: &[
             start("fixed-cost/bare", "normal, undamped"),
             more("fixed-cost/damping", "+ damping", "fixed-cost/bare"),
@@ -57,6 +64,7 @@ const FAMILIES: [Family; 4] = [
     Family {
         title: "Simulation by Collocation, 7 nodes and 1e-6 in f32, 9 nodes and 1e-9 in f64",
         name: "collocation",
+        work: CLASSIFICATION,
         steps: &[
             start("simulation/normal", "normal, damping and adhesion"),
             more("simulation/oblique", "+ friction and spin", "simulation/normal"),
@@ -66,19 +74,35 @@ const FAMILIES: [Family; 4] = [
         ],
     },
     Family {
-        title: "Tables and fixed point",
+        title: "Tables, fixed point, and the functions of micromath",
         name: "alternatives",
+        work: CLASSIFICATION,
         steps: &[
             start("table/boundary", "boundary table"),
             start("table/restitution", "restitution table, made on the board"),
-            start("simulation/fixed-point", "FixedCost<4> in fixed point"),
+            start("planar/work", "rigid body with friction and spin"),
+            start("planar/work-fixed-point", "the same in fixed point"),
+            start("simulation/fixed-class", "FixedCost<4>, 2 sweeps, set-up included"),
+            start("simulation/fixed-point", "the same in fixed point, set up before"),
+        ],
+    },
+    Family {
+        title: "Calibrations",
+        name: "calibrations",
+        work: CALIBRATION,
+        steps: &[
+            start("calibrate/material-damping", "zeta_H from a measured R"),
+            start("calibrate/adhesion-damping", "zeta_A from a measured e"),
+            start("calibrate/adhesion-strength", "f0 from a contact radius at rest"),
+            start("calibrate/radius", "radius from a measured e"),
+            start("calibrate/restitution-law", "k and W_A from 12 rebounds"),
+            start("calibrate/friction", "friction from 12 impulse ratios"),
         ],
     },
 ];
 
-const SCALARS: [&str; 2] = ["f32", "f64"];
-const QUANTITIES: [(Quantity, &str); 3] = [
-    (Quantity::Classify, "instructions of the dearest impact"),
+const SCALARS: [&str; 3] = ["f32", "f64", "micromath"];
+const MEMORY: [(Quantity, &str); 2] = [
     (Quantity::Code, "bytes of code and constants, set-up and validation included"),
     (Quantity::Stack, "bytes of stack, painted"),
 ];
@@ -95,11 +119,12 @@ pub(crate) fn section(_: &Run) -> Result<Section, String> {
         "Measured by `cargo qemu --counts` with {compiler}, optimised for speed, on emulated boards. The first row of each \
          number type is what its scene costs; a row below is what its term adds to the scene with one term less. \
          Instructions are not cycles: a division counts 1. Code and constants are all that setting up a scene, validating a \
-         motion and classifying it refer to, routines of the compiler for arithmetic in software included. A scene within \
-         the same functions may share them, so a price can be negative."
+         motion and classifying it, or calibrating, refer to, routines of the compiler for arithmetic in software included. A \
+         scene within the same functions may share them, so a price can be negative."
     ))];
     for family in &FAMILIES {
-        parts.extend(QUANTITIES.iter().map(|&(quantity, unit)| Part::Table(prices.table(family, quantity, unit))));
+        let quantities = [family.work].into_iter().chain(MEMORY);
+        parts.extend(quantities.map(|(quantity, unit)| Part::Table(prices.table(family, quantity, unit))));
         if family.steps.iter().any(|step| step.without.is_some()) {
             parts.push(Part::Figure(prices.figure(family)?));
         }
