@@ -427,5 +427,5 @@ fn every_scene_ends() {
     println!("{solved} solved of {ended}, {spent} with the budget spent");
     assert_eq!(ended, 4 * SCENES);
     assert!(solved > 3 * SCENES, "{solved}");
-    assert!(spent < SCENES / 250, "{spent}");
+    assert!(spent < SCENES / 100, "{spent}");
 }
