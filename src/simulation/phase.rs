@@ -9,7 +9,7 @@
 
 use super::law::NormalLaw;
 use super::nodes::{Nodes, PhaseNodes, PhaseSamples, Share};
-use super::stretch::{Point, Stretch, dot};
+use super::stretch::{Point, Stretch, coefficients, series};
 use crate::Real;
 
 /// Speeds over z at the nodes, and what they follow from.
@@ -212,16 +212,13 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     where
         T: PhaseSamples<N, M>,
     {
-        let (mut gains, mut series) = ([T::ZERO; M], [T::ZERO; M]);
+        let mut gains = [T::ZERO; M];
         self.add_gains(&mut gains);
         for q in 0..M {
             gains[q] = gains[q] / <T as Nodes<M>>::Z[q];
         }
         // The integral of N powers of z under the weight, over z^3.
-        for i in 0..M.min(N + 4) {
-            series[i] = dot(&<T as Nodes<M>>::LEGENDRE[i], &gains);
-        }
-        series
+        coefficients(&gains, N + 4)
     }
 
     /// The phase between two places z, in the order of time.
@@ -230,27 +227,16 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         T: PhaseSamples<N, M>,
     {
         let two = T::constant(2.0);
-        let (mut z, mut x) = ([T::ZERO; M], [T::ZERO; M]);
+        let mut z = [T::ZERO; M];
         for q in 0..M {
             z[q] = from + (to - from) * <T as Nodes<M>>::Z[q];
-            x[q] = two * z[q] - T::ONE;
         }
-        // Clenshaw's recurrence.
-        let (mut now, mut before) = ([T::ZERO; M], [T::ZERO; M]);
-        for i in (0..M.min(N + 4)).rev() {
-            let (up, down) = ((2 * i + 1) as f64 / (i + 1) as f64, (i + 1) as f64 / (i + 2) as f64);
-            let (up, down) = (T::constant(up), T::constant(down));
-            for q in 0..M {
-                let next = gains[i] + up * x[q] * now[q] - down * before[q];
-                before[q] = now[q];
-                now[q] = next;
-            }
-        }
+        let gained = series(gains, N + 4, &z);
         let length = (to - from).abs();
         let (mut s, mut y, mut rate) = ([T::ZERO; M], [T::ZERO; M], [T::ZERO; M]);
         for q in 0..M {
             let share = Share::new(T::ONE - z[q] * z[q]);
-            let square = two * law.fall(self.peak, &share) + z[q] * now[q];
+            let square = two * law.fall(self.peak, &share) + z[q] * gained[q];
             let speed = square.max(T::constant(SLOWEST * SLOWEST)).sqrt();
             s[q] = self.peak * share.radius;
             y[q] = speed * z[q];

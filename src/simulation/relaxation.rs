@@ -8,8 +8,7 @@
 #![allow(clippy::indexing_slicing, clippy::needless_range_loop)]
 
 use super::nodes::Nodes;
-use super::stretch::{dot, eliminate};
-use crate::Real;
+use super::stretch::{coefficients, dot, eliminate, series};
 
 /// Decay over a stretch up to which variation of constants is exact to the accuracy of the nodes.
 pub(super) const SLOW: f64 = 1.0;
@@ -31,15 +30,16 @@ pub(super) fn relaxed<T: Nodes<N>, const N: usize>(
         parts += 1;
     }
     let length = T::ONE / T::constant(f64::from(parts));
-    let (drive, decay) = (coefficients(drive), coefficients(decay));
+    let (drive, decay) = (coefficients(drive, N), coefficients(decay, N));
+    let in_order = |z: T| if forward { z } else { T::ONE - z };
     let (mut at_nodes, mut u) = ([before; N], before);
     for part in 0..parts {
         let from = T::constant(f64::from(part)) * length;
         let (mut matrix, mut right) = ([[T::ZERO; N]; N], [u; N]);
+        let places = T::Z.map(|z| in_order(from + length * z));
+        let (f, g) = (series(&drive, N, &places), series(&decay, N, &places));
         for k in 0..N {
-            let time = from + length * T::Z[k];
-            let z = if forward { time } else { T::ONE - time };
-            let (f, g) = (length * series(&drive, z), length * series(&decay, z).max(T::ZERO));
+            let (f, g) = (length * f[k], length * g[k].max(T::ZERO));
             for j in 0..N {
                 matrix[j][k] = T::RUNNING[k][j] * g;
                 right[j] = right[j] + T::RUNNING[k][j] * f;
@@ -50,37 +50,16 @@ pub(super) fn relaxed<T: Nodes<N>, const N: usize>(
         }
         // Never singular: the decay is not negative, and all eigenvalues of the table have positive real parts.
         eliminate(&mut matrix, &mut right);
-        let solution = coefficients(&right);
+        let solution = coefficients(&right, N);
+        let places = T::Z.map(|z| (in_order(z) - from) / length);
+        let found = series(&solution, N, &places.map(|place| place.max(T::ZERO).min(T::ONE)));
         for j in 0..N {
-            let time = if forward { T::Z[j] } else { T::ONE - T::Z[j] };
-            let place = (time - from) / length;
-            if place > T::ZERO {
-                // Nodes of later parts are set again by them.
-                at_nodes[j] = series(&solution, place.min(T::ONE));
+            // Nodes of later parts are set again by them.
+            if places[j] > T::ZERO {
+                at_nodes[j] = found[j];
             }
         }
         u = right[N - 1];
     }
     (at_nodes, u)
-}
-
-/// Coefficients of shifted Legendre polynomials, from values at the nodes.
-fn coefficients<T: Nodes<N>, const N: usize>(values: &[T; N]) -> [T; N] {
-    let mut coefficients = [T::ZERO; N];
-    for i in 0..N {
-        coefficients[i] = dot(&T::LEGENDRE[i], values);
-    }
-    coefficients
-}
-
-/// The sum of shifted Legendre polynomials at a place between 0 and 1, by Clenshaw's recurrence.
-fn series<T: Real, const N: usize>(coefficients: &[T; N], place: T) -> T {
-    let x = place + place - T::ONE;
-    let (mut now, mut before) = (T::ZERO, T::ZERO);
-    for i in (0..N).rev() {
-        let (up, down) = ((2 * i + 1) as f64 / (i + 1) as f64, (i + 1) as f64 / (i + 2) as f64);
-        let next = coefficients[i] + T::constant(up) * x * now - T::constant(down) * before;
-        (before, now) = (now, next);
-    }
-    now
 }

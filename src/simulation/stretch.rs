@@ -91,6 +91,37 @@ pub(super) fn integrals<T: Real, const N: usize>(table: &[[T; N]; N], f: &[T; N]
     sums
 }
 
+/// Coefficients of the first shifted Legendre polynomials, from values at the nodes; the others are zero.
+#[inline]
+pub(super) fn coefficients<T: Nodes<N>, const N: usize>(values: &[T; N], terms: usize) -> [T; N] {
+    let mut coefficients = [T::ZERO; N];
+    for i in 0..terms.min(N) {
+        coefficients[i] = dot(&T::LEGENDRE[i], values);
+    }
+    coefficients
+}
+
+/// Sum of the first shifted Legendre polynomials at places between 0 and 1, by Clenshaw's recurrence.
+#[inline]
+pub(super) fn series<T: Real, const N: usize, const M: usize>(
+    coefficients: &[T; N],
+    terms: usize,
+    places: &[T; M],
+) -> [T; M] {
+    let x = places.map(|place| T::constant(2.0) * place - T::ONE);
+    let (mut now, mut before) = ([T::ZERO; M], [T::ZERO; M]);
+    for i in (0..terms.min(N)).rev() {
+        let (up, down) = ((2 * i + 1) as f64 / (i + 1) as f64, (i + 1) as f64 / (i + 2) as f64);
+        let (up, down) = (T::constant(up), T::constant(down));
+        for q in 0..M {
+            let next = coefficients[i] + up * x[q] * now[q] - down * before[q];
+            before[q] = now[q];
+            now[q] = next;
+        }
+    }
+    now
+}
+
 /// The unknowns of a stretch while they are iterated.
 struct Sweeps<T, const N: usize> {
     /// Speeds, or speeds over z.
