@@ -30,10 +30,16 @@ use crate::simulation::{Nodes, PhaseNodes, PhaseSamples, Share};
 /// ```
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct Dual<T, const N: usize> {
     /// The value.
     pub value: T,
     /// Its partial derivatives by the inputs.
+    #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
     pub partials: [T; N],
 }
 
@@ -263,7 +269,9 @@ impl<T: PhaseNodes<M>, const N: usize, const M: usize> PhaseNodes<M> for Dual<T,
     const RUNNING: [[Self; M]; M] = fixed_rows(T::RUNNING);
     const RUNNING_ENDS: [(Self, Self); M] = fixed_pairs(T::RUNNING_ENDS);
     const WHOLE: [Self; M] = fixed_all(T::WHOLE);
+    const WHOLE_ENDS: (Self, Self) = fixed_pairs([T::WHOLE_ENDS])[0];
     const TAIL: [Self; M] = fixed_all(T::TAIL);
+    const SLOWEST: Self = Dual::fixed(T::SLOWEST);
 }
 
 impl<T: PhaseSamples<L, M>, const N: usize, const L: usize, const M: usize> PhaseSamples<L, M> for Dual<T, N> {

@@ -78,8 +78,8 @@ impl FixedPoint {
     /// ```
     /// assert_eq!(microimpact::FixedPoint::nearest(-3.25).to_f64(), -3.25);
     /// ```
-    pub fn to_f64(self) -> f64 {
-        f64::from(self.0)
+    pub const fn to_f64(self) -> f64 {
+        self.0.to_bits() as f64 / (1_u64 << FRACTION) as f64
     }
 
     /// The number nearest to a product in units of products, held at the bounds.
@@ -237,5 +237,29 @@ impl Real for FixedPoint {
     #[inline]
     fn saturating_div(self, divisor: Self) -> Self {
         self / divisor
+    }
+}
+
+#[cfg(feature = "defmt")]
+impl defmt::Format for FixedPoint {
+    fn format(&self, f: defmt::Formatter<'_>) {
+        defmt::write!(f, "{=f64}", self.to_f64());
+    }
+}
+
+#[cfg(feature = "serde")]
+impl serde::Serialize for FixedPoint {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_f64(self.to_f64())
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<'de> serde::Deserialize<'de> for FixedPoint {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = f64::deserialize(deserializer)?;
+        // What the bounds would hold is not the number that was written.
+        let fits = (-128.0..128.0).contains(&value);
+        if fits { Ok(Self::nearest(value)) } else { Err(serde::de::Error::custom("fixed point holds -128 to 128")) }
     }
 }

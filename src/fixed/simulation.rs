@@ -53,7 +53,9 @@ impl<const M: usize> PhaseNodes<M> for FixedPoint {
     const RUNNING: [[Self; M]; M] = nearest_rows(<f64 as PhaseNodes<M>>::RUNNING);
     const RUNNING_ENDS: [(Self, Self); M] = nearest_pairs(<f64 as PhaseNodes<M>>::RUNNING_ENDS);
     const WHOLE: [Self; M] = nearest_all(<f64 as PhaseNodes<M>>::WHOLE);
+    const WHOLE_ENDS: (Self, Self) = nearest_pairs([<f64 as PhaseNodes<M>>::WHOLE_ENDS])[0];
     const TAIL: [Self; M] = nearest_all(<f64 as PhaseNodes<M>>::TAIL);
+    const SLOWEST: Self = Self::nearest(5e-3);
 
     #[inline]
     fn add_running(sums: &mut [Self; M], f: &[Self; M], g: &[Self; M]) {

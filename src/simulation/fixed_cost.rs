@@ -73,6 +73,9 @@ impl<const N: usize> FixedCost<N> {
 /// What the last sweeps may still change of the energy left, over the energy before.
 const SETTLED: f64 = 0.003;
 
+/// What a sweep changes of the energy left, over the energy before, above which the reciprocals of the speeds are renewed.
+const UNSTEADY: f64 = 0.01;
+
 /// Loss over speed at the peak up to which a motion can be trusted.
 const STRONGEST: f64 = 30.0;
 
@@ -103,24 +106,37 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         T: PhaseNodes<N>,
         L: NormalLaw<T>,
     {
+        let moves = |by: T| by.abs() > T::constant(UNSTEADY) * energy;
         let mut phase = Phase::<T, N>::approach(law, energy);
-        // How far the last sweeps have still moved the energies lost.
-        let (mut lost, mut before, mut at_peak) = (T::ZERO, T::ZERO, energy);
+        let mut lost = phase.estimate;
+        // How far the last sweep has still moved the energy lost.
+        let (mut moved, mut at_peak) = (T::ZERO, energy);
         for sweep in 0..self.sweeps {
             if sweep > 0 {
                 phase.describe(law, false);
             }
-            (before, lost) = (lost, phase.sweep::<false>().0);
+            if moves(moved) {
+                phase.renew();
+            }
+            let before = lost;
+            lost = phase.sweep::<false>().0;
+            moved = lost - before;
             at_peak = phase.correct_peak(law, energy, lost);
         }
-        let mut unsettled = (lost - before).abs();
+        let unsettled = moved.abs();
         observe(&phase, false);
         phase.turn(law);
         let mut gained = T::ZERO;
+        moved = T::ZERO;
         for _ in 0..self.sweeps {
-            (before, gained) = (gained, phase.sweep::<false>().0);
+            if moves(moved) {
+                phase.renew();
+            }
+            let before = gained;
+            gained = phase.sweep::<false>().0;
+            moved = gained - before;
         }
-        unsettled = unsettled + (gained - before).abs();
+        let unsettled = unsettled + moved.abs();
         observe(&phase, true);
         let left = at_peak + gained;
         // What a sweep leaves of an error grows with the loss over the speed: beyond this bound it can settle on a wrong

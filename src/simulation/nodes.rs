@@ -288,10 +288,14 @@ pub trait PhaseNodes<const N: usize>: Real {
     const RUNNING_ENDS: [(Self, Self); N];
     /// Integral of the weighted f from 0 to 1.
     const WHOLE: [Self; N];
+    /// The same for two f linear in m^2, as in [`RUNNING_ENDS`](Self::RUNNING_ENDS).
+    const WHOLE_ENDS: (Self, Self);
     /// Share in f of the highest polynomial orthogonal under the weight, in units of the weighted integral of f.
     ///
     /// Up to a common factor these are the weights of barycentric interpolation too.
     const TAIL: [Self; N];
+    /// Speed, over z, below which the sphere has turned; a type holds the reciprocal of twice as much.
+    const SLOWEST: Self;
 
     /// Adds to each sum what the weighted product f g gives up to its node, as [`RUNNING`](Self::RUNNING) has it.
     ///
@@ -352,7 +356,12 @@ macro_rules! impl_phase_nodes {
                 narrow
             };
             const WHOLE: [Self; N] = narrowed!($float, Phase::<N>::WHOLE);
+            const WHOLE_ENDS: (Self, Self) = {
+                let (first, last) = Phase::<N>::WHOLE_ENDS;
+                (first as $float, last as $float)
+            };
             const TAIL: [Self; N] = narrowed!($float, Phase::<N>::TAIL);
+            const SLOWEST: Self = 1e-3;
         }
 
         impl<const N: usize, const M: usize> PhaseSamples<N, M> for $float {
@@ -419,20 +428,31 @@ impl<const N: usize> Phase<N> {
         whole
     };
     const RUNNING_ENDS: [(f64, f64); N] = {
-        let (mut ends, last_square) = ([(0.0, 0.0); N], square(Self::Z[N - 1]));
-        let mut j = 0;
+        let (mut ends, mut j) = ([(0.0, 0.0); N], 0);
         while j < N {
-            let mut k = 0;
+            let (mut column, mut k) = ([0.0; N], 0);
             while k < N {
-                let first = (square(Self::Z[k]) - last_square) / (square(Self::Z[0]) - last_square);
-                ends[j].0 += Self::RUNNING[k][j] * first;
-                ends[j].1 += Self::RUNNING[k][j] * (1.0 - first);
+                column[k] = Self::RUNNING[k][j];
                 k += 1;
             }
+            ends[j] = Self::of_ends(&column);
             j += 1;
         }
         ends
     };
+    const WHOLE_ENDS: (f64, f64) = Self::of_ends(&Self::WHOLE);
+
+    /// Sums with weights of two f linear in m^2: one at the first node and zero at the last, and the reverse.
+    const fn of_ends(weights: &[f64; N]) -> (f64, f64) {
+        let (mut ends, last_square, mut k) = ((0.0, 0.0), square(Self::Z[N - 1]), 0);
+        while k < N {
+            let first = (square(Self::Z[k]) - last_square) / (square(Self::Z[0]) - last_square);
+            ends.0 += weights[k] * first;
+            ends.1 += weights[k] * (1.0 - first);
+            k += 1;
+        }
+        ends
+    }
 
     /// Leading coefficients of Lagrange's polynomials, times the norm of the highest orthogonal one.
     const TAIL: [f64; N] = {

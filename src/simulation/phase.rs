@@ -22,6 +22,10 @@ pub(super) struct Phase<T, const N: usize> {
     /// Loss for each dz, over the weight of the nodes; negative on rebound.
     pub(super) loss: [T; N],
     pub(super) speed: [T; N],
+    /// Half the reciprocals of the speeds, or of earlier ones.
+    half_inverse: [T; N],
+    /// Energy that the losses are estimated to give over the whole approach.
+    pub(super) estimate: T,
 }
 
 /// What a phase loses over an energy, and what its nodes cannot represent.
@@ -48,27 +52,33 @@ impl<T: Real> Tails<T> {
     }
 }
 
-/// Below this share of the speed at the peak the sphere has turned.
-const SLOWEST: f64 = 1e-3;
-
 impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
-    /// The approach to the peak that an energy reaches without losses, with what damping takes estimated.
-    pub(super) fn approach(law: &impl NormalLaw<T>, energy: T) -> Self {
+    /// The approach to the peak that an energy reaches, and what damping is estimated to take on the way.
+    pub(super) fn approach<L: NormalLaw<T>>(law: &L, energy: T) -> Self {
         let zeros = [T::ZERO; N];
-        let mut phase = Self { peak: T::ONE, free: zeros, loss: zeros, speed: zeros };
-        phase.peak = phase.peak - (law.potential(phase.peak) - energy) / law.slope(phase.peak);
-        phase.describe(law, false);
-        let start = phase.ends();
-        for j in 0..N {
-            phase.speed[j] = phase.free[j].max(T::SMALLEST).sqrt() + Self::gain(start, j);
+        let mut phase =
+            Self { peak: T::ONE, free: zeros, loss: zeros, speed: zeros, half_inverse: zeros, estimate: T::ZERO };
+        if L::MAY_REPEL {
+            phase.peak = phase.peak - (law.potential(phase.peak) - energy) / law.slope(phase.peak);
         }
+        let half_loss = |share| T::constant(2.0) * phase.peak * law.loss_over_square(phase.peak, share, false);
+        let ends = (half_loss(&T::SHARES[0]), half_loss(&T::SHARES[N - 1]));
+        for j in 0..N {
+            let free = Self::free_square(law, phase.peak, &T::SHARES[j]);
+            let root = if L::MAY_REPEL { free.max(T::SMALLEST).sqrt() } else { free.sqrt() };
+            phase.speed[j] = root + Self::gain(ends, j);
+        }
+        // The speed half-way stands for all.
+        let (first, last) = (T::constant(0.56) * T::WHOLE_ENDS.0, T::constant(0.36) * T::WHOLE_ENDS.1);
+        phase.estimate = (first * ends.0 + last * ends.1) * (phase.speed[(N - 1) / 2] + phase.speed[N / 2]);
         let before = phase.peak;
-        phase.correct_peak(law, energy, phase.gained());
+        phase.correct_peak(law, energy, phase.estimate);
         // Elastic energy goes with the fifth power of the peak, the speed with its root.
         let growth = (phase.peak - before) / before;
         let factor = T::ONE + growth * (T::constant(2.5) + T::constant(1.875) * growth);
         phase.describe(law, false);
         phase.speed = phase.speed.map(|speed| speed * factor);
+        phase.renew();
         phase
     }
 
@@ -81,7 +91,16 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         let change = (before.0 + after.0, before.1 + after.1);
         for j in 0..N {
             let speed = self.free[j] / self.speed[j] + Self::gain(change, j);
-            self.speed[j] = speed.max(T::constant(SLOWEST));
+            self.speed[j] = speed.max(T::SLOWEST);
+        }
+        self.renew();
+    }
+
+    /// Takes the reciprocals of the present speeds.
+    #[inline]
+    pub(super) fn renew(&mut self) {
+        for j in 0..N {
+            self.half_inverse[j] = T::constant(0.5) / self.speed[j];
         }
     }
 
@@ -91,39 +110,39 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         let (peak, four) = (self.peak, T::constant(if rebound { -4.0 } else { 4.0 }));
         for j in 0..N {
             let share = &T::SHARES[j];
-            let fall = law.fall(peak, share);
-            self.free[j] = fall + fall;
+            self.free[j] = Self::free_square(law, peak, share);
             self.loss[j] = four * peak * law.loss_over_square(peak, share, rebound);
         }
     }
 
-    /// Energy that the losses give over the whole phase; negative on rebound.
     #[inline]
-    pub(super) fn gained(&self) -> T {
-        let mut gained = T::ZERO;
-        for k in 0..N {
-            gained = gained + T::WHOLE[k] * self.loss[k] * self.speed[k];
-        }
-        T::constant(0.5) * gained
+    fn free_square(law: &impl NormalLaw<T>, peak: T, share: &Share<T>) -> T {
+        let fall = law.fall(peak, share);
+        fall + fall
     }
 
-    /// One sweep, with one of Heron's steps for the root at every node: the energy that the losses then give and, where it is
-    /// `MEASURED`, the square of the change of the speeds.
+    /// One sweep, with a step of Newton's method for the root at every node: the energy that the losses then give and, where
+    /// it is `MEASURED`, the square of the change of the speeds.
+    ///
+    /// It multiplies by reciprocals of earlier speeds, which is as good as to divide while the speeds change little.
     #[inline(never)]
     pub(super) fn sweep<const MEASURED: bool>(&mut self) -> (T, T) {
         let half = T::constant(0.5);
         let mut square = self.free;
         T::add_running(&mut square, &self.loss, &self.speed);
-        let (mut gained, mut change) = (T::ZERO, T::ZERO);
+        let (before, inverse) = (self.speed, self.half_inverse);
         for j in 0..N {
             // A captured sphere turns before s = 0: the floor lets the loss exceed the energy all the same.
-            let speed = (half * (self.speed[j] + square[j] / self.speed[j])).max(T::constant(SLOWEST));
+            let speed = before[j] + inverse[j] * (square[j] - before[j] * before[j]);
+            self.speed[j] = speed.max(T::SLOWEST);
+        }
+        let (mut gained, mut change) = (T::ZERO, T::ZERO);
+        for j in 0..N {
             if MEASURED {
-                let step = speed - self.speed[j];
+                let step = self.speed[j] - before[j];
                 change = change + step * step;
             }
-            self.speed[j] = speed;
-            gained = gained + T::WHOLE[j] * self.loss[j] * speed;
+            gained = gained + T::WHOLE[j] * self.loss[j] * self.speed[j];
         }
         (half * gained, change)
     }
@@ -183,7 +202,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         self.add_gains(&mut square);
         let (mut s, mut y, mut rate) = ([T::ZERO; M], [T::ZERO; M], [T::ZERO; M]);
         for q in 0..M {
-            let speed = square[q].max(T::constant(SLOWEST * SLOWEST)).sqrt();
+            let speed = square[q].max(T::SLOWEST * T::SLOWEST).sqrt();
             s[q] = self.peak * shares[q].radius;
             y[q] = speed * <T as Nodes<M>>::Z[q];
             rate[q] = two * self.peak * law.indentation_slope(s[q]) / speed;
@@ -237,7 +256,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         for q in 0..M {
             let share = Share::new(T::ONE - z[q] * z[q]);
             let square = two * law.fall(self.peak, &share) + z[q] * gained[q];
-            let speed = square.max(T::constant(SLOWEST * SLOWEST)).sqrt();
+            let speed = square.max(T::SLOWEST * T::SLOWEST).sqrt();
             s[q] = self.peak * share.radius;
             y[q] = speed * z[q];
             rate[q] = two * length * self.peak * law.indentation_slope(s[q]) / speed;

@@ -113,7 +113,12 @@ impl<const N: usize> PhaseNodes<N> for Approximate {
         pairs
     };
     const WHOLE: [Self; N] = all(<f32 as PhaseNodes<N>>::WHOLE);
+    const WHOLE_ENDS: (Self, Self) = {
+        let (first, last) = <f32 as PhaseNodes<N>>::WHOLE_ENDS;
+        (Self(first), Self(last))
+    };
     const TAIL: [Self; N] = all(<f32 as PhaseNodes<N>>::TAIL);
+    const SLOWEST: Self = Self(<f32 as PhaseNodes<N>>::SLOWEST);
 }
 
 const fn all<const N: usize>(from: [f32; N]) -> [Approximate; N] {

@@ -3,8 +3,8 @@
 use std::cell::Cell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use microimpact::Real;
 use microimpact::simulation::{Nodes, PhaseNodes, Share};
+use microimpact::{FixedPoint, Real};
 
 /// Rounding to f64 alone.
 pub const EXACT: u8 = 0;
@@ -140,7 +140,12 @@ impl<const ROUNDING: u8, const N: usize> PhaseNodes<N> for Checked<ROUNDING> {
         pairs
     };
     const WHOLE: [Self; N] = all(<f64 as PhaseNodes<N>>::WHOLE);
+    const WHOLE_ENDS: (Self, Self) = {
+        let (first, last) = <f64 as PhaseNodes<N>>::WHOLE_ENDS;
+        (Checked(first), Checked(last))
+    };
     const TAIL: [Self; N] = all(<f64 as PhaseNodes<N>>::TAIL);
+    const SLOWEST: Self = Checked(<FixedPoint as PhaseNodes<N>>::SLOWEST.to_f64());
 }
 
 const fn all<const ROUNDING: u8, const N: usize>(from: [f64; N]) -> [Checked<ROUNDING>; N] {
