@@ -5,6 +5,8 @@ pub mod c_results;
 pub mod contest;
 pub mod fit;
 pub mod link;
+#[path = "../../examples/firmware/src/table_1.rs"]
+pub mod table_1;
 
 use std::collections::HashMap;
 use std::io::Write;
@@ -18,6 +20,7 @@ use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, Real, Sphere,
 const CASES: &str = include_str!("../data/cases.csv");
 
 /// An impact with its solution to 20 digits: a row of `data/cases.csv`.
+#[derive(Clone)]
 pub struct Case {
     names: csv::StringRecord,
     cells: csv::StringRecord,
@@ -54,6 +57,18 @@ impl Case {
     pub fn number(&self, column: &str) -> f64 {
         let text = self.text(column);
         text.parse().unwrap_or_else(|_| panic!("{column} of the reference is no number: {text}"))
+    }
+
+    /// The case with the number in a column multiplied by a factor; its solution is no longer that of its inputs.
+    ///
+    /// # Panics
+    /// As [`number`](Self::number).
+    #[must_use]
+    pub fn scaled(&self, column: &str, factor: f64) -> Self {
+        let value = factor * self.number(column);
+        let cells = self.names.iter().zip(&self.cells);
+        let cells = cells.map(|(name, cell)| if name == column { format!("{value:e}") } else { cell.to_owned() });
+        Self { names: self.names.clone(), cells: cells.collect() }
     }
 
     /// The motion before the impact.

@@ -116,7 +116,7 @@ fn rolling_is_independent_of_the_force_law() {
         [free.impact(&method(), &motion).unwrap().tangential, held.impact(&method(), &motion).unwrap().tangential]
     {
         assert_eq!(contact.motion(), SurfaceMotion::Rolling);
-        assert!((contact.velocity() - expected).abs() < 1e-14);
+        assert!((contact.tangential() - expected).abs() < 1e-14);
         assert!((contact.spin() * 5.06e-6 - expected).abs() < 1e-14);
     }
 }
@@ -127,7 +127,7 @@ fn sliding_impulse() {
     let scene = Simulation::new(sphere(), stiffness()).with_friction(0.05).unwrap();
     let contact = scene.impact(&method(), &planar(2.0, 5.0, 0.0)).unwrap().tangential;
     assert_eq!(contact.motion(), SurfaceMotion::Sliding);
-    assert!((contact.velocity() - (5.0 - 0.05 * 4.0)).abs() < 1e-12);
+    assert!((contact.tangential() - (5.0 - 0.05 * 4.0)).abs() < 1e-12);
     assert!((contact.spin() * 5.06e-6 - 2.5 * 0.05 * 4.0).abs() < 1e-12);
 }
 
@@ -329,7 +329,7 @@ fn values<T: Real>(impact: &SimulatedImpact<T, TangentialContact<T>>) -> Vec<T> 
         outputs.impulses.adhesion_rebound,
         outputs.works.material,
         outputs.works.adhesion,
-        tangential.velocity(),
+        tangential.tangential(),
         tangential.rotation(),
         tangential.displacement(),
         tangential.spin(),
@@ -427,5 +427,5 @@ fn every_scene_ends() {
     println!("{solved} solved of {ended}, {spent} with the budget spent");
     assert_eq!(ended, 4 * SCENES);
     assert!(solved > 3 * SCENES, "{solved}");
-    assert!(spent < SCENES / 100, "{spent}");
+    assert!(spent < SCENES / 2500, "{spent}");
 }

@@ -113,8 +113,11 @@ impl<T: AdaptiveNodes, O: Observer<T>> Method<T, O> for Adaptive<T> {
         try_phases!(7, 13, 5e-7, 3e-7, 1e-4);
         try_phases!(9, 16, 2e-8, 1e-8, 1e-5);
         try_phases!(10, 18, 7e-9, 2e-9, 2e-7);
-        try_phases!(13, 24, 6e-10, 3e-11, 5e-8);
-        try_phases!(14, 26, 2e-10, 8e-12, 2e-9);
+        // To divide so many nodes where the sphere begins to roll costs more than stretches do.
+        if !O::EVENTS {
+            try_phases!(13, 24, 6e-10, 3e-11, 5e-8);
+            try_phases!(14, 26, 2e-10, 8e-12, 2e-9);
+        }
         macro_rules! stretches {
             ($nodes:literal) => {
                 Collocation::<$nodes, T> { tolerance }.solve(law, energy, observer)
@@ -139,6 +142,9 @@ const MOST_SWEEPS: u32 = 12;
 
 /// Square of the change of the speeds, over that of the tolerance, at which the sweeps end.
 const SETTLED: f64 = 0.1;
+
+/// Square of the change of the speeds above which their reciprocals are renewed.
+const UNSTEADY: f64 = 1e-3;
 
 /// Loss over speed at the peak beyond which sweeps take longer than stretches.
 const STRONGEST: f64 = 5.0;
@@ -170,6 +176,9 @@ where
             // Sweeps converge superlinearly.
             if change <= enough || change * change <= enough * before {
                 return Ok(gained);
+            }
+            if change > T::constant(UNSTEADY) {
+                phase.renew();
             }
             before = change;
         }

@@ -118,12 +118,17 @@ where
         let scale = (two * depth).sqrt().min(T::ONE);
         let finer = Control { settled: control.settled * scale, ..control };
         let at_rest = Point { s: brink, energy: rest, speed_squared: T::ZERO };
-        let departure = Follower::from(&law, finer, &mut (), at_rest).ascend::<N>(bottom);
-        let impact = Follower::from(&law, control, &mut (), arrival(units.energy)).descend::<N>(bottom);
-        let (Some(departure), Some(impact)) = (departure, impact) else {
-            return Ok(Trial::Tried { rebounds: false, excess: None });
+        let captured = Ok(Trial::Tried { rebounds: false, excess: None });
+        let Some(departure) = Follower::from(&law, finer, &mut (), at_rest).ascend::<N>(bottom) else {
+            return captured;
         };
         let kinetic = half * departure.speed_squared;
+        // Where damping leaves little of the energy of the impact, errors count in proportion to what is left.
+        let left = (kinetic / units.energy).min(T::ONE);
+        control.error = (control.error * (left * left).max(T::constant(1e-4))).max(unattainable());
+        let Some(impact) = Follower::from(&law, control, &mut (), arrival(units.energy)).descend::<N>(bottom) else {
+            return captured;
+        };
         // Of what is left of the motion, the speed knows more where that is little, and the energy where it is much.
         let surplus = if kinetic < T::constant(0.1) * units.energy {
             half * (impact.speed_squared - departure.speed_squared)

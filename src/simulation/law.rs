@@ -298,7 +298,7 @@ pub(super) fn well<T: Real>(law: &impl NormalLaw<T>) -> Option<(T, T)> {
         }
     }
     let mut brink = T::ZERO;
-    if law.slope(T::EPSILON * bottom) > T::ZERO {
+    if law.slope(T::EPSILON * T::EPSILON * bottom) > T::ZERO {
         let mut inner = bottom;
         for _ in 0..60 {
             let middle = (brink + inner) * T::constant(0.5);
@@ -318,6 +318,8 @@ pub(super) fn brink<T: Real, L: NormalLaw<T>>(law: &L) -> (T, T) {
     if !L::MAY_REPEL {
         return (T::ZERO, T::ZERO);
     }
-    let brink = well(law).map_or(T::ZERO, |(brink, _)| brink);
+    // So close to first touch it is no higher than rounding errors.
+    let seen = well(law).filter(|(brink, bottom)| *brink > T::EPSILON * *bottom);
+    let brink = seen.map_or(T::ZERO, |(brink, _)| brink);
     (brink, law.potential(brink).max(T::ZERO))
 }

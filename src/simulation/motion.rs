@@ -308,7 +308,7 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 if self.take(&arrival, Course::REBOUND, Some(arrival.end.s))? {
                     return Ok(self.at.s);
                 }
-                if self.is_at_equilibrium() {
+                if self.is_at_equilibrium(T::constant(8.0)) {
                     return Ok(T::ZERO);
                 }
                 length = half * (self.at.s - guess);
@@ -336,6 +336,12 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 length = length * factor.min(T::constant(0.7));
                 if length <= T::EPSILON * T::EPSILON {
                     return if self.is_held() { Ok(T::ZERO) } else { Err(End::Budget) };
+                }
+                // Where the forces left are hardly more than their rounding, errors are, squared, what that makes of them: no
+                // stretch is short enough.
+                let roundings = (T::constant(2e-4) / self.control.error).sqrt();
+                if self.is_held() && self.is_at_equilibrium(roundings) {
+                    return Ok(T::ZERO);
                 }
             }
         }
@@ -443,7 +449,9 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         T: Nodes<N>,
     {
         if !stretch.accepted {
-            self.effort.refused += 1;
+            // An arrival that is refused beforehand costs nothing; there is one at most for each stretch taken.
+            let tried = stretch.forward || stretch.error < T::ONE;
+            self.effort.refused += u32::from(tried);
         } else {
             self.effort.stretches += 1;
             self.effort.error = self.effort.error.max(stretch.error);
@@ -560,11 +568,11 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         least * least > T::constant(4.0) * stiffness.max(secant) && y < T::constant(0.5) * least * distance.abs()
     }
 
-    /// Whether what is left of the way is less than the error allowed. Damped critically but for some percent, a sphere comes
-    /// as close as that to its equilibrium before it turns.
-    fn is_at_equilibrium(&self) -> bool {
+    /// Whether what is left of the way is less than the error allowed, or than so many `roundings`. Damped critically but for
+    /// some percent, a sphere comes as close as that to its equilibrium before it turns.
+    fn is_at_equilibrium(&self, roundings: T) -> bool {
         let s = self.at.s;
-        let close = s * self.control.error.max(T::constant(8.0) * T::EPSILON);
+        let close = s * self.control.error.max(roundings * T::EPSILON);
         let reach = self.law.loss(s, true) * close;
         self.at.speed_squared <= reach * reach
             && self.equilibrium().is_some_and(|equilibrium| (s - equilibrium).abs() <= close)

@@ -82,6 +82,7 @@ impl<T: Real> RestCriterion<T> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SettledImpact<T, G, O = Everything<T>> {
     /// The impact; of a captured sphere, its outputs and the motion along the surface are those until it rests. Where it
     /// does not come to rest over as many turning points as were allowed, or damping takes less in a swing than rounding,

@@ -10,7 +10,7 @@ use core::f64::consts::PI;
 use super::damping::{HystereticDamping, NoDamping, ScaledDamping};
 use super::force::{ConstantForce, NoForce, ScaledForce};
 use super::ring::{Ring, ScaledRing};
-use super::tangential::{NoPeeling, Peeling, ScaledPeeling};
+use super::tangential::{NoPeeling, Peeling, ScaledPeeling, SpinDamping};
 use crate::{InputError, NoAdhesion, Parameter, Real, Sphere, Stiffness};
 
 /// The units of one impact, and the energy that the sphere brings.
@@ -42,17 +42,16 @@ impl<T: Real> Scaled<T> {
         // C v, with C of B4: (m/(r^3 K))^(2/5) v^(4/5).
         let damping = root * root;
         // delta_Hertz = (5/4)^(2/5) r w^(4/5).
-        let hertz = T::constant(1.093_362_073_943_278_1) * sphere.radius() * damping;
+        let hertz = T::constant(1.093_362_073_943_278_1) * damping * sphere.radius();
         let adhesion = Parameter::AdhesionRatio.check(T::constant(5.0 / 3.0) * equilibrium / hertz)?;
-        let peak = peak_contact_radius(adhesion);
-        let inverse = T::ONE / peak;
-        let square = inverse * inverse;
+        let (inverse, energy) = inverse_peak_contact_radius(adhesion);
+        let peak = T::ONE / inverse;
         let growth = peak * peak * peak.sqrt();
         Ok(Self {
             length: hertz * peak * peak,
             speed: approach * growth,
-            adhesion: adhesion * square,
-            energy: T::constant(0.5) * square * square * inverse,
+            adhesion: (adhesion * inverse) * inverse,
+            energy,
             damping: damping * growth,
         })
     }
@@ -112,21 +111,27 @@ impl<T: Real> Scaled<T> {
     }
 }
 
-/// Contact radius a of the undamped peak over that of Hertz's impact: the root of a^5 - p a^3 = 1.
-fn peak_contact_radius<T: Real>(p: T) -> T {
-    // As a^2 = p + a^-3, from a value that is right to 1e-3 for every p.
-    let mut a = (p + T::ONE / (T::ONE + p * (T::constant(0.58) + T::constant(0.315) * p))).sqrt();
+/// Contact radius of Hertz's peak over that of the undamped one, the root b of b^5 + p b^2 = 1; and b^5/2, the energy
+/// before the impact, which is exact to fewer roundings than a fifth power of b has.
+fn inverse_peak_contact_radius<T: Real>(p: T) -> (T, T) {
+    let (two, five) = (T::constant(2.0), T::constant(5.0));
+    // Right to 1e-3 for every p.
+    let ratio = T::ONE + p * (T::constant(0.58) + T::constant(0.315) * p);
+    let mut b = (ratio / (p * ratio + T::ONE)).sqrt();
+    let mut fifth = T::ONE;
     for _ in 0..4 {
-        let inverse = T::ONE / a;
-        let cube = inverse * inverse * inverse;
-        let step = (a * a - p - cube) / (a + a + T::constant(3.0) * cube * inverse);
-        a = a - step;
-        // What is left of the error is less than the square of the step.
-        if step * step <= T::EPSILON * (a * a) {
+        let square = b * b;
+        let pull = p * square;
+        fifth = square * square * b;
+        let excess = (pull - T::ONE + fifth) / (five * fifth + two * pull);
+        b = b - b * excess;
+        fifth = fifth - five * fifth * excess;
+        // What is left of the error is less than twice the square of the step.
+        if excess * excess <= T::constant(0.06) * T::EPSILON {
             break;
         }
     }
-    a
+    (b, T::constant(0.5) * fifth)
 }
 
 /// A term of a scene that becomes a dimensionless term of the motion.
@@ -169,7 +174,6 @@ macro_rules! absent {
 absent!(NoDamping);
 absent!(NoAdhesion);
 absent!(NoForce);
-absent!(NoPeeling);
 
 impl<T: Real> Scale<T> for HystereticDamping<T> {
     type Scaled = ScaledDamping<T>;
@@ -207,17 +211,36 @@ impl<T: Real> Scale<T> for ConstantForce<T> {
     }
 }
 
-/// A peeling moment in units of the motion; it goes with the damping c_A of a ring.
-pub(super) fn peeling<T: Real>(
-    peeling: &Peeling<T>,
-    ring: &Ring<T>,
-    sphere: &Sphere<T>,
-    units: &Scaled<T>,
-) -> Result<ScaledPeeling<T>, InputError> {
-    // lambda c_A a/(kappa m r^2) at a = sqrt(r L), for a time L/U; c_A U = zeta_A C U.
-    let inertia = sphere.gyration_ratio() * sphere.mass();
-    let decay = peeling.lambda / inertia / units.speed * (ring.zeta * units.damping / units.speed);
-    let depth = units.length / sphere.radius();
-    let rate = decay * depth * depth.sqrt();
-    Ok(ScaledPeeling(Parameter::DampingRatio.check(rate)?))
+/// A peeling moment of a scene that becomes one of the motion; it goes by the damping of the adhesion `A`.
+pub trait ScalePeeling<T: Real, A> {
+    /// The dimensionless moment.
+    type Scaled: SpinDamping<T>;
+
+    /// The moment in units of the impact of a sphere.
+    ///
+    /// # Errors
+    /// A ratio outside its range.
+    fn scale(&self, adhesion: &A, sphere: &Sphere<T>, units: &Scaled<T>) -> Result<Self::Scaled, InputError>;
+}
+
+impl<T: Real, A> ScalePeeling<T, A> for NoPeeling {
+    type Scaled = Self;
+
+    #[inline]
+    fn scale(&self, _adhesion: &A, _sphere: &Sphere<T>, _units: &Scaled<T>) -> Result<Self, InputError> {
+        Ok(*self)
+    }
+}
+
+impl<T: Real> ScalePeeling<T, Ring<T>> for Peeling<T> {
+    type Scaled = ScaledPeeling<T>;
+
+    fn scale(&self, ring: &Ring<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Result<ScaledPeeling<T>, InputError> {
+        // lambda c_A a/(kappa m r^2) at a = sqrt(r L), for a time L/U; c_A U = zeta_A C U.
+        let inertia = sphere.gyration_ratio() * sphere.mass();
+        let decay = self.lambda / inertia / units.speed * (ring.zeta * units.damping / units.speed);
+        let depth = units.length / sphere.radius();
+        let rate = decay * depth * depth.sqrt();
+        Ok(ScaledPeeling(Parameter::DampingRatio.check(rate)?))
+    }
 }

@@ -142,10 +142,13 @@ const SURPRISE: f64 = 100.0;
 const MOST_SWEEPS: u32 = 20;
 
 impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
-    fn from(free: &[T; N], loss: &[T; N]) -> Self {
+    /// Speeds without losses, less an estimate of what those take from them.
+    #[inline]
+    fn from(free: &[T; N], loss: &[T; N], taken: &[T; N]) -> Self {
         let (mut speed, mut half_inverse, mut power) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
         for j in 0..N {
-            speed[j] = free[j].max(T::SMALLEST).sqrt();
+            let root = free[j].max(T::SMALLEST).sqrt();
+            speed[j] = (root - taken[j]).max(T::constant(0.5) * root);
             half_inverse[j] = T::constant(0.5) / speed[j];
             power[j] = loss[j] * speed[j];
         }
@@ -157,26 +160,57 @@ impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
     #[inline]
     fn sweep(&mut self, free: &[T; N], loss: &[T; N], lost: impl Fn(T, T) -> T, table: &[[T; N]; N]) -> T {
         let two = T::constant(2.0);
-        let integral = integrals(table, &self.power);
-        let mut squares = [T::ZERO; 4];
+        let mut step = integrals(table, &self.power);
+        // One short loop for each array, which the compiler turns into vectors.
         for j in 0..N {
-            let speed = self.speed[j];
-            let step = self.half_inverse[j] * (lost(free[j], integral[j]) - speed * speed);
-            squares[j % 4] = squares[j % 4] + step * step;
-            let speed = speed + step;
-            self.speed[j] = speed;
-            self.half_inverse[j] = self.half_inverse[j] * (two - two * speed * self.half_inverse[j]);
-            self.power[j] = loss[j] * speed;
+            step[j] = self.half_inverse[j] * (lost(free[j], step[j]) - self.speed[j] * self.speed[j]);
+        }
+        for j in 0..N {
+            self.speed[j] = self.speed[j] + step[j];
+        }
+        for j in 0..N {
+            self.half_inverse[j] = self.half_inverse[j] * (two - two * self.speed[j] * self.half_inverse[j]);
+        }
+        for j in 0..N {
+            self.power[j] = loss[j] * self.speed[j];
         }
         self.sweeps += 1;
-        (squares[0] + squares[1]) + (squares[2] + squares[3])
+        dot(&step, &step)
     }
 
-    /// Whether the sweeps have settled after a change of this square. They converge superlinearly: the next change is
-    /// at most this one squared over the one before, or the share of this one by which the reciprocals were late.
+    /// Changes all speeds by a share of themselves, unless it is so large that a sweep does better; the square of what they
+    /// are to change by, over their own.
     #[inline]
-    fn settles(&mut self, change: T, control: &Control<T>) -> Progress {
-        let enough = control.settled * control.settled;
+    fn scale(&mut self, share: T) -> T {
+        if share.abs() < T::constant(0.1) {
+            let (more, less) = (T::ONE + share, T::ONE - share);
+            for j in 0..N {
+                self.speed[j] = self.speed[j] * more;
+            }
+            for j in 0..N {
+                self.half_inverse[j] = self.half_inverse[j] * less;
+            }
+        }
+        T::constant(N as f64) * (share * share).min(T::ONE)
+    }
+
+    /// Losses that have changed, at the speeds as they are.
+    #[inline]
+    fn take_losses(&mut self, loss: &[T; N]) {
+        for j in 0..N {
+            self.power[j] = loss[j] * self.speed[j];
+        }
+    }
+
+    /// Whether the sweeps have settled after a change of this square, of speeds of which the square is `scale`. They converge
+    /// superlinearly: the next change is at most this one squared over the one before, or the share of this one by which the
+    /// reciprocals were late.
+    #[inline]
+    fn settles(&mut self, change: T, scale: T, control: &Control<T>) -> Progress {
+        let relative = control.settled * control.settled * scale.min(T::ONE);
+        // The rounding of positions does not shrink with the speed; a first sweep may hide behind it.
+        let rounding = T::constant(4.0) * T::EPSILON * T::EPSILON * scale.max(T::ONE);
+        let enough = if self.sweeps > 1 { relative.max(rounding) } else { relative };
         let superlinear = self.sweeps > 1 && T::constant(SURPRISE) * change * change <= enough * self.change;
         if change <= enough || (superlinear && change * self.lateness() <= enough) {
             return Progress::Settled;
@@ -200,9 +234,10 @@ impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
     }
 
     fn settle(&mut self, free: &[T; N], loss: &[T; N], table: &[[T; N]; N], control: &Control<T>) -> bool {
+        let scale = free[0].max(free[N - 1]);
         loop {
             let change = self.sweep(free, loss, |free, lost| free - lost, table);
-            match self.settles(change, control) {
+            match self.settles(change, scale, control) {
                 Progress::Settled => return true,
                 Progress::Diverging => return false,
                 Progress::Converging => {}
@@ -248,7 +283,7 @@ pub(super) fn pass<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
     let (two, half) = (T::constant(2.0), T::constant(0.5));
     let (mut s, mut free, mut loss, mut length) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
     let slow = from.speed_squared < from.energy.abs();
-    let (mut possible, mut contracting, mut reach) = (true, true, T::ZERO);
+    let (mut possible, mut contracting, mut reach, mut taken) = (true, true, T::ZERO, [T::ZERO; N]);
     for j in 0..N {
         let step = T::Z[j] * (first + second * T::Z[j]);
         s[j] = from.s + step;
@@ -262,13 +297,16 @@ pub(super) fn pass<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
         loss[j] = two * length[j] * law.loss(s[j], course.rebound);
         possible &= free[j] > T::ZERO;
         // Half of what the losses have taken so far, over the speed, is what a sweep leaves of an error.
-        reach = reach + T::WHOLE[j] * loss[j];
+        let here = T::WHOLE[j] * loss[j];
+        taken[j] = half * (reach + half * here);
+        reach = reach + here;
         contracting &= reach * reach < free[j];
     }
     if course.reversed {
         loss = loss.map(|loss| -loss);
+        taken = taken.map(|taken| -taken);
     }
-    let mut state = Sweeps::from(&free, &loss);
+    let mut state = Sweeps::from(&free, &loss, &taken);
     let mut accepted = possible;
     let mut newton = false;
     if possible && !(contracting && state.settle(&free, &loss, &T::RUNNING, control)) {
@@ -320,7 +358,7 @@ pub(super) fn leave<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
     if course.reversed {
         loss = loss.map(|loss| -loss);
     }
-    let mut state = Sweeps::from(&free, &loss);
+    let mut state = Sweeps::from(&free, &loss, &taken_from_turning_point(&loss));
     // A sixth of the loss over the speed is what a sweep leaves of an error.
     let contraction = T::constant(0.34) * strongest * state.half_inverse[0];
     let mut accepted = possible && contraction < T::constant(0.4) && state.settle(&free, &loss, &T::TURNING, control);
@@ -380,35 +418,53 @@ pub(super) fn arrive<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
     if free.iter().any(|free| *free <= T::ZERO) {
         return refused(turning, true);
     }
-    let mut state = Sweeps::from(&free, &loss);
+    let mut state = Sweeps::from(&free, &loss, &taken_from_turning_point(&loss).map(|taken| -taken));
     let mut accepted = false;
+    let slow = from.speed_squared < T::constant(0.1) * from.energy.abs();
+    // Where the potential is a sum of large terms, as far inside, or the speed is small, what it rises by is known better.
+    let by_speed = inwards || slow;
     let mut lost;
+    let mut estimated = true;
     loop {
-        // Seen from the turning point the losses of the way there are still to come.
-        let change = state.sweep(&free, &loss, |free, lost| free + lost, &T::TURNING);
+        // Seen from the turning point the losses of the way there are still to come. A first step goes by their estimate.
+        let change = if estimated { T::ONE } else { state.sweep(&free, &loss, |free, lost| free + lost, &T::TURNING) };
+        estimated = false;
         lost = half * dot(&T::WHOLE_TURNING, &state.power);
-        let excess = law.divided(turning, from.s) * depth + lost - half * from.speed_squared;
-        let step = excess / (law.slope(turning) + T::constant(1.5) * lost / depth);
+        let excess = if by_speed {
+            law.divided(turning, from.s) * depth + lost - half * from.speed_squared
+        } else {
+            law.potential(turning) + lost - from.energy
+        };
+        let slope = law.slope(turning);
+        // Losses grow with the way to the power 1.5 and with the fourth power of the contact radius.
+        let power = T::constant(1.5) + T::constant(4.0) * depth.max(T::ZERO) / turning;
+        let step = excess / (slope + power * lost / depth);
+        // As the speed at the far end changes with the turning point, so do those on the way.
+        let share = -(step * slope / from.speed_squared);
+        let scale = free[0].max(free[N - 1]);
+        let change = change + step * step + state.scale(share) * scale;
         depth = depth - step;
         turning = from.s + depth;
         if (depth > T::ZERO) != inwards || turning <= T::ZERO {
             break;
         }
 
-        match state.settles(change + step * step, control) {
+        match state.settles(change, scale, control) {
             Progress::Settled => {
                 accepted = true;
                 break;
             }
             Progress::Diverging => break,
-            Progress::Converging => describe(turning, depth, &mut s, &mut free, &mut loss),
+            Progress::Converging => {
+                describe(turning, depth, &mut s, &mut free, &mut loss);
+                state.take_losses(&loss);
+            }
         }
     }
     *sweeps += state.sweeps;
     let (rate, y) = from_turning_point(law, &s, &state, depth.abs(), &mut accepted);
     let last = state.speed[N - 1];
     let error = state.error(last * last, &rate, control);
-    let slow = from.speed_squared < T::constant(0.1) * from.energy.abs();
     let energy = if slow { law.potential(turning) } else { from.energy - lost };
     let end = Point { s: turning, energy, speed_squared: T::ZERO };
     Stretch { s, y, rate, end, accepted: accepted && error <= control.error, error, forward: false }
@@ -431,6 +487,16 @@ fn undamped_distance<T: Real>(law: &impl NormalLaw<T>, from: &Point<T>, guess: T
         }
     }
     distance
+}
+
+/// What losses, as if linear in z, take from the speeds over z on the way from a turning point, to first order.
+#[inline]
+fn taken_from_turning_point<T: Nodes<N>, const N: usize>(loss: &[T; N]) -> [T; N] {
+    let mut taken = [T::ZERO; N];
+    for j in 0..N {
+        taken[j] = T::Z[j] * (loss[0] + T::constant(3.0) * loss[j]) * T::constant(1.0 / 24.0);
+    }
+    taken
 }
 
 /// Times and speeds of a stretch that begins at a turning point.
