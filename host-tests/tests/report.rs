@@ -46,13 +46,26 @@ fn page_needs_nothing_else() {
     for resource in ["<script", "<link", "<img", "<iframe", "@import", "url(", " src="] {
         assert!(!page.contains(resource), "{resource}");
     }
-    let anchors: BTreeSet<_> = attributes(&page, "id").into_iter().collect();
+    let names = attributes(&page, "id");
+    let anchors: BTreeSet<_> = names.iter().copied().collect();
+    assert_eq!(anchors.len(), names.len(), "a name stands for two places");
     for target in attributes(&page, "href") {
         match target.strip_prefix('#') {
             Some(anchor) => assert!(anchors.contains(anchor), "{target}"),
             None => assert!(FOLDER.join(target).is_file(), "{target}"),
         }
     }
+}
+
+#[test]
+fn contents_name_every_heading() {
+    let page = page();
+    let (_, after) = page.split_once("<nav>").expect("the page has contents");
+    let (contents, rest) = after.split_once("</nav>").expect("the contents end");
+    let [sections, parts] = ["<h2", "<h3"].map(|heading| rest.matches(heading).count());
+    assert!(sections == 1 && parts > 2, "{sections}, {parts}");
+    assert_eq!(attributes(contents, "href").len(), sections + parts);
+    assert!(!rest.contains('`'), "code is not marked as such");
 }
 
 #[test]
@@ -141,6 +154,13 @@ fn figures_in_the_readme_are_current() {
     for file in fs::read_dir(folder).unwrap() {
         let name = file.unwrap().file_name().into_string().unwrap();
         assert!(readme.contains(&format!("host-tests/data/figures/{name}")), "README.md does not show {name}");
+        let label = name.trim_end_matches(".svg");
+        assert!(readme.contains(&format!("][{label}]")), "README.md does not show {name} by its label");
+        let embedded = include_str!("../../src/figures.md");
+        assert!(
+            embedded.contains(&format!("[{label}]: data:image/svg+xml,")),
+            "the documentation does not show {name}"
+        );
         shown += 1;
     }
     assert!(shown >= 2);

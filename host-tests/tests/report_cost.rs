@@ -38,6 +38,20 @@ fn choices_are_the_cheapest_within_their_error() {
     }
     assert!(compared > 200, "{compared}");
 
+    // The summary has the cheapest of all number types.
+    let choices = rows(&folder, "cost-choice-all-scenes.csv");
+    let summary = rows(&folder, "cost-summary.csv");
+    for row in &summary {
+        let level = number(row, "error").unwrap();
+        let here = choices.iter().filter(|choice| {
+            [&*choice["processor"], &*choice["unit"], &*choice["asked for"]] == ["host", "s", &*row["asked for"]]
+        });
+        let exact = here.filter(|choice| number(choice, "its error").unwrap() <= level);
+        let least = exact.map(|choice| number(choice, "cost").unwrap()).min_by(f64::total_cmp).unwrap();
+        assert!(row["host, least time"].starts_with(&format!("{:.2} µs: ", 1e6 * least)), "{row:?}");
+    }
+    assert!(summary.len() >= 12, "{}", summary.len());
+
     // Settings that came to no solution are in the data too.
     let data = rows(&folder, "cost-host-s-normal-with-contact-time-and-impulse-f64.csv");
     assert!(data.iter().any(|row| row["error"].is_empty()) && data.iter().any(|row| !row["error"].is_empty()));

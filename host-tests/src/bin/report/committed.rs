@@ -6,6 +6,8 @@ use std::error::Error;
 use std::fs;
 use std::path::PathBuf;
 
+use percent_encoding::{AsciiSet, CONTROLS, utf8_percent_encode};
+
 use crate::content::{Part, Run, Section};
 use crate::paper;
 
@@ -14,10 +16,25 @@ const NAMES: [&str; 2] = ["figure-6", "figure-7"];
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/data/figures");
 
+/// The same as addresses that contain the drawings, for documentation, which has no files beside it: README names its figures
+/// by labels, and of two definitions of a label the first counts.
+const EMBEDDED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../src/figures.md");
+
+/// What may not stand in an address, or means something in Markdown.
+const ENCODED: &AsciiSet =
+    &CONTROLS.add(b' ').add(b'"').add(b'#').add(b'%').add(b'&').add(b'(').add(b')').add(b'<').add(b'>');
+
 /// The files with what they ought to contain.
 fn drawn() -> Result<Vec<(PathBuf, String)>, String> {
     let section = paper::section(&Run { quick: true })?;
-    NAMES.iter().map(|name| Ok((PathBuf::from(FOLDER).join(format!("{name}.svg")), drawing(&section, name)?))).collect()
+    let (mut files, mut embedded) = (Vec::new(), String::new());
+    for name in NAMES {
+        let drawing = drawing(&section, name)?;
+        embedded += &format!("[{name}]: data:image/svg+xml,{}\n", utf8_percent_encode(&drawing, ENCODED));
+        files.push((PathBuf::from(FOLDER).join(format!("{name}.svg")), drawing));
+    }
+    files.push((PathBuf::from(EMBEDDED), embedded));
+    Ok(files)
 }
 
 fn drawing(section: &Section, name: &str) -> Result<String, String> {

@@ -1,5 +1,7 @@
 //! What a report consists of: sections of text, tables and figures, each table and figure with a CSV file beside it.
 
+use std::time::Duration;
+
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 
 /// A part of the report under a heading of its own.
@@ -13,7 +15,9 @@ pub(crate) struct Section {
 
 /// One block of a section, from top to bottom.
 pub(crate) enum Part {
-    /// A paragraph, without markup.
+    /// Heading of the parts up to the next.
+    Heading(String),
+    /// A paragraph, without markup but for code between backticks.
     Text(String),
     Table(Table),
     Figure(Figure),
@@ -69,13 +73,21 @@ pub(crate) struct Run {
 }
 
 impl Run {
-    /// A bar on the terminal for so many steps, which ends when it is dropped; where there is no terminal, nothing.
+    /// A bar on the terminal for so many steps, or the time that a single one takes; it ends when it is dropped. Where there
+    /// is no terminal, nothing.
     pub(crate) fn progress(&self, steps: usize, message: &str) -> ProgressBar {
         let bar = ProgressBar::new(steps as u64).with_finish(ProgressFinish::AndClear).with_message(message.to_owned());
         // The template is right or wrong whatever the run; without it there is a plain bar.
-        match ProgressStyle::with_template("  {msg} [{wide_bar}] {pos}/{len}, {eta} left") {
+        let template = match steps {
+            1 => "  {msg} {spinner} {elapsed}",
+            _ => "  {msg} [{wide_bar}] {pos}/{len}, {elapsed}, {eta} left",
+        };
+        let bar = match ProgressStyle::with_template(template) {
             Ok(style) => bar.with_style(style),
             Err(_) => bar,
-        }
+        };
+        // The time goes on where a step takes long.
+        bar.enable_steady_tick(Duration::from_millis(500));
+        bar
     }
 }

@@ -8,6 +8,8 @@ mod point;
 
 pub(crate) use callgrind::is_counted;
 
+use host_tests::contest::methods::{ours, raw, regularised};
+
 use crate::content::{Cell, Figure, Part, Run, Section, Table};
 use crate::plot::{self, Line};
 use point::{Entrant, Point, Series, Unit, front};
@@ -30,20 +32,43 @@ const CONTESTANTS: &str = "This library's methods, the paper's Runge-Kutta-Gill 
 const INSTRUCTIONS: &str = "Instructions are not cycles: a division or a square root counts 1, and there are no wait states. The code for \
     Cortex-M0 runs on a larger board than that core's own, which does not change a count.";
 
+/// Whether the crate takes part that needs a newer compiler.
+const DIFFSOL: &str = if cfg!(feature = "diffsol") {
+    "The crate diffsol takes part, with its own search for events and without."
+} else {
+    "The crate diffsol, which takes minutes to build, takes part in \
+     `cargo run --release --package host-tests --features diffsol --bin report`."
+};
+
+/// Methods in the order of their colours, which they have in every figure.
+const METHODS: [&str; 11] = [
+    ours::FIXED_COST,
+    ours::COLLOCATION,
+    ours::ADAPTIVE,
+    ours::PAPER,
+    raw::NAME,
+    regularised::NAME,
+    "numeris",
+    "multicalc",
+    "ode_solvers",
+    "differential-equations",
+    "diffsol",
+];
+
 /// Where failures are drawn.
 const FAILURE: f64 = 1.0;
 
 /// The section.
 pub(crate) fn section(run: &Run) -> Result<Section, String> {
     let mut runners = host::runners(run);
-    let times = host::times(&mut runners);
+    let times = host::times(run, &mut runners);
     drop(runners);
     let mut notes = Vec::new();
     let mut all = vec![times];
     if run.quick {
         notes.push("The quick run counts no instructions on the host.".to_owned());
     } else {
-        match host::instructions(&all[0]) {
+        match host::instructions(run, &all[0]) {
             Ok(series) => all.push(series),
             Err(why) => notes.push(format!("No instructions are counted on the host: {why}.")),
         }
@@ -52,13 +77,21 @@ pub(crate) fn section(run: &Run) -> Result<Section, String> {
     all.extend(boards);
     notes.extend(missing.into_iter().map(|why| format!("Without microcontrollers: {why}")));
     let (errors, scenes) = host::largest_errors(run);
+    let everywhere: Vec<Series> = all.iter().map(|series| series.with_errors(&errors)).collect();
 
-    let mut parts = vec![Part::Text(INTRODUCTION.to_owned()), Part::Text(CONTESTANTS.to_owned())];
-    parts.push(Part::Text(INSTRUCTIONS.to_owned()));
+    let mut parts: Vec<Part> = [INTRODUCTION, CONTESTANTS, DIFFSOL, INSTRUCTIONS].map(text).into();
     parts.extend(notes.into_iter().map(Part::Text));
+    parts.push(Part::Heading("What to use".to_owned()));
+    let caption = format!(
+        "For this error, on this processor, use this; it costs that: the cheapest of all methods, settings and number \
+         types whose error is at most so much in each of {scenes} scenes."
+    );
+    parts.push(Part::Table(choice::summary("cost-summary", caption, &everywhere)));
     for series in &all {
+        parts.push(Part::Heading(format!("{}, {}", series.processor, series.cost())));
         parts.extend(figures(series, "")?);
     }
+    parts.push(Part::Heading("Over many scenes".to_owned()));
     parts.push(Part::Text(format!(
         "One scene may be lucky. The next figures have the same costs, but the largest error over {scenes} scenes: the \
          rebounds of the paper, of its figure 6 and of random scenes as mildly damped as fixed point holds. A method that \
@@ -68,16 +101,20 @@ pub(crate) fn section(run: &Run) -> Result<Section, String> {
     for series in &elsewhere {
         parts.extend(figures(series, "over all scenes")?);
     }
-    let caption =
-        "For this error, on this processor, use this; it costs that. From the errors on the scene of Table 1.";
-    parts.push(Part::Table(choice::table("cost-choice", caption.to_owned(), &all, Some(&errors))));
-    let caption = format!("The same from the largest errors over {scenes} scenes.");
-    let everywhere: Vec<Series> = all.iter().map(|series| series.with_errors(&errors)).collect();
+    parts.push(Part::Heading("The cheapest of each number type".to_owned()));
+    let caption = format!("From the largest errors over {scenes} scenes.");
     parts.push(Part::Table(choice::table("cost-choice-all-scenes", caption, &everywhere, None)));
-    parts.push(Part::Text("The API's default is Adaptive with the error asked for as its tolerance.".to_owned()));
+    let caption = "From the errors on the scene of Table 1.";
+    parts.push(Part::Table(choice::table("cost-choice", caption.to_owned(), &all, Some(&errors))));
+    parts.push(Part::Heading("The API's default".to_owned()));
+    parts.push(text("The default is Adaptive with the error asked for as its tolerance."));
     parts.extend(everywhere.iter().filter_map(choice::sentence).map(Part::Text));
     parts.push(Part::Table(choice::comparison(&everywhere)));
     Ok(Section { title: "Error against run time", name: "cost", parts })
+}
+
+fn text(text: &str) -> Part {
+    Part::Text(text.to_owned())
 }
 
 /// The series whose errors over many scenes are drawn: one for each unit.
@@ -125,7 +162,13 @@ fn figure(series: &Series, errors: &str, task: &str, scalars: &[&str], points: &
             let place = |point: &Point| point.error.map(|error| (error, point.cost));
             let solved = front(points.iter().copied()).into_iter().filter_map(place).collect();
             let failed = points.iter().filter(|point| point.error.is_none()).map(|point| (FAILURE, point.cost));
-            Line::settings(name, solved, failed.collect())
+            let line = Line::settings(name, solved, failed.collect());
+            let method = points.first().map(|point| &*point.entrant.method);
+            match METHODS.iter().position(|known| Some(*known) == method) {
+                Some(place) if name == METHODS[place] => line.like(place),
+                Some(place) => line.beside(place),
+                None => line,
+            }
         })
         .collect();
     let comma = if errors.is_empty() { "" } else { ", " };

@@ -28,7 +28,7 @@ use page::Chapter;
 #[derive(Parser)]
 #[command(name = "write-report")]
 struct Options {
-    /// A reduced run within a minute; the full one takes a quarter of an hour
+    /// A reduced run within a minute; the full one takes up to a quarter of an hour
     #[arg(long)]
     quick: bool,
     /// Folder to write into [default: target/report of the repository]

@@ -12,7 +12,9 @@ use crate::content::{Cell, Figure, Part, Section, Table};
 const STYLE: &str = include_str!("page.css");
 
 /// Rows from which on a table is folded.
-const LONG: usize = 24;
+const LONG: usize = 25;
+/// Letters from which on the text of a cell is broken into lines.
+const WIDE: usize = 25;
 
 /// A section as it came out.
 pub(crate) struct Chapter {
@@ -123,7 +125,10 @@ fn contents(chapters: &[Chapter]) -> Markup {
                 @for chapter in chapters {
                     li {
                         @match &chapter.section {
-                            Ok(section) => a href={ "#" (section.name) } { (section.title) },
+                            Ok(section) => {
+                                a href={ "#" (section.name) } { (section.title) }
+                                (subsections(section))
+                            }
                             Err(_) => a href={ "#" (chapter.name) } { (chapter.name) " (failed)" },
                         }
                     }
@@ -131,6 +136,21 @@ fn contents(chapters: &[Chapter]) -> Markup {
             }
         }
     }
+}
+
+fn subsections(section: &Section) -> Markup {
+    let headings =
+        section.parts.iter().filter_map(|part| if let Part::Heading(text) = part { Some(text) } else { None });
+    html! {
+        ul.subsections { @for heading in headings { li { a href={ "#" (anchor(section, heading)) } { (heading) } } } }
+    }
+}
+
+/// Where a heading is, by its letters and digits.
+fn anchor(section: &Section, heading: &str) -> String {
+    let words = heading.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+    let words: Vec<_> = words.map(str::to_lowercase).collect();
+    format!("{}--{}", section.name, words.join("-"))
 }
 
 fn made_with(facts: &[(&'static str, String)]) -> Markup {
@@ -149,7 +169,8 @@ fn render(chapter: &Chapter) -> Markup {
                 h2 { (section.title) }
                 @for part in &section.parts {
                     @match part {
-                        Part::Text(text) => p { (text) },
+                        Part::Heading(text) => h3 id=(anchor(section, text)) { (text) },
+                        Part::Text(text) => p { (with_code(text)) },
                         Part::Table(table) => (render_table(table)),
                         Part::Figure(figure) => (render_figure(figure)),
                     }
@@ -166,6 +187,15 @@ fn render(chapter: &Chapter) -> Markup {
     }
 }
 
+/// Text with code between backticks.
+fn with_code(text: &str) -> Markup {
+    html! {
+        @for (index, piece) in text.split('`').enumerate() {
+            @if index % 2 == 1 { code { (piece) } } @else { (piece) }
+        }
+    }
+}
+
 fn render_figure(figure: &Figure) -> Markup {
     html! {
         figure id=(figure.data.name) {
@@ -179,7 +209,13 @@ fn render_table(table: &Table) -> Markup {
     let cells = html! {
         div.scroll tabindex="0" {
             table {
-                thead { tr { @for column in &table.columns { th scope="col" { (column) } } } }
+                thead {
+                    tr {
+                        @for (index, column) in table.columns.iter().enumerate() {
+                            th.number[has_numbers(table, index)] scope="col" { (column) }
+                        }
+                    }
+                }
                 tbody {
                     @for row in &table.rows {
                         tr { @for cell in row { (render_cell(cell)) } }
@@ -200,9 +236,13 @@ fn render_table(table: &Table) -> Markup {
     }
 }
 
+fn has_numbers(table: &Table, column: usize) -> bool {
+    table.rows.first().and_then(|row| row.get(column)).is_some_and(|cell| !matches!(cell, Cell::Text(_)))
+}
+
 fn render_cell(cell: &Cell) -> Markup {
     match cell {
-        Cell::Text(text) => html! { td { (text) } },
+        Cell::Text(text) => html! { td.wide[text.chars().count() >= WIDE] { (text) } },
         Cell::Number(_) | Cell::Count(_) => html! { td.number { (short(cell)) } },
     }
 }

@@ -10,21 +10,33 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, Value
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::colors::colormaps::ViridisRGB;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-const WIDTH: u32 = 2000;
-const HEIGHT: u32 = 1440;
+const WIDTH: u32 = 1720;
+/// Height of the row of the title.
+const TITLE: u32 = 104;
+const HEIGHT: u32 = 1200;
 const TYPE: u32 = 68;
 /// Height of a row of the legend.
 const ROW: u32 = 90;
 const MARGIN: u32 = 24;
+/// Room for half of a number at the end of an axis.
+const MARGIN_RIGHT: u32 = 84;
 /// Longest name that leaves room for another beside it.
-const HALF_A_ROW: usize = 27;
+const HALF_A_ROW: usize = 24;
+/// Width of the numbers and the name of an upright axis.
+const LABELS: u32 = 250;
+/// Height of those of the other.
+const LABELS_BELOW: u32 = 176;
+/// Width of the scale of colours of a map.
+const BAR: u32 = 360;
 /// Half the size of a symbol.
 const SYMBOL: i32 = 14;
 const STROKE: u32 = 6;
 
-/// Okabe and Ito's colours, which people without all cones can tell apart, on light and dark ground.
-const COLOURS: [RGBColor; 7] = [
+/// Okabe and Ito's colours, which people without all cones can tell apart, and four for drawings with more lines; all of
+/// them can be seen on light and dark ground.
+const COLOURS: [RGBColor; 11] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -32,6 +44,10 @@ const COLOURS: [RGBColor; 7] = [
     RGBColor(86, 180, 233),
     RGBColor(230, 159, 0),
     BLACK,
+    RGBColor(142, 106, 214),
+    RGBColor(140, 140, 140),
+    RGBColor(160, 103, 58),
+    RGBColor(141, 182, 0),
 ];
 /// Shapes of symbols; their number has no factor in common with that of the colours.
 const SHAPES: usize = 5;
@@ -131,7 +147,11 @@ impl Ranged for Scale {
         let room = hint.bold_points().max(1);
         let (first, last) = (self.low.ceil() as i32, self.high.floor() as i32);
         let decades = usize::try_from(last - first + 1).unwrap_or(0);
-        let digits: &[f64] = if decades >= 3 { &[1.0] } else { &[1.0, 2.0, 5.0] };
+        let digits: &[f64] = match self.high - self.low {
+            _ if decades >= 3 => &[1.0],
+            length if length < 0.7 => &[1.0, 1.5, 2.0, 3.0, 5.0, 7.0],
+            _ => &[1.0, 2.0, 5.0],
+        };
         let stride = decades.div_ceil(room).max(1);
         let points = (first - 1..=last).filter(|decade| (decade - first).rem_euclid(stride as i32) == 0);
         let points = points.flat_map(|decade| digits.iter().map(move |digit| digit * 10_f64.powi(decade)));
@@ -187,11 +207,28 @@ pub(crate) struct Line {
     pub(crate) points: Vec<(f64, f64)>,
     /// Points drawn as crosses, as far as they can be shown.
     pub(crate) failed: Vec<(f64, f64)>,
+    /// Place among colours and symbols, where it is not that among the lines.
+    place: Option<usize>,
 }
 
 impl Line {
     pub(crate) fn new(name: &str, mark: Mark, points: Vec<(f64, f64)>) -> Self {
-        Self { name: name.to_owned(), mark, points, failed: Vec::new() }
+        Self { name: name.to_owned(), mark, points, failed: Vec::new(), place: None }
+    }
+
+    /// The line with the colour and symbol of a place.
+    pub(crate) fn like(self, place: usize) -> Self {
+        Self { place: Some(place), ..self }
+    }
+
+    /// The line with the colour of a place and another symbol.
+    pub(crate) fn beside(self, place: usize) -> Self {
+        self.like(place + COLOURS.len())
+    }
+
+    /// Colour and symbol where the line is one of many.
+    fn style(&self, index: usize) -> Style {
+        Style::of(self.place.unwrap_or(index))
     }
 
     /// A method with a point for each of its settings.
@@ -212,8 +249,8 @@ pub(crate) fn log_log(caption: &str, x: &str, y: &str, lines: &[Line]) -> Result
 /// Lines and points over two axes.
 pub(crate) fn chart(caption: &str, x: &Axis, y: &Axis, lines: &[Line]) -> Result<String, String> {
     let entries: Vec<_> = legend_of(lines, 0).collect();
-    drawn(&entries, |area| {
-        let mut chart = axes(area, caption, (x, y), lines.iter().flat_map(Line::all).copied())?;
+    drawn(caption, &entries, |area| {
+        let mut chart = axes(area, (x, y), lines.iter().flat_map(Line::all).copied())?;
         draw_lines(&mut chart, (x, y), lines, 0)
     })
 }
@@ -256,8 +293,8 @@ pub(crate) fn map(caption: &str, x: &Axis, y: &Axis, map: &Map<'_>, lines: &[Lin
         return Err(format!("the map \"{caption}\" lacks cells"));
     }
     let (columns, rows) = (edges(map.columns, x.logarithmic), edges(map.rows, y.logarithmic));
-    drawn(&entries, |area| {
-        let (area, bar) = area.split_horizontally(WIDTH - 400);
+    drawn(caption, &entries, |area| {
+        let (area, bar) = area.split_horizontally(WIDTH - BAR);
         let corners = columns.iter().copied().zip(rows.iter().copied().cycle());
         let corners = corners.chain(rows.iter().map(|row| (columns[0], *row)));
         let between = |axis: &Axis, edges: &[f64]| match (axis.range, edges) {
@@ -265,7 +302,7 @@ pub(crate) fn map(caption: &str, x: &Axis, y: &Axis, map: &Map<'_>, lines: &[Lin
             _ => axis.clone(),
         };
         let (x, y) = (between(x, &columns), between(y, &rows));
-        let mut chart = axes(&area, caption, (&x, &y), corners)?;
+        let mut chart = axes(&area, (&x, &y), corners)?;
         for (cells, low_high) in map.cells.iter().zip(rows.windows(2)) {
             let colours: Vec<_> = cells.iter().map(|shade| shade.colour(&scale)).collect();
             let mut begin = 0;
@@ -319,18 +356,25 @@ fn text<E: std::error::Error + Send + Sync>(error: DrawingAreaErrorKind<E>) -> S
     format!("a drawing: {error}")
 }
 
-/// A drawing with a legend below.
-fn drawn(entries: &[Entry<'_>], draw: impl for<'a> FnOnce(&Area<'a>) -> Result<(), String>) -> Result<String, String> {
+/// A drawing with its title above and a legend below.
+fn drawn(
+    title: &str,
+    entries: &[Entry<'_>],
+    draw: impl for<'a> FnOnce(&Area<'a>) -> Result<(), String>,
+) -> Result<String, String> {
     let columns = if entries.iter().all(|entry| entry.name.chars().count() <= HALF_A_ROW) { 2 } else { 1 };
     let rows = u32::try_from(entries.len().div_ceil(columns)).map_err(|error| error.to_string())?;
     let mut drawing = String::new();
     {
-        let area = SVGBackend::with_string(&mut drawing, (WIDTH, HEIGHT + rows * ROW + MARGIN)).into_drawing_area();
-        let (upper, legend) = area.split_vertically(HEIGHT);
+        let size = (WIDTH, TITLE + HEIGHT + rows * ROW + MARGIN);
+        let area = SVGBackend::with_string(&mut drawing, size).into_drawing_area();
+        let (head, below) = area.split_vertically(TITLE);
+        draw_title(&head, title)?;
+        let (upper, legend) = below.split_vertically(HEIGHT);
         draw(&upper)?;
         for (index, entry) in entries.iter().enumerate() {
             let place = |index: usize, size: u32| i32::try_from(index).unwrap_or(0) * size.cast_signed();
-            let left = 130 + place(index % columns, WIDTH / 2 - 50);
+            let left = 76 + place(index % columns, WIDTH / 2);
             entry.draw(&legend, (left, place(index / columns, ROW) + ROW.cast_signed() / 2))?;
         }
         area.present().map_err(text)?;
@@ -338,27 +382,33 @@ fn drawn(entries: &[Entry<'_>], draw: impl for<'a> FnOnce(&Area<'a>) -> Result<(
     Ok(drawing)
 }
 
-/// Caption and axes around a field that holds the points.
+fn draw_title(area: &Area<'_>, title: &str) -> Result<(), String> {
+    // A letter is half as wide as high, of the whole height of a line.
+    let letters = u32::try_from(title.chars().count().max(1)).unwrap_or(u32::MAX);
+    let size = (TYPE + 8).min((WIDTH - 2 * MARGIN) * 5 / 2 / letters);
+    let style = TextStyle::from(("sans-serif", size).into_font()).pos(Pos::new(HPos::Center, VPos::Center));
+    area.draw(&Text::new(title.to_owned(), (WIDTH.cast_signed() / 2, TITLE.cast_signed() / 2), style)).map_err(text)
+}
+
+/// Axes around a field that holds the points.
 fn axes<'a>(
     area: &Area<'a>,
-    caption: &str,
     (x, y): (&Axis, &Axis),
     points: impl Iterator<Item = (f64, f64)>,
 ) -> Result<Chart<'a>, String> {
     let (abscissas, ordinates): (Vec<_>, Vec<_>) = points.filter(|at| x.can_show(at.0) && y.can_show(at.1)).unzip();
     let mut chart = ChartBuilder::on(area)
-        .caption(caption, ("sans-serif", TYPE + 8))
         .margin(MARGIN)
-        .margin_right(2 * MARGIN)
-        .set_label_area_size(LabelAreaPosition::Left, 290)
-        .set_label_area_size(LabelAreaPosition::Bottom, 200)
+        .margin_right(MARGIN_RIGHT)
+        .set_label_area_size(LabelAreaPosition::Left, LABELS)
+        .set_label_area_size(LabelAreaPosition::Bottom, LABELS_BELOW)
         .build_cartesian_2d(x.over(abscissas.into_iter()), y.over(ordinates.into_iter()))
         .map_err(text)?;
     chart
         .configure_mesh()
         .x_desc(&x.description)
         .y_desc(&y.description)
-        .x_labels(8)
+        .x_labels(if area.dim_in_pixel().0 < WIDTH { 6 } else { 8 })
         .y_labels(8)
         .max_light_lines(1)
         .light_line_style(TRANSPARENT)
@@ -375,7 +425,7 @@ fn axes<'a>(
 fn draw_lines(chart: &mut Chart<'_>, (x, y): (&Axis, &Axis), lines: &[Line], first: usize) -> Result<(), String> {
     let visible = |at: &(f64, f64)| x.can_show(at.0) && y.can_show(at.1);
     for (index, line) in lines.iter().enumerate() {
-        let style = Style::of(first + index);
+        let style = line.style(first + index);
         if line.mark != Mark::Points {
             for piece in line.points.split(|at| !visible(at)) {
                 let (points, stroke) = (piece.iter().copied(), style.colour.stroke_width(STROKE));
@@ -401,9 +451,9 @@ fn draw_lines(chart: &mut Chart<'_>, (x, y): (&Axis, &Axis), lines: &[Line], fir
 /// The colours of a map with their values.
 fn draw_scale(area: &Area<'_>, axis: &Axis, scale: &Scale) -> Result<(), String> {
     let mut chart = ChartBuilder::on(area)
-        .margin_top(120)
-        .margin_bottom(200 + MARGIN)
-        .set_label_area_size(LabelAreaPosition::Right, 290)
+        .margin_top(MARGIN)
+        .margin_bottom(LABELS_BELOW + MARGIN)
+        .set_label_area_size(LabelAreaPosition::Right, LABELS)
         .build_cartesian_2d(0.0..1.0, scale.clone())
         .map_err(text)?;
     let position = |level: u32| scale.low + (scale.high - scale.low) * f64::from(level) / f64::from(LEVELS);
@@ -468,7 +518,7 @@ fn legend_of(lines: &[Line], first: usize) -> impl Iterator<Item = Entry<'_>> {
     let named = lines.iter().enumerate().filter(|(_, line)| !line.name.is_empty());
     let names = named.map(move |(index, line)| Entry {
         name: &line.name,
-        symbol: Symbol::Line(Style::of(first + index), line.mark),
+        symbol: Symbol::Line(line.style(first + index), line.mark),
     });
     let failed = lines.iter().any(|line| !line.failed.is_empty());
     names.chain(failed.then_some(Entry { name: "cross: failed", symbol: Symbol::Failed }))
@@ -501,10 +551,7 @@ impl Entry<'_> {
             }
         }
         let style = TextStyle::from(("sans-serif", TYPE).into_font());
-        let position = style.pos(plotters::style::text_anchor::Pos::new(
-            plotters::style::text_anchor::HPos::Left,
-            plotters::style::text_anchor::VPos::Center,
-        ));
+        let position = style.pos(Pos::new(HPos::Left, VPos::Center));
         area.draw(&Text::new(self.name.to_owned(), (x + REACH + 28, y), position)).map_err(text)
     }
 }
@@ -523,6 +570,7 @@ mod tests {
         assert_eq!(logarithmic(0.5, 2000.0), [1.0, 10.0, 100.0, 1000.0]);
         assert_eq!(logarithmic(1.5, 60.0), [2.0, 5.0, 10.0, 20.0, 50.0]);
         let many = logarithmic(1e-14, 1.0);
+        assert_eq!(logarithmic(2e4, 8e4), [2e4, 3e4, 5e4, 7e4]);
         assert!(many.len() <= 8 && many.len() > 4 && many.iter().all(|value| value.log10().fract().abs() < 1e-9));
     }
 
@@ -543,6 +591,27 @@ mod tests {
         let points = vec![(1.0, 1.0), (2.0, f64::NAN), (3.0, 0.0), (4.0, 1.0), (5.0, 2.0)];
         let drawing = log_log("", "x", "y", &[Line::settings("", points, vec![(0.0, 1.0)])]).unwrap();
         assert_eq!(drawing.matches("<polygon").count(), 3);
+    }
+
+    /// Width of a title by the size of its type, where letters are as wide as in common type without serifs.
+    #[test]
+    fn a_long_title_stays_within_the_drawing() {
+        let title = "m".repeat(90);
+        let drawing = log_log(&title, "x", "y", &[Line::new("", Mark::Solid, vec![(1.0, 1.0)])]).unwrap();
+        let (before, _) = drawing.split_once(&title).unwrap();
+        let (_, size) = before.rsplit_once("font-size=\"").unwrap();
+        let size: f64 = size.split_once('"').unwrap().0.parse().unwrap();
+        assert!(size * 0.5 * 90.0 < f64::from(WIDTH), "{size}");
+    }
+
+    #[test]
+    fn a_place_decides_on_colour_and_symbol() {
+        let line = || Line::new("", Mark::Points, Vec::new());
+        let [first, like, beside] = [line(), line().like(3), line().beside(3)].map(|line| line.style(1));
+        assert_eq!((first.colour, first.shape), (COLOURS[1], 1));
+        assert_eq!((like.colour, like.shape), (COLOURS[3], 3));
+        assert_eq!(beside.colour, COLOURS[3]);
+        assert_ne!(beside.shape, 3);
     }
 
     #[test]

@@ -33,6 +33,13 @@ struct Family {
     steps: &'static [Step],
 }
 
+impl Family {
+    /// The title as far as the settings.
+    fn short_title(&self) -> &'static str {
+        self.title.split([',', ':']).next().unwrap_or(self.title)
+    }
+}
+
 const CLASSIFICATION: (Quantity, &str) = (Quantity::Classify, "instructions of the dearest impact");
 const CALIBRATION: (Quantity, &str) = (Quantity::Calibrate, "instructions");
 
@@ -74,7 +81,7 @@ const FAMILIES: [Family; 5] = [
         ],
     },
     Family {
-        title: "Tables, fixed point, and the functions of micromath",
+        title: "Alternatives: tables, fixed point, and the functions of micromath",
         name: "alternatives",
         work: CLASSIFICATION,
         steps: &[
@@ -123,12 +130,14 @@ pub(crate) fn section(_: &Run) -> Result<Section, String> {
          scene within the same functions may share them, so a price can be negative."
     ))];
     for family in &FAMILIES {
+        parts.push(Part::Heading(family.short_title().to_owned()));
         let quantities = [family.work].into_iter().chain(MEMORY);
         parts.extend(quantities.map(|(quantity, unit)| Part::Table(prices.table(family, quantity, unit))));
         if family.steps.iter().any(|step| step.without.is_some()) {
             parts.push(Part::Figure(prices.figure(family)?));
         }
     }
+    parts.push(Part::Heading("Absent terms".to_owned()));
     parts.push(Part::Text(
         "An absent term costs nothing at all: the firmware of each scene below is built once with the library as it is, and \
          once with a copy of its source from which every item that names an absent term is taken out. The table counts the \
@@ -196,7 +205,7 @@ impl Prices<'_> {
             }
             lines.push(Line::new(core, Mark::Joined, points));
         }
-        let drawing = plot::log_log(family.title, "code and constants, bytes", "instructions", &lines)?;
+        let drawing = plot::log_log(family.short_title(), "code and constants, bytes", "instructions", &lines)?;
         let columns = ["core", "scene or term", "code and constants, bytes", "instructions"];
         let data = Table {
             name: format!("price-{}", family.name),
@@ -216,7 +225,7 @@ impl Prices<'_> {
         for proof in &PROOFS {
             for core in BOARDS.map(|board| board.core) {
                 if let Some(bytes) = self.of(proof.scene, SCALARS[0], core, Quantity::AbsentTerms) {
-                    rows.push(vec![proof.scene.into(), proof.absent.into(), core.into(), Cell::from(bytes)]);
+                    rows.push(vec![proof.scene.into(), proof.absent().as_str().into(), core.into(), Cell::from(bytes)]);
                 }
             }
         }

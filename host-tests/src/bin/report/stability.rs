@@ -20,7 +20,7 @@ use trial::MOST_STRETCHES;
 
 pub(crate) fn section(run: &Run) -> Result<Section, String> {
     let maps = Map::all(run);
-    let mut parts = vec![Part::Text(introduction())];
+    let mut parts = vec![Part::Text(introduction()), Part::Heading("Bounds, and where they fail".to_owned())];
     parts.extend(maps::bounds(&maps));
     parts.push(Part::Text(confirmation(&maps)?));
     for map in &maps {

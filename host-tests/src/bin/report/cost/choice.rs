@@ -1,14 +1,16 @@
 //! What to use for an error on a processor, and how far from it the choice of `Adaptive` is.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use host_tests::contest::methods::ours::ADAPTIVE;
 
-use super::point::{Entrant, Point, Series, cheapest};
+use super::point::{Entrant, Point, Series, Unit, cheapest};
 use crate::content::{Cell, Table};
 
 /// Exponents of the errors asked for.
 const LEVELS: std::ops::RangeInclusive<i32> = 3..=12;
+/// Those of the summary.
+const SUMMARY: [i32; 6] = [3, 4, 5, 6, 9, 12];
 
 /// The cheapest entrant of a series for one task, number type and range of errors.
 struct Choice<'a> {
@@ -49,6 +51,36 @@ fn choices(all: &[Series]) -> Vec<Choice<'_>> {
         }
     }
     choices
+}
+
+/// The cheapest of all number types for each task of the first series and some errors, a column for each series.
+pub(super) fn summary(name: &str, caption: String, all: &[Series]) -> Table {
+    let tasks: BTreeSet<&str> = all.first().into_iter().flat_map(groups).map(|(task, _)| task).collect();
+    let cell = |series: &Series, task: &str, level: f64| {
+        let of_task = series.points.iter().filter(|point| point.entrant.task == task);
+        let Some(Point { entrant, cost, .. }) = cheapest(of_task, level) else { return Cell::from("none") };
+        let cost = match series.unit {
+            Unit::Instructions => format!("{cost:.0}"),
+            Unit::Seconds => format!("{:.2} µs", 1e6 * cost),
+        };
+        Cell::Text(format!("{cost}: {}, {}, {}", entrant.method, entrant.setting, entrant.scalar))
+    };
+    let heading = |series: &Series| match series.unit {
+        Unit::Instructions => format!("{}, instructions", series.processor),
+        Unit::Seconds => format!("{}, least time", series.processor),
+    };
+    let row = |task: &str, level: i32| {
+        let level = 10f64.powi(-level);
+        let cells = all.iter().map(|series| cell(series, task, level));
+        [Cell::from(task), Cell::from(level)].into_iter().chain(cells).collect()
+    };
+    let columns = ["asked for", "error"].map(str::to_owned).into_iter();
+    Table {
+        name: name.to_owned(),
+        caption,
+        columns: columns.chain(all.iter().map(heading)).collect(),
+        rows: tasks.iter().flat_map(|task| SUMMARY.map(|level| row(task, level))).collect(),
+    }
 }
 
 /// The table of choices; `elsewhere` holds the largest errors over other scenes.

@@ -136,18 +136,20 @@ fn with_outputs(peer: Peer, exact: Answer) -> Option<Runner> {
 }
 
 /// Errors and least times.
-pub(super) fn times(runners: &mut [Runner]) -> Series {
+pub(super) fn times(run: &Run, runners: &mut [Runner]) -> Series {
     let errors: Vec<Option<f64>> = runners.iter_mut().map(|runner| (runner.run)()).collect();
     let mut runs: Vec<_> = runners.iter_mut().map(|runner| || _ = black_box((runner.run)())).collect();
     let mut runs: Vec<&mut dyn FnMut()> = runs.iter_mut().map(|run| run as _).collect();
-    let times = least_times(&mut runs, TURNS);
+    let bar = run.progress(TURNS as usize, "times on the host");
+    let times = least_times(&mut runs, TURNS, || bar.inc(1));
     let points = runners.iter().zip(errors).zip(times);
     let points = points.map(|((runner, error), cost)| Point { entrant: runner.entrant.clone(), error, cost });
     Series { processor: "host".to_owned(), unit: Unit::Seconds, points: points.collect() }
 }
 
 /// The series in instructions.
-pub(super) fn instructions(times: &Series) -> Result<Series, String> {
+pub(super) fn instructions(run: &Run, times: &Series) -> Result<Series, String> {
+    let _bar = run.progress(1, "instructions on the host");
     let counts = callgrind::counts(times.points.len())?;
     let points = times.points.iter().zip(counts);
     let points = points.map(|(point, count)| Point { cost: count as f64, ..point.clone() }).collect();

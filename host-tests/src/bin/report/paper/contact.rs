@@ -1,6 +1,6 @@
 //! Figures of the simulation: 6, 7, 8 and 9.
 
-use microimpact::simulation::{Collocation, SimulatedImpact, Trajectory};
+use microimpact::simulation::{Collocation, SimulatedImpact, Status, Trajectory};
 use microimpact::{InputError, NormalMotion, RigidBody, SpeedRestitution};
 
 use super::{LAW_SPEED, Outcome, RADIUS, SPEED, WORK, column, contact, figure, glass, method, spaced};
@@ -10,7 +10,7 @@ use crate::plot::{self, Axis, Line, Mark};
 /// Radii of the two curves of figure 6, m: the paper names the diameters.
 const RADII: [f64; 2] = [2.5e-6, 6.5e-6];
 /// Samples of a motion in time.
-const SAMPLES: usize = 256;
+const SAMPLES: usize = 1024;
 /// Largest displacement of figure 8, m.
 const DISPLACEMENT: f64 = 4.243e-8;
 /// Rebound speed of Table 1, m/s.
@@ -55,9 +55,12 @@ fn figure_6() -> Outcome<Part> {
 fn figures_in_time() -> Outcome<[Part; 3]> {
     let scene = contact(RADIUS)?;
     // Few nodes make many stretches, and so many samples.
-    let method = Collocation::<5, f64>::new(1e-10)?;
+    let method = Collocation::<5, f64>::new(1e-11)?;
     let impact: SimulatedImpact<f64, (), Trajectory<f64, SAMPLES>> =
         scene.observe(&method, &NormalMotion::new(SPEED)?)?;
+    if impact.run.status != Status::Solved {
+        return Err("the impact of Table 1 is not solved".into());
+    }
     let rows: Vec<_> = impact
         .outputs
         .samples()

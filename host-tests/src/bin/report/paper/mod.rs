@@ -2,6 +2,11 @@
 
 use std::error::Error;
 
+use host_tests::table_1::{
+    APPROACH_M_S as SPEED, DENSITY_KG_M3 as GLASS, FRICTION, MATERIAL_DAMPING as ZETA_H, RADIUS_M as RADIUS,
+    RESTITUTION_SPEED_M_S as LAW_SPEED, RING_DAMPING as ZETA_A, RING_N_M as ADHESION, SPIN_RAD_S as SPIN,
+    STIFFNESS_PA as STIFFNESS, WORK_OF_ADHESION_J as WORK,
+};
 use microimpact::simulation::{Adaptive, HystereticDamping, Ring, Simulation};
 use microimpact::{InputError, NoFriction, NormalMotion, PlanarMotion, Sphere, Stiffness};
 
@@ -14,32 +19,10 @@ mod rigid;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
-/// Radius of the sphere of Table 1, m.
-const RADIUS: f64 = 5.06e-6;
 /// Mean radius of the experiment, m.
 const MEAN_RADIUS: f64 = 4.3e-6;
-/// Density of glass, kg/m^3.
-const GLASS: f64 = 2600.0;
-/// Approach speed of Table 1, m/s.
-const SPEED: f64 = 2.80;
-/// Spin before the impact in Table 1, rad/s.
-const SPIN: f64 = 1.46e5;
-/// The same where the paper runs its simulation, degrees/s.
+/// Spin before the impact of Table 1 where the paper runs its simulation, degrees/s.
 const SPIN_DEGREES: f64 = 8.34e6;
-/// Hertz stiffness K, Pa.
-const STIFFNESS: f64 = 7.5e10;
-/// Strength f0 of adhesion, N/m.
-const ADHESION: f64 = 250.0;
-/// Damping in the materials.
-const ZETA_H: f64 = 10.5;
-/// Damping of adhesion: the paper prints 12.5, and its program halves it.
-const ZETA_A: f64 = 6.25;
-/// Coefficient f of friction.
-const FRICTION: f64 = 0.1;
-/// Speed k of the restitution law R = k/(k + v), m/s.
-const LAW_SPEED: f64 = 130.0;
-/// Work of adhesion (J) with which A34 gives the restitution of Table 1.
-const WORK: f64 = 2.22e-12;
 
 /// Tolerance of every simulation of this section.
 const TOLERANCE: f64 = 1e-10;
@@ -48,13 +31,21 @@ type Contact = Simulation<f64, HystereticDamping<f64>, Ring<f64>, NoFriction>;
 
 pub(crate) fn section(run: &Run) -> Result<Section, String> {
     let parts = || -> Outcome<Vec<Part>> {
-        let mut parts = numbers::parts()?;
+        let mut parts = vec![heading("Numbers")];
+        parts.extend(numbers::parts()?);
+        parts.push(heading("Figures of the rigid-body model"));
         parts.extend(rigid::parts()?);
+        parts.push(heading("Figures of the simulation"));
         parts.extend(contact::parts()?);
+        parts.push(heading("Both models side by side"));
         parts.extend(models::parts(run)?);
         Ok(parts)
     };
     Ok(Section { title: "The paper", name: "paper", parts: parts().map_err(|error| error.to_string())? })
+}
+
+fn heading(text: &str) -> Part {
+    Part::Heading(text.to_owned())
 }
 
 fn glass(radius: f64) -> Result<Sphere<f64>, InputError> {

@@ -51,7 +51,7 @@ pub(super) fn parts(run: &Run) -> Outcome<Vec<Part>> {
     };
     let mut parts = vec![
         Part::Text(
-            "Both models side by side. The simulation has the paper's constants; the rigid-body model has R = k/(k + v) \
+            "The simulation has the paper's constants; the rigid-body model has R = k/(k + v) \
              and the work of adhesion W_A that fit the simulated rebounds (module calibrate): those up to eight times the \
              critical speed, and those up to 100 m/s."
                 .to_owned(),

@@ -1,5 +1,6 @@
 //! Every number that the paper computes, with ours beside it.
 
+use host_tests::table_1::ADHESION_COEFFICIENT;
 use microimpact::calibrate::{Rebound, adhesion_damping, material_damping, ring_strength};
 use microimpact::rigid::{Departure, infer_assuming_rolling};
 use microimpact::simulation::{Collocation, Simulation};
@@ -16,9 +17,8 @@ use crate::content::{Part, Table};
 
 /// Velocities after the impact of Table 1, m/s.
 const DEPARTURE: Departure<f64> = Departure { normal: 2.09, tangential: 0.21 };
-/// Coefficients of Table 1.
+/// R of Table 1.
 const RESTITUTION: f64 = 0.978;
-const ADHESION_COEFFICIENT: f64 = 0.237;
 /// Damping of adhesion as it is printed.
 const PRINTED_ZETA_A: f64 = 12.5;
 /// Speed at which the restitution law and the simulation without adhesion have the same loss, m/s.
@@ -168,13 +168,13 @@ fn simulation() -> Outcome<Vec<Number>> {
     let critical = if let CriticalSpeed::At(speed) = small { speed } else { f64::NAN };
     let ledger = impact.energy(&sphere).ok_or("the impact of Table 1 rebounds")?;
     let rebound = impact.normal.rebound_speed();
-    let angle = impact.tangential.velocity().atan2(rebound).to_degrees();
+    let angle = impact.tangential.tangential().atan2(rebound).to_degrees();
     let equilibrium = std::f64::consts::TAU * ADHESION / STIFFNESS;
     Ok(vec![
         number("e, 4.3 um", 0.62, mean.overall_restitution(), "the impact that zeta_A is chosen by"),
         number("e, 5.06 um", 0.746, impact.normal.overall_restitution(), "Table 1"),
         number("V_n, m/s", 2.09, rebound, ""),
-        number("V_t, m/s", 0.21, impact.tangential.velocity(), ""),
+        number("V_t, m/s", 0.21, impact.tangential.tangential(), ""),
         number("spin after, rad/s", 4.16e4, impact.tangential.spin(), ""),
         number("rebound angle, degrees", 5.76, angle, ""),
         number("rotation in contact, degrees", 0.12, impact.tangential.rotation_degrees(), ""),

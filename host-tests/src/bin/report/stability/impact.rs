@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use host_tests::table_1;
 use microimpact::simulation::{HystereticDamping, Ring, Simulation};
 use microimpact::{Coulomb, Hertz, InputError, NormalMotion, ObliqueMotion, Real, Sphere, Stiffness};
 
@@ -28,8 +29,14 @@ pub(super) struct Impact {
 
 impl Impact {
     /// Table 1 of the paper.
-    pub(super) const PAPER: Self =
-        Self { radius: 5.06e-6, stiffness: 7.5e10, speed: 2.8, material: 10.5, strength: 250.0, adhesion: 6.25 };
+    pub(super) const PAPER: Self = Self {
+        radius: table_1::RADIUS_M,
+        stiffness: table_1::STIFFNESS_PA,
+        speed: table_1::APPROACH_M_S,
+        material: table_1::MATERIAL_DAMPING,
+        strength: table_1::RING_N_M,
+        adhesion: table_1::RING_DAMPING,
+    };
 
     /// An impact with a ratio q of adhesion to inertia, (5/3) of the equilibrium indentation over Hertz's, and with the
     /// groups h and g of the damping.

@@ -25,7 +25,12 @@ pub(super) fn parts(maps: &[Map]) -> Result<Vec<Part>, String> {
     }
     let caption = "Share of the impacts of all maps whose energies lack more than so much";
     let (x, y) = ("lacking energy over that of the motion", "share of the impacts");
-    let drawing = plot::chart(caption, &Axis::logarithmic(x).between(1e-17, 1.0), &Axis::logarithmic(y), &lines)?;
+    let drawing = plot::chart(
+        "Energy that the ledgers lack",
+        &Axis::logarithmic(x).between(1e-17, 1.0),
+        &Axis::logarithmic(y),
+        &lines,
+    )?;
     let points = lines.iter().flat_map(|line| {
         line.points.iter().map(|at| vec![Cell::Text(line.name.clone()), Cell::from(at.0), Cell::from(at.1)])
     });
@@ -52,6 +57,7 @@ pub(super) fn parts(maps: &[Map]) -> Result<Vec<Part>, String> {
     let none = "No ledger in f64 or f32 lacks more than its bound.";
     let caption = "Regions in which a ledger lacks more than its bound";
     Ok(vec![
+        Part::Heading("Energy ledger".to_owned()),
         Part::Text(text.to_owned()),
         Part::Table(table),
         listed("stability-regions-ledger", caption, none, lacking),

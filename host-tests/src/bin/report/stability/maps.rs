@@ -44,7 +44,7 @@ impl Map {
     /// A paragraph, and the figures.
     pub(super) fn parts(&self) -> Result<Vec<Part>, String> {
         let Family { title, text, .. } = self.family;
-        let mut parts = vec![Part::Text((*text).to_owned())];
+        let mut parts = vec![Part::Heading(format!("Map: {title}")), Part::Text((*text).to_owned())];
         if self.points().any(|point| point.restitution > Some(0.0)) {
             let scale = Axis::linear("e").between(0.0, 1.0);
             parts.push(self.figure("restitution", &format!("Restitution e, {title}"), &scale, &[], |point| {
@@ -165,8 +165,6 @@ impl Map {
     ) -> Vec<Vec<Cell>> {
         let marked = |row: &Vec<Point>| row.iter().map(|point| fails(point.trial(method))).collect();
         let marked: Vec<Vec<bool>> = self.points.iter().map(marked).collect();
-        let range =
-            |values: &[f64], (first, last): (usize, usize)| format!("{:.1e} to {:.1e}", values[first], values[last]);
         let row = |region: Region| {
             let trials = || region.cells.iter().map(|(row, column)| self.points[*row][*column].trial(method));
             let mut reasons: Vec<_> = trials().map(&reason).collect();
@@ -175,12 +173,16 @@ impl Map {
             vec![
                 Cell::from(self.family.title),
                 Cell::from(method.name()),
-                Cell::from(bound),
-                Cell::Text(format!("{}: {}", self.family.x.description, range(&self.columns, region.columns))),
-                Cell::Text(format!("{}: {}", self.family.y.description, range(&self.rows, region.rows))),
+                Cell::Text(reasons.join(", ")),
                 Cell::Count(region.cells.len() as u64),
                 Cell::from(trials().filter_map(&size).reduce(f64::max)),
-                Cell::Text(reasons.join(", ")),
+                Cell::from(bound),
+                Cell::from(self.family.x.description),
+                Cell::from(self.columns[region.columns.0]),
+                Cell::from(self.columns[region.columns.1]),
+                Cell::from(self.family.y.description),
+                Cell::from(self.rows[region.rows.0]),
+                Cell::from(self.rows[region.rows.1]),
             ]
         };
         regions(&marked).into_iter().map(row).collect()
@@ -189,7 +191,20 @@ impl Map {
 
 /// Regions of several maps, or that there are none.
 pub(super) fn listed(name: &str, caption: &str, none: &str, rows: Vec<Vec<Cell>>) -> Part {
-    const COLUMNS: [&str; 8] = ["map", "method", "bound", "across", "up", "points", "largest", "what fails"];
+    const COLUMNS: [&str; 12] = [
+        "map",
+        "method",
+        "what fails",
+        "points",
+        "largest",
+        "bound",
+        "across",
+        "across from",
+        "across to",
+        "up",
+        "up from",
+        "up to",
+    ];
     if rows.is_empty() {
         return Part::Text(none.to_owned());
     }

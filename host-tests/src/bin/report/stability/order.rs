@@ -41,8 +41,12 @@ pub(super) fn parts(run: &Run) -> Result<Vec<Part>, String> {
     }
     let caption = "Error of e of Table 1 and of the mean sphere without adhesion";
     let (x, y) = ("steps, or nodes of all stretches", "error of e");
-    let line = |one: &Convergence| Line::new(&format!("{}, {}", one.name, one.scene), Mark::Joined, one.points.clone());
-    let lines: Vec<_> = all.iter().map(line).collect();
+    // The methods come in pairs, one for each scene.
+    let line = |(index, one): (usize, &Convergence)| {
+        let line = Line::new(&format!("{}, {}", one.name, one.scene), Mark::Joined, one.points.clone());
+        if index % 2 == 0 { line.like(index / 2) } else { line.beside(index / 2) }
+    };
+    let lines: Vec<_> = all.iter().enumerate().map(line).collect();
     let points = all.iter().flat_map(|one| {
         one.points.iter().map(|at| vec![one.name.into(), one.scene.into(), Cell::from(at.0), Cell::from(at.1)])
     });
@@ -81,9 +85,10 @@ pub(super) fn parts(run: &Run) -> Result<Vec<Part>, String> {
                 there; collocation over whole phases gains digits in proportion to the nodes, faster than any \
                 power, and more stretches of seven nodes converge with a higher order.";
     Ok(vec![
+        Part::Heading("Order of convergence".to_owned()),
         Part::Text(text.to_owned()),
         Part::Table(table),
-        Part::Figure(Figure { drawing: plot::log_log(caption, x, y, &lines)?, data }),
+        Part::Figure(Figure { drawing: plot::log_log("Order of convergence", x, y, &lines)?, data }),
     ])
 }
 

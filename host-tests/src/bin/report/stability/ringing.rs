@@ -44,7 +44,7 @@ pub(super) fn parts(run: &Run) -> Result<Vec<Part>, String> {
     let bar = run.progress(DAMPINGS.len() * counts.len(), "ringing");
     let mut lines = [Vec::new(), Vec::new()];
     let (mut energies, mut differences, mut summary) = (Vec::new(), Vec::new(), Vec::new());
-    for material in DAMPINGS {
+    for (place, material) in DAMPINGS.into_iter().enumerate() {
         let impact = slow(material);
         let averaged = averaged(&impact, most);
         let solved = in_parallel(&counts, |turning_points| {
@@ -60,10 +60,10 @@ pub(super) fn parts(run: &Run) -> Result<Vec<Part>, String> {
             let at = |swing: &Swing| Some((f64::from(swing.turning_points), value(swing)?));
             Line::new(&name(what), mark, swings.iter().filter_map(at).collect())
         };
-        lines[0].push(line("f64", Mark::Points, &|swing| Some(swing.energy)));
-        lines[0].push(line("averaged", Mark::Solid, &|swing| Some(swing.averaged)));
-        lines[1].push(line("f64", Mark::Joined, &|swing| Some(swing.drift())));
-        lines[1].push(line("f32", Mark::Joined, &Swing::drift_in_single_precision));
+        lines[0].push(line("f64", Mark::Points, &|swing| Some(swing.energy)).like(place));
+        lines[0].push(line("averaged", Mark::Solid, &|swing| Some(swing.averaged)).like(place));
+        lines[1].push(line("f64", Mark::Joined, &|swing| Some(swing.drift())).like(place));
+        lines[1].push(line("f32", Mark::Joined, &Swing::drift_in_single_precision).beside(place));
         let row = |swing: &Swing, values: &[Option<f64>]| {
             let place = [Cell::from(material), Cell::Count(u64::from(swing.turning_points))];
             place.into_iter().chain(values.iter().map(|value| Cell::from(*value))).collect::<Vec<_>>()
@@ -106,13 +106,15 @@ fn figures(
         columns: columns.iter().map(|column| (*column).to_owned()).collect(),
         rows,
     };
-    let captions = ["Energy of a captured sphere", "Difference from the averaged energy, over the depth of the well"];
-    let y = [Axis::logarithmic("energy over depth of the well"), Axis::logarithmic("difference")];
+    let captions = ["Energy of a captured sphere", "Difference from the averaged energy"];
+    let y = ["energy over depth of the well", "difference over that depth"].map(Axis::logarithmic);
     let of_energy = ["zeta_H", "turning points", "energy over depth of the well", "averaged"];
-    let of_difference = ["zeta_H", "turning points", "f64", "f32", "energy lacking in the ledger, f64"];
+    let of_difference =
+        ["zeta_H", "turning points", "f64, over the depth of the well", "f32", "energy lacking in the ledger, f64"];
     let summary_columns =
         ["zeta_H", "turning points", "energy left", "largest difference, f64", "largest difference, f32", "ledger"];
     Ok(vec![
+        Part::Heading("Long ringing".to_owned()),
         Part::Text(text.to_owned()),
         Part::Table(data("", "Energy at the last turning point, and largest differences", &summary_columns, summary)),
         Part::Figure(Figure {

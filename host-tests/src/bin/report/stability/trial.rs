@@ -24,7 +24,7 @@ impl Method {
             Self::Double => "f64",
             Self::Single => "f32",
             Self::Fixed => "fixed point",
-            Self::Paper => "the paper's",
+            Self::Paper => "the paper's method",
         }
     }
 
