@@ -14,12 +14,118 @@ static const MicroimpactRigidScene BODY = {5.06e-6f, 2600.0f, 130.0f, 2.22e-12f,
 static const MicroimpactContactScene CONTACT = {5.06e-6f, 2600.0f, 7.5e10f, 10.5f, 250.0f, 6.25f, 0.1f, 1e-6f};
 static const MicroimpactMotion MOTION = {2.8f, 1.0f, 0.0f};
 
+/* That a number was refused, and by which name. */
+static void refused(MicroimpactStatus status, const MicroimpactError *error, const char *parameter)
+{
+    char name[40];
+    assert(status == MICROIMPACT_STATUS_INPUT);
+    assert(error->fault != MICROIMPACT_FAULT_NONE && error->smallest < error->largest);
+    microimpact_parameter_name(error->parameter, name, sizeof name);
+    assert(strcmp(name, parameter) == 0);
+}
+
 /* A copy on the heap, where the sanitizer watches its bounds. */
 static void *copy(const void *original, size_t size)
 {
     void *block = malloc(size);
     assert(block);
     return memcpy(block, original, size);
+}
+
+static void initialise_rigid(void)
+{
+    const MicroimpactRigidScene zeros = {0}, least = {.radius = 5.06e-6f, .density = 2600.0f, .restitution_speed = 130.0f};
+    MicroimpactRigidScene *parameters = copy(&BODY, sizeof BODY);
+    MicroimpactRigidScene *scene = malloc(sizeof *scene);
+    MicroimpactError *error = malloc(sizeof *error);
+    MicroimpactClassification result;
+
+    assert(microimpact_rigid_init(parameters, scene, error) == MICROIMPACT_STATUS_OK && error->fault == MICROIMPACT_FAULT_NONE);
+    assert(memcmp(scene, &BODY, sizeof BODY) == 0 && memcmp(parameters, &BODY, sizeof BODY) == 0);
+    /* In its place, and without what may be left out. */
+    assert(microimpact_rigid_init(scene, scene, NULL) == MICROIMPACT_STATUS_OK && memcmp(scene, &BODY, sizeof BODY) == 0);
+    assert(microimpact_rigid_init(&least, scene, error) == MICROIMPACT_STATUS_OK && memcmp(scene, &least, sizeof least) == 0);
+    assert(microimpact_classify(scene, &MOTION, &result, error) == MICROIMPACT_STATUS_OK);
+
+    assert(microimpact_rigid_init(parameters, NULL, error) == MICROIMPACT_STATUS_POINTER);
+    MicroimpactRigidScene *crooked = (MicroimpactRigidScene *)((uintptr_t)scene + 1);
+    assert(microimpact_rigid_init(parameters, crooked, error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_rigid_init(NULL, NULL, NULL) == MICROIMPACT_STATUS_POINTER);
+    assert(memcmp(scene, &least, sizeof least) == 0);
+    assert(microimpact_rigid_init(NULL, scene, error) == MICROIMPACT_STATUS_POINTER && memcmp(scene, &zeros, sizeof zeros) == 0);
+
+    static const char *const NAMES[] = {"radius", "density", "restitution speed", "work of adhesion", "friction coefficient"};
+    static const float BAD[] = {NAN, INFINITY, -INFINITY, -1.0f, 3.4e38f};
+    for (size_t field = 0; field < sizeof NAMES / sizeof NAMES[0]; field++) {
+        for (size_t i = 0; i < sizeof BAD / sizeof BAD[0]; i++) {
+            float *values = (float *)(void *)parameters, good = values[field];
+            values[field] = BAD[i];
+            memset(scene, 0xff, sizeof *scene);
+            refused(microimpact_rigid_init(parameters, scene, error), error, NAMES[field]);
+            assert(memcmp(scene, &zeros, sizeof zeros) == 0);
+            assert(microimpact_classify(scene, &MOTION, &result, error) == MICROIMPACT_STATUS_INPUT);
+            values[field] = good;
+        }
+    }
+    /* Of two bad values, the first is named. */
+    parameters->friction = NAN;
+    parameters->density = 0.0f;
+    refused(microimpact_rigid_init(parameters, scene, error), error, "density");
+
+    free(parameters), free(scene), free(error);
+}
+
+static void initialise_contact(void)
+{
+    const MicroimpactContactScene zeros = {0}, least = {.radius = 5.06e-6f, .density = 2600.0f, .stiffness = 7.5e10f};
+    MicroimpactContactScene *parameters = copy(&CONTACT, sizeof CONTACT);
+    MicroimpactContactScene *scene = malloc(sizeof *scene);
+    MicroimpactError *error = malloc(sizeof *error);
+    MicroimpactContact result;
+    size_t written;
+
+    assert(microimpact_contact_init(parameters, scene, error) == MICROIMPACT_STATUS_OK && error->fault == MICROIMPACT_FAULT_NONE);
+    assert(memcmp(scene, &CONTACT, sizeof CONTACT) == 0 && memcmp(parameters, &CONTACT, sizeof CONTACT) == 0);
+    assert(microimpact_contact_init(scene, scene, NULL) == MICROIMPACT_STATUS_OK && memcmp(scene, &CONTACT, sizeof CONTACT) == 0);
+    /* The tolerance is filled in; without damping, adhesion and friction nothing is lost. */
+    assert(microimpact_contact_init(&least, scene, error) == MICROIMPACT_STATUS_OK && scene->tolerance == CONTACT.tolerance);
+    assert(microimpact_simulate(scene, &MOTION, 1, &result, 1, &written, error) == MICROIMPACT_STATUS_OK);
+    assert(result.impact_class == MICROIMPACT_CLASS_REBOUND_SLIDING && fabsf(result.restitution - 1.0f) < 1e-6f);
+
+    assert(microimpact_contact_init(parameters, NULL, error) == MICROIMPACT_STATUS_POINTER);
+    MicroimpactContactScene *crooked = (MicroimpactContactScene *)((uintptr_t)scene + 1);
+    assert(microimpact_contact_init(parameters, crooked, error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_contact_init(NULL, NULL, NULL) == MICROIMPACT_STATUS_POINTER);
+    assert(scene->tolerance == CONTACT.tolerance);
+    assert(microimpact_contact_init(NULL, scene, error) == MICROIMPACT_STATUS_POINTER && memcmp(scene, &zeros, sizeof zeros) == 0);
+
+    static const char *const NAMES[] = {
+        "radius", "density", "stiffness", "material damping", "adhesion strength", "adhesion damping", "friction coefficient", "tolerance",
+    };
+    static const float BAD[] = {NAN, INFINITY, -INFINITY, -1.0f, 3.4e38f};
+    for (size_t field = 0; field < sizeof NAMES / sizeof NAMES[0]; field++) {
+        for (size_t i = 0; i < sizeof BAD / sizeof BAD[0]; i++) {
+            float *values = (float *)(void *)parameters, good = values[field];
+            values[field] = BAD[i];
+            memset(scene, 0xff, sizeof *scene);
+            refused(microimpact_contact_init(parameters, scene, error), error, NAMES[field]);
+            assert(memcmp(scene, &zeros, sizeof zeros) == 0);
+            assert(microimpact_simulate(scene, &MOTION, 1, &result, 1, &written, error) == MICROIMPACT_STATUS_INPUT);
+            values[field] = good;
+        }
+    }
+    /* Of several bad values, the first is named. */
+    parameters->tolerance = parameters->friction = NAN;
+    parameters->stiffness = 0.0f;
+    refused(microimpact_contact_init(parameters, scene, error), error, "stiffness");
+    /* Tables refuse the zeros, too, although they take their radii elsewhere. */
+    static MicroimpactRestitutionTable table;
+    int32_t cells[2][4];
+    MicroimpactBoundaryTable made;
+    assert(microimpact_boundary_make(scene, 5e-6f, cells, 2, &made, error) == MICROIMPACT_STATUS_INPUT);
+    assert(microimpact_restitution_make(scene, 2e-6f, 10.0f, &table, error) == MICROIMPACT_STATUS_INPUT);
+
+    free(parameters), free(scene), free(error);
 }
 
 static void classify(void)
@@ -97,6 +203,89 @@ static void simulate(void)
     assert(*written == 0);
 
     free(scene), free(motions), free(written), free(results);
+}
+
+/* The first sample that is at rest. */
+static const MicroimpactSample *peak(const MicroimpactSample *samples, size_t count)
+{
+    size_t i = 0;
+    while (i < count && samples[i].velocity != 0.0f)
+        i++;
+    assert(i < count);
+    return &samples[i];
+}
+
+/* That a trajectory is one of the whole's, in the order of time, with all that is never left out. */
+static void thinned(const MicroimpactSample *samples, size_t count, const MicroimpactSample *whole, size_t all)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < all && found < count; i++)
+        found += memcmp(&samples[found], &whole[i], sizeof *whole) == 0;
+    assert(found == count);
+    for (size_t i = 1; i < count; i++)
+        assert(samples[i].time > samples[i - 1].time);
+    assert(memcmp(peak(samples, count), peak(whole, all), sizeof *whole) == 0);
+    assert(memcmp(&samples[0], &whole[0], sizeof *whole) == 0);
+    assert(memcmp(&samples[count - 1], &whole[all - 1], sizeof *whole) == 0);
+}
+
+static void trajectory(void)
+{
+    enum { MOST = MICROIMPACT_LARGEST_TRAJECTORY, LEAST = MICROIMPACT_SMALLEST_TRAJECTORY };
+    /* That which begins to roll, that which slides on, and that which the surface holds. */
+    static const MicroimpactMotion MOTIONS[] = {{2.8f, 1.0f, 0.0f}, {2.8f, 20.0f, 0.0f}, {0.5f, 0.0f, 0.0f}};
+    MicroimpactContactScene *scene = copy(&CONTACT, sizeof CONTACT);
+    MicroimpactMotion *motion = copy(&MOTION, sizeof MOTION);
+    MicroimpactSample *whole = malloc(MOST * sizeof *whole);
+    MicroimpactContact *result = malloc(sizeof *result), expected;
+    size_t *written = malloc(sizeof *written), all;
+    MicroimpactError error;
+
+    for (size_t m = 0; m < sizeof MOTIONS / sizeof MOTIONS[0]; m++) {
+        *motion = MOTIONS[m];
+        assert(microimpact_simulate(scene, motion, 1, &expected, 1, written, &error) == MICROIMPACT_STATUS_OK);
+        assert(microimpact_simulate_trajectory(scene, motion, whole, MOST, &all, result, &error) == MICROIMPACT_STATUS_OK);
+        assert(memcmp(result, &expected, sizeof expected) == 0 && error.fault == MICROIMPACT_FAULT_NONE);
+        assert(all > 2 * LEAST && all <= MOST && whole[0].time == 0.0f);
+        assert(fabsf(whole[0].velocity / motion->approach - 1.0f) < 1e-6f);
+        for (size_t capacity = 0; capacity <= MOST + 1; capacity++) {
+            /* Room for so many and not one more. */
+            MicroimpactSample *samples = malloc(capacity ? capacity * sizeof *samples : 1);
+            MicroimpactStatus status =
+                microimpact_simulate_trajectory(scene, motion, samples, capacity, written, result, &error);
+            assert(status == (capacity < LEAST ? MICROIMPACT_STATUS_CAPACITY : MICROIMPACT_STATUS_OK));
+            assert(*written <= capacity && (*written == 0) == (capacity < LEAST) && (*written == all) == (capacity >= all));
+            if (*written)
+                thinned(samples, *written, whole, all);
+            free(samples);
+        }
+    }
+
+    /* A result stays as it is where there is none, and a capacity that no memory has is not followed. */
+    memset(result, 0x55, sizeof *result);
+    memcpy(&expected, result, sizeof expected);
+    const MicroimpactSample before = whole[1];
+    MicroimpactSample *crooked = (MicroimpactSample *)((uintptr_t)whole + 1);
+    const MicroimpactStatus null = MICROIMPACT_STATUS_POINTER;
+    assert(microimpact_simulate_trajectory(NULL, motion, whole, MOST, written, result, &error) == null && *written == 0);
+    assert(microimpact_simulate_trajectory(scene, NULL, whole, MOST, written, result, &error) == null);
+    assert(microimpact_simulate_trajectory(scene, motion, NULL, MOST, written, result, &error) == null);
+    assert(microimpact_simulate_trajectory(scene, motion, crooked, MOST, written, result, &error) == null);
+    assert(microimpact_simulate_trajectory(scene, motion, NULL, SIZE_MAX, written, result, NULL) == null);
+    assert(microimpact_simulate_trajectory(scene, motion, whole, MOST, NULL, result, &error) == null);
+    assert(microimpact_simulate_trajectory(scene, motion, whole, MOST, written, NULL, &error) == null && *written == 0);
+    assert(microimpact_simulate_trajectory(NULL, NULL, NULL, 0, NULL, NULL, NULL) == null);
+    assert(microimpact_simulate_trajectory(scene, motion, NULL, 0, written, result, NULL) == MICROIMPACT_STATUS_CAPACITY);
+    motion->approach = NAN;
+    refused(microimpact_simulate_trajectory(scene, motion, whole, MOST, written, result, &error), &error, "approach speed");
+    motion->approach = 2.8f;
+    scene->tolerance = 0.0f;
+    refused(microimpact_simulate_trajectory(scene, motion, whole, MOST, written, result, &error), &error, "tolerance");
+    memset(scene, 0, sizeof *scene);
+    refused(microimpact_simulate_trajectory(scene, motion, whole, MOST, written, result, &error), &error, "radius");
+    assert(*written == 0 && memcmp(result, &expected, sizeof expected) == 0 && memcmp(&whole[1], &before, sizeof before) == 0);
+
+    free(scene), free(motion), free(whole), free(result), free(written);
 }
 
 static void boundary(void)
@@ -245,8 +434,11 @@ int main(int count, char **arguments)
         overflow();
         return 0;
     }
+    initialise_rigid();
+    initialise_contact();
     classify();
     simulate();
+    trajectory();
     boundary();
     restitution();
     parameter_names();

@@ -11,8 +11,16 @@
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
 /* Silver-coated glass on steel: Brach & Dunn (1995), Table 1. */
-static const MicroimpactRigidScene BODY = {5.06e-6f, 2600.0f, 130.0f, 2.22e-12f, 0.1f};
-static const MicroimpactContactScene CONTACT = {5.06e-6f, 2600.0f, 7.5e10f, 10.5f, 250.0f, 6.25f, 0.1f, 1e-6f};
+static const MicroimpactRigidScene BODY = {
+    .radius = 5.06e-6f, .density = 2600.0f, .restitution_speed = 130.0f, .work_of_adhesion = 2.22e-12f, .friction = 0.1f};
+static const MicroimpactContactScene CONTACT = {
+    .radius = 5.06e-6f, .density = 2600.0f, .stiffness = 7.5e10f, .material_damping = 10.5f,
+    .adhesion_strength = 250.0f, .adhesion_damping = 6.25f, .friction = 0.1f};
+/* The same without damping, adhesion and friction, which need not be named. */
+static const MicroimpactContactScene ELASTIC = {.radius = 5.06e-6f, .density = 2600.0f, .stiffness = 7.5e10f};
+
+static MicroimpactRigidScene body;
+static MicroimpactContactScene contact, elastic;
 
 static const MicroimpactMotion MOTIONS[] = {
     {2.8f, 0.0f, 0.0f},  {2.8f, 0.0f, 0.7388f}, {2.8f, 20.0f, 0.0f}, {2.8f, 1.0f, -2.5f},
@@ -52,13 +60,33 @@ static int classify(const char *name, const MicroimpactBoundaryTable *table)
     return 1;
 }
 
+/* The trajectory of every motion, whole and in the least room. */
+static int trajectories(const char *name, const MicroimpactContactScene *scene)
+{
+    static const size_t ROOM[] = {MICROIMPACT_LARGEST_TRAJECTORY, MICROIMPACT_SMALLEST_TRAJECTORY};
+    static MicroimpactSample samples[MICROIMPACT_LARGEST_TRAJECTORY];
+    MicroimpactContact c;
+    size_t written;
+    for (size_t i = 0; i < COUNT(MOTIONS); i++) {
+        for (size_t j = 0; j < COUNT(ROOM); j++) {
+            if (microimpact_simulate_trajectory(scene, &MOTIONS[i], samples, ROOM[j], &written, &c, NULL) != MICROIMPACT_STATUS_OK)
+                return 0;
+            printf("%s %lu %d %08lx\n", name, (unsigned long)i, (int)c.impact_class, bits(c.restitution));
+            for (size_t k = 0; k < written; k++)
+                printf("sample %08lx %08lx %08lx %08lx %08lx\n", bits(samples[k].time), bits(samples[k].indentation),
+                       bits(samples[k].velocity), bits(samples[k].force), bits(samples[k].elastic));
+        }
+    }
+    return 1;
+}
+
 static int boundaries(void)
 {
     static int32_t cells[4][4];
     MicroimpactBoundaryTable made;
     if (microimpact_boundary_check(&CONSTANT, NULL) != MICROIMPACT_STATUS_OK || !classify("constant", &CONSTANT))
         return 0;
-    if (microimpact_boundary_make(&CONTACT, SMALLEST_RADIUS, cells, COUNT(cells), &made, NULL) != MICROIMPACT_STATUS_OK)
+    if (microimpact_boundary_make(&contact, SMALLEST_RADIUS, cells, COUNT(cells), &made, NULL) != MICROIMPACT_STATUS_OK)
         return 0;
     printf("made %08lx %lu\n", bits(made.smallest_radius), (unsigned long)made.margin);
     for (size_t i = 0; i < made.count; i++)
@@ -70,7 +98,7 @@ static int restitutions(void)
 {
     static MicroimpactRestitutionTable table;
     MicroimpactTableReading r;
-    if (microimpact_restitution_make(&CONTACT, SMALLEST_RADIUS, LARGEST_SPEED_RATIO, &table, NULL) != MICROIMPACT_STATUS_OK)
+    if (microimpact_restitution_make(&contact, SMALLEST_RADIUS, LARGEST_SPEED_RATIO, &table, NULL) != MICROIMPACT_STATUS_OK)
         return 0;
     for (size_t i = 0; i < COUNT(RADII); i++) {
         for (size_t j = 0; j < COUNT(LOOKED_UP); j++) {
@@ -88,22 +116,28 @@ int main(void)
     static MicroimpactContact contacts[COUNT(MOTIONS)];
     MicroimpactError error;
     size_t written;
+    if (microimpact_rigid_init(&BODY, &body, &error) != MICROIMPACT_STATUS_OK
+        || microimpact_contact_init(&CONTACT, &contact, &error) != MICROIMPACT_STATUS_OK
+        || microimpact_contact_init(&ELASTIC, &elastic, &error) != MICROIMPACT_STATUS_OK)
+        return 1;
     for (size_t i = 0; i < COUNT(MOTIONS); i++) {
         MicroimpactClassification c;
-        if (microimpact_classify(&BODY, &MOTIONS[i], &c, &error) != MICROIMPACT_STATUS_OK)
-            return 1;
+        if (microimpact_classify(&body, &MOTIONS[i], &c, &error) != MICROIMPACT_STATUS_OK)
+            return 2;
         printf("rigid %lu %d %08lx %08lx %08lx %08lx %08lx\n", (unsigned long)i, (int)c.impact_class, bits(c.speed_over_critical),
                bits(c.friction_over_limit), bits(c.restitution), bits(c.tangential), bits(c.peripheral));
     }
-    if (microimpact_simulate(&CONTACT, MOTIONS, COUNT(MOTIONS), contacts, COUNT(contacts), &written, &error)
+    if (microimpact_simulate(&contact, MOTIONS, COUNT(MOTIONS), contacts, COUNT(contacts), &written, &error)
         != MICROIMPACT_STATUS_OK)
-        return 2;
+        return 3;
     for (size_t i = 0; i < written; i++)
         printf("contact %lu %d %08lx %08lx %08lx %08lx\n", (unsigned long)i, (int)contacts[i].impact_class, bits(contacts[i].restitution),
                bits(contacts[i].peak_indentation), bits(contacts[i].tangential), bits(contacts[i].spin));
-    if (!boundaries())
-        return 3;
-    if (!restitutions())
+    if (!trajectories("trajectory", &contact) || !trajectories("elastic", &elastic))
         return 4;
+    if (!boundaries())
+        return 5;
+    if (!restitutions())
+        return 6;
     return 0;
 }

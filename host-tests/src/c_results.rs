@@ -4,11 +4,17 @@ use std::fmt::Write;
 
 use microimpact::boundary::{BoundarySlice, BoundaryTable, Reading, Rebound, RestitutionTable};
 use microimpact::simulation::{
-    Collocation, ContactImpulses, HystereticDamping, Ring, SimulatedImpact, Simulation, TangentialContact,
+    Collocation, ContactImpulses, HystereticDamping, Ring, Sample, SimulatedImpact, Simulation, TangentialContact,
+    Trajectory,
 };
 use microimpact::{
     Coulomb, InputError, NormalMotion, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
     SurfaceMotion,
+};
+
+use crate::table_1::{
+    DENSITY_KG_M3, FRICTION, MATERIAL_DAMPING, RADIUS_M, RESTITUTION_SPEED_M_S, RING_DAMPING, RING_N_M, STIFFNESS_PA,
+    WORK_OF_ADHESION_J,
 };
 
 /// Approach speed, tangential and peripheral velocity of each impact, m/s.
@@ -42,15 +48,17 @@ pub const CONSTANT: [&str; 6] = ["--smallest-radius", "2e-6", "--cells", "8", "-
 /// # Errors
 /// None for the values here.
 pub fn expected() -> Result<String, InputError> {
-    Ok(impacts()? + &boundaries()? + &restitutions()?)
+    Ok(impacts()? + &trajectories()? + &boundaries()? + &restitutions()?)
 }
 
 /// The lines of both models.
 fn impacts() -> Result<String, InputError> {
-    let sphere = Sphere::solid(5.06e-6_f32, 2600.0)?;
-    let body = RigidBody::new(sphere, SpeedRestitution::new(130.0)?).with_work_of_adhesion(2.22e-12)?;
-    let body = body.with_friction(0.1)?;
-    let contact = surface(5.06e-6)?.with_friction(0.1)?;
+    let c = f32::constant;
+    let sphere = Sphere::solid(c(RADIUS_M), c(DENSITY_KG_M3))?;
+    let body = RigidBody::new(sphere, SpeedRestitution::new(c(RESTITUTION_SPEED_M_S))?)
+        .with_work_of_adhesion(c(WORK_OF_ADHESION_J))?
+        .with_friction(c(FRICTION))?;
+    let contact = surface(c(RADIUS_M))?.with_friction(c(FRICTION))?;
     let method = Collocation::<7, f32>::new(1e-6)?;
     let (mut rigid, mut simulated) = (String::new(), String::new());
     for (index, before) in MOTIONS.into_iter().enumerate() {
@@ -74,7 +82,7 @@ fn impacts() -> Result<String, InputError> {
             &[
                 impact.normal.overall_restitution(),
                 impact.normal.peak_indentation().unwrap_or(-1.0),
-                impact.tangential.velocity(),
+                impact.tangential.tangential(),
                 impact.tangential.spin(),
             ],
         );
@@ -82,12 +90,53 @@ fn impacts() -> Result<String, InputError> {
     Ok(rigid + &simulated)
 }
 
+/// The lines of the trajectories, each whole and in the least room: of the scene, and of one without damping, adhesion and
+/// friction.
+fn trajectories() -> Result<String, InputError> {
+    let c = f32::constant;
+    let contact = surface(c(RADIUS_M))?.with_friction(c(FRICTION))?;
+    let sphere = Sphere::solid(c(RADIUS_M), c(DENSITY_KG_M3))?;
+    // Absent terms are strengths of zero in C.
+    let elastic = Simulation::new(sphere, Stiffness::new(c(STIFFNESS_PA))?)
+        .with_damping(0.0)?
+        .with_ring(0.0, 0.0)?
+        .with_friction(0.0)?;
+    let method = Collocation::<7, f32>::new(1e-6)?;
+    let mut text = String::new();
+    for (name, scene) in [("trajectory", contact), ("elastic", elastic)] {
+        for (index, before) in MOTIONS.into_iter().enumerate() {
+            let impact: SimulatedImpact<f32, TangentialContact<f32>, Trajectory<f32, 64>> =
+                scene.observe(&method, &motion(before)?)?;
+            let whole: Vec<Sample<f32>> = impact.outputs.samples().collect();
+            for samples in [&whole, &least(&impact.outputs)] {
+                let class = impact.class().map_or(u8::MAX, |class| class as u8);
+                line(&mut text, &format!("{name} {index} {class}"), &[impact.normal.overall_restitution()]);
+                for Sample { time, indentation, velocity, force, elastic } in samples {
+                    line(&mut text, "sample", &[*time, *indentation, *velocity, *force, *elastic]);
+                }
+            }
+        }
+    }
+    Ok(text)
+}
+
+/// What is in a trajectory however little room there is.
+fn least(whole: &Trajectory<f32, 64>) -> Vec<Sample<f32>> {
+    let (first, last) = (whole.samples().next(), whole.samples().last());
+    let mut samples: Vec<_> = [first, whole.peak(), whole.roll(), last].into_iter().flatten().collect();
+    samples.sort_by(|a, b| a.time.total_cmp(&b.time));
+    samples.dedup();
+    samples
+}
+
 type Surface<T> = Simulation<T, HystereticDamping<T>, Ring<T>>;
 
 fn surface<T: Real>(radius: T) -> Result<Surface<T>, InputError> {
     let c = T::constant;
-    let sphere = Sphere::solid(radius, c(2600.0))?;
-    Simulation::new(sphere, Stiffness::new(c(7.5e10))?).with_damping(c(10.5))?.with_ring(c(250.0), c(6.25))
+    let sphere = Sphere::solid(radius, c(DENSITY_KG_M3))?;
+    Simulation::new(sphere, Stiffness::new(c(STIFFNESS_PA))?)
+        .with_damping(c(MATERIAL_DAMPING))?
+        .with_ring(c(RING_N_M), c(RING_DAMPING))
 }
 
 fn motion([approach, tangential, peripheral]: [f32; 3]) -> Result<PlanarMotion<f32>, InputError> {
@@ -135,7 +184,7 @@ fn restitutions() -> Result<String, InputError> {
         let impulse = impact.outputs.elastic / (surface.sphere().mass() * speed);
         Ok(Rebound { restitution: impact.normal.overall_restitution(), impulse })
     })?;
-    let friction = Coulomb::new(0.1)?;
+    let friction = Coulomb::new(f32::constant(FRICTION))?;
     let mut text = String::new();
     for (i, radius) in RADII.into_iter().enumerate() {
         for (j, before) in LOOKED_UP.into_iter().enumerate() {

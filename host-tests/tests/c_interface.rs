@@ -112,6 +112,19 @@ mod sanitized {
         assert_eq!(printed, c_results::expected().unwrap());
         let lines = |kind: &str| printed.lines().filter(|line| line.starts_with(kind)).count();
         assert_eq!(lines("rigid") + lines("contact"), 2 * c_results::MOTIONS.len());
+        // Every trajectory twice; in the least room it is four samples, or three of a sphere that does not begin to roll.
+        assert_eq!(lines("trajectory"), 2 * c_results::MOTIONS.len());
+        assert_eq!(lines("elastic"), 2 * c_results::MOTIONS.len());
+        let starts = |line: &&str| line.starts_with("trajectory") || line.starts_with("elastic");
+        let lengths: Vec<usize> = printed
+            .split_inclusive('\n')
+            .collect::<Vec<_>>()
+            .chunk_by(|_, next| next.starts_with("sample"))
+            .filter(|chunk| chunk.first().is_some_and(starts))
+            .map(|chunk| chunk.len() - 1)
+            .collect();
+        assert!(lengths.chunks(2).all(|pair| pair[0] > 2 * pair[1]), "{lengths:?}");
+        assert!([3, 4].iter().all(|least| lengths.contains(least)), "{lengths:?}");
         // Every verdict of each table, and both motions along the surface.
         let looked_up = c_results::RADII.len() * c_results::LOOKED_UP.len();
         for table in ["constant", "boundary", "restitution"] {

@@ -9,6 +9,12 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+// Least room for a trajectory: first touch, peak, beginning of rolling and end.
+#define MICROIMPACT_SMALLEST_TRAJECTORY 4
+
+// Room that is always enough: no trajectory has more samples.
+#define MICROIMPACT_LARGEST_TRAJECTORY 64
+
 // How a function has ended.
 enum MicroimpactStatus
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -17,13 +23,13 @@ enum MicroimpactStatus
  {
   // All is well, and the results are there.
   MICROIMPACT_STATUS_OK,
-  // A pointer that is null or misaligned; nothing was written.
+  // A pointer that is null or misaligned; there is no result.
   MICROIMPACT_STATUS_POINTER,
   // A number outside its range: the error says which.
   MICROIMPACT_STATUS_INPUT,
   // The simulation did not come to an end within its budget; nothing was written for this motion.
   MICROIMPACT_STATUS_UNSOLVED,
-  // Fewer results fit than there are motions; those that fit were written.
+  // Fewer results fit than there are motions, and those that fit were written; or no trajectory fits.
   MICROIMPACT_STATUS_CAPACITY,
   // A table that was never made.
   MICROIMPACT_STATUS_UNMADE,
@@ -33,31 +39,6 @@ enum MicroimpactStatus
 typedef enum MicroimpactStatus MicroimpactStatus;
 #else
 typedef uint32_t MicroimpactStatus;
-#endif // __STDC_VERSION__ >= 202311L
-#endif // __cplusplus
-
-// What became of the sphere.
-enum MicroimpactClass
-#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : uint32_t
-#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
-  // Leaves the surface while its contact point slips.
-  MICROIMPACT_CLASS_REBOUND_SLIDING,
-  // Leaves the surface rolling.
-  MICROIMPACT_CLASS_REBOUND_ROLLING,
-  // Captured, and slides on.
-  MICROIMPACT_CLASS_CAPTURED_SLIDING,
-  // Captured, and rolls on.
-  MICROIMPACT_CLASS_CAPTURED_ROLLING,
-  // Captured and at rest.
-  MICROIMPACT_CLASS_CAPTURED_RESTING,
-};
-#ifndef __cplusplus
-#if __STDC_VERSION__ >= 202311L
-typedef enum MicroimpactClass MicroimpactClass;
-#else
-typedef uint32_t MicroimpactClass;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -83,6 +64,31 @@ enum MicroimpactFault
 typedef enum MicroimpactFault MicroimpactFault;
 #else
 typedef uint32_t MicroimpactFault;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What became of the sphere.
+enum MicroimpactClass
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // Leaves the surface while its contact point slips.
+  MICROIMPACT_CLASS_REBOUND_SLIDING,
+  // Leaves the surface rolling.
+  MICROIMPACT_CLASS_REBOUND_ROLLING,
+  // Captured, and slides on.
+  MICROIMPACT_CLASS_CAPTURED_SLIDING,
+  // Captured, and rolls on.
+  MICROIMPACT_CLASS_CAPTURED_ROLLING,
+  // Captured and at rest.
+  MICROIMPACT_CLASS_CAPTURED_RESTING,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MicroimpactClass MicroimpactClass;
+#else
+typedef uint32_t MicroimpactClass;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -130,7 +136,7 @@ typedef uint32_t MicroimpactSurfaceMotion;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// A rigid body with R = k/(k + v), a work of adhesion and friction.
+// A rigid body with R = k/(k + v), a work of adhesion and friction. Zero leaves a term out.
 typedef struct MicroimpactRigidScene {
   // Radius of the sphere, m.
   float radius;
@@ -138,11 +144,23 @@ typedef struct MicroimpactRigidScene {
   float density;
   // Speed k of the restitution law, m/s.
   float restitution_speed;
-  // Work of adhesion, J.
+  // Work of adhesion, J; may be zero.
   float work_of_adhesion;
-  // Friction coefficient.
+  // Friction coefficient; may be zero.
   float friction;
 } MicroimpactRigidScene;
+
+// What was wrong with a number.
+typedef struct MicroimpactError {
+  // Which number, for microimpact_parameter_name.
+  uint32_t parameter;
+  // What is wrong with it.
+  MicroimpactFault fault;
+  // Smallest valid value.
+  double smallest;
+  // Largest valid value.
+  double largest;
+} MicroimpactError;
 
 // A motion before the impact.
 typedef struct MicroimpactMotion {
@@ -170,19 +188,7 @@ typedef struct MicroimpactClassification {
   float peripheral;
 } MicroimpactClassification;
 
-// What was wrong with a number.
-typedef struct MicroimpactError {
-  // Which number, for microimpact_parameter_name.
-  uint32_t parameter;
-  // What is wrong with it.
-  MicroimpactFault fault;
-  // Smallest valid value.
-  double smallest;
-  // Largest valid value.
-  double largest;
-} MicroimpactError;
-
-// A contact with Hertz's force, damping, a ring of adhesion and friction.
+// A contact with Hertz's force, damping, a ring of adhesion and friction. Zero leaves a term out.
 typedef struct MicroimpactContactScene {
   // Radius of the sphere, m.
   float radius;
@@ -190,15 +196,15 @@ typedef struct MicroimpactContactScene {
   float density;
   // Hertz stiffness, Pa.
   float stiffness;
-  // Strength of the damping in the materials.
+  // Strength of the damping in the materials; may be zero.
   float material_damping;
-  // Strength of the ring of adhesion, N/m.
+  // Strength of the ring of adhesion, N/m; may be zero.
   float adhesion_strength;
-  // Strength of the damping of adhesion.
+  // Strength of the damping of adhesion; may be zero.
   float adhesion_damping;
-  // Friction coefficient.
+  // Friction coefficient; may be zero.
   float friction;
-  // Tolerance of the square of the restitution; 1e-6 suits.
+  // Tolerance of the square of the restitution; microimpact_contact_init fills in 1e-6.
   float tolerance;
 } MicroimpactContactScene;
 
@@ -251,9 +257,33 @@ typedef struct MicroimpactTableReading {
   float peripheral;
 } MicroimpactTableReading;
 
+// A moment of a simulated impact.
+typedef struct MicroimpactSample {
+  // Time from first touch, s.
+  float time;
+  // Indentation, m.
+  float indentation;
+  // Its rate, m/s: positive on the way in, negative on the way out, zero at the peak.
+  float velocity;
+  // Normal force of the surface on the sphere, N, positive where it repels.
+  float force;
+  // Its elastic part, N.
+  float elastic;
+} MicroimpactSample;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
+
+// Initialises a scene with parameters, of which what is left out is zero, and checks every one. The error names the first that
+// is outside its range, and may be null. Where this fails, the scene holds zeros, which every function reports. The parameters
+// and the scene may be the same memory.
+//
+// # Safety
+// Each pointer is null or points to what its type says, and nobody else uses it during the call.
+MicroimpactStatus microimpact_rigid_init(const struct MicroimpactRigidScene *parameters,
+                                         struct MicroimpactRigidScene *scene,
+                                         struct MicroimpactError *error);
 
 // Classifies an impact of a rigid body. The error may be null.
 //
@@ -263,6 +293,16 @@ MicroimpactStatus microimpact_classify(const struct MicroimpactRigidScene *scene
                                        const struct MicroimpactMotion *motion,
                                        struct MicroimpactClassification *result,
                                        struct MicroimpactError *error);
+
+// Initialises a scene with parameters, of which what is left out is zero, fills in the tolerance if it is, and checks every
+// one. The error names the first that is outside its range, and may be null. Where this fails, the scene holds zeros, which
+// every function reports. The parameters and the scene may be the same memory.
+//
+// # Safety
+// Each pointer is null or points to what its type says, and nobody else uses it during the call.
+MicroimpactStatus microimpact_contact_init(const struct MicroimpactContactScene *parameters,
+                                           struct MicroimpactContactScene *scene,
+                                           struct MicroimpactError *error);
 
 // Simulates `count` impacts into a buffer with room for `capacity` results, in the order of the motions, and writes how many
 // there are, of those before the first that fails. The error may be null.
@@ -339,6 +379,23 @@ MicroimpactStatus microimpact_restitution_read(const struct MicroimpactRestituti
                                                const struct MicroimpactMotion *motion,
                                                struct MicroimpactTableReading *reading,
                                                struct MicroimpactError *error);
+
+// Simulates one impact, and writes its trajectory into a buffer with room for `capacity` samples, in the order of time, and how
+// many there are: at most as many as there is room for, and never more than MICROIMPACT_LARGEST_TRAJECTORY. In less room,
+// samples are left out evenly over time; first touch, peak, beginning of rolling and end are always there. In less than
+// MICROIMPACT_SMALLEST_TRAJECTORY there is no trajectory. Where this fails, there are no samples and no result. The error may
+// be null.
+//
+// # Safety
+// Each pointer is null or points to what its type says, the samples to room for `capacity` of them, and nobody else uses them
+// during the call.
+MicroimpactStatus microimpact_simulate_trajectory(const struct MicroimpactContactScene *scene,
+                                                  const struct MicroimpactMotion *motion,
+                                                  struct MicroimpactSample *samples,
+                                                  size_t capacity,
+                                                  size_t *written,
+                                                  struct MicroimpactContact *result,
+                                                  struct MicroimpactError *error);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -8,9 +8,8 @@ use core::slice;
 /// Any other pointer is one to a whole `T` that nobody writes to during the call. `T` is plain numbers, of which every bit
 /// pattern is valid.
 pub(crate) unsafe fn read<T: Copy>(pointer: *const T) -> Option<T> {
-    let usable = !pointer.is_null() && pointer.is_aligned();
     // SAFETY: neither null nor misaligned, and by the contract of this function there is a `T`.
-    usable.then(|| unsafe { pointer.read() })
+    usable(pointer).then(|| unsafe { pointer.read() })
 }
 
 /// The same in its place, for what is large.
@@ -18,9 +17,8 @@ pub(crate) unsafe fn read<T: Copy>(pointer: *const T) -> Option<T> {
 /// # Safety
 /// As for [`read`]; the reference is dropped before the call ends.
 pub(crate) unsafe fn follow<'a, T: Copy>(pointer: *const T) -> Option<&'a T> {
-    let usable = !pointer.is_null() && pointer.is_aligned();
     // SAFETY: neither null nor misaligned, and by the contract of this function there is a `T`.
-    usable.then(|| unsafe { &*pointer })
+    usable(pointer).then(|| unsafe { &*pointer })
 }
 
 /// An array of C; `None` if its pointer is null or misaligned, or if no memory could hold so many.
@@ -28,7 +26,7 @@ pub(crate) unsafe fn follow<'a, T: Copy>(pointer: *const T) -> Option<&'a T> {
 /// # Safety
 /// As for [`follow`], of all elements.
 pub(crate) unsafe fn slice<'a, T: Copy>(array: *const T, count: usize) -> Option<&'a [T]> {
-    let usable = !array.is_null() && array.is_aligned() && fits::<T>(count);
+    let usable = usable(array) && fits::<T>(count);
     // SAFETY: neither null nor misaligned, of a possible size, and by the contract of this function all elements are there.
     usable.then(|| unsafe { slice::from_raw_parts(array, count) })
 }
@@ -38,7 +36,7 @@ pub(crate) unsafe fn slice<'a, T: Copy>(array: *const T, count: usize) -> Option
 /// # Safety
 /// As for [`write`], of all elements, of which zeros are valid; the reference is dropped before the call ends.
 pub(crate) unsafe fn zeroed<'a, T: Copy>(array: *mut T, count: usize) -> Option<&'a mut [T]> {
-    let usable = !array.is_null() && array.is_aligned() && fits::<T>(count);
+    let usable = usable(array) && fits::<T>(count);
     usable.then(|| {
         // SAFETY: neither null nor misaligned, of a possible size, and by the contract of this function there is room.
         unsafe {
@@ -46,6 +44,16 @@ pub(crate) unsafe fn zeroed<'a, T: Copy>(array: *mut T, count: usize) -> Option<
             slice::from_raw_parts_mut(array, count)
         }
     })
+}
+
+/// Whether there is room for a result; `None` if the pointer to it is null or misaligned.
+pub(crate) fn room<T>(pointer: *mut T) -> Option<()> {
+    usable(pointer).then_some(())
+}
+
+/// Whether a pointer can be followed.
+fn usable<T>(pointer: *const T) -> bool {
+    !pointer.is_null() && pointer.is_aligned()
 }
 
 /// Whether an array of so many elements can be in memory.
@@ -58,9 +66,8 @@ fn fits<T>(count: usize) -> bool {
 /// # Safety
 /// Any other pointer is one to room for a `T`, which nobody else uses during the call; what is there need not be valid.
 pub(crate) unsafe fn write<T: Copy>(pointer: *mut T, value: T) -> Option<()> {
-    let usable = !pointer.is_null() && pointer.is_aligned();
     // SAFETY: neither null nor misaligned, and by the contract of this function there is room for a `T`.
-    usable.then(|| unsafe { pointer.write(value) })
+    usable(pointer).then(|| unsafe { pointer.write(value) })
 }
 
 /// The element of an array of C at an index, as a pointer; null stays null.

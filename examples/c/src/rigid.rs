@@ -6,9 +6,9 @@ use microimpact::{Coulomb, InputError, RigidBody, SpeedRestitution, Sphere};
 use crate::memory;
 use crate::status::{Class, Error, Failure, Motion, Status, finish, followed};
 
-/// A rigid body with R = k/(k + v), a work of adhesion and friction.
+/// A rigid body with R = k/(k + v), a work of adhesion and friction. Zero leaves a term out.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RigidScene {
     /// Radius of the sphere, m.
     pub radius: f32,
@@ -16,9 +16,9 @@ pub struct RigidScene {
     pub density: f32,
     /// Speed k of the restitution law, m/s.
     pub restitution_speed: f32,
-    /// Work of adhesion, J.
+    /// Work of adhesion, J; may be zero.
     pub work_of_adhesion: f32,
-    /// Friction coefficient.
+    /// Friction coefficient; may be zero.
     pub friction: f32,
 }
 
@@ -29,6 +29,31 @@ impl RigidScene {
         RigidBody::new(Sphere::solid(self.radius, self.density)?, SpeedRestitution::new(self.restitution_speed)?)
             .with_work_of_adhesion(self.work_of_adhesion)?
             .with_friction(self.friction)
+    }
+}
+
+/// Initialises a scene with parameters, of which what is left out is zero, and checks every one. The error names the first that
+/// is outside its range, and may be null. Where this fails, the scene holds zeros, which every function reports. The parameters
+/// and the scene may be the same memory.
+///
+/// # Safety
+/// Each pointer is null or points to what its type says, and nobody else uses it during the call.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn microimpact_rigid_init(
+    parameters: *const RigidScene,
+    scene: *mut RigidScene,
+    error: *mut Error,
+) -> Status {
+    // SAFETY: the contract of this function is that of the functions in `memory`.
+    unsafe {
+        let initialised = || -> Result<(), Failure> {
+            let parameters = memory::read(parameters);
+            followed(memory::write(scene, RigidScene::default()))?;
+            let parameters = followed(parameters)?;
+            parameters.check()?;
+            followed(memory::write(scene, parameters))
+        };
+        finish(initialised(), error)
     }
 }
 

@@ -6,9 +6,9 @@ use microimpact::{Coulomb, CriticalSpeed, InputError, Sphere, Stiffness};
 use crate::memory;
 use crate::status::{Class, Error, Failure, Motion, Status, finish, followed};
 
-/// A contact with Hertz's force, damping, a ring of adhesion and friction.
+/// A contact with Hertz's force, damping, a ring of adhesion and friction. Zero leaves a term out.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactScene {
     /// Radius of the sphere, m.
     pub radius: f32,
@@ -16,15 +16,15 @@ pub struct ContactScene {
     pub density: f32,
     /// Hertz stiffness, Pa.
     pub stiffness: f32,
-    /// Strength of the damping in the materials.
+    /// Strength of the damping in the materials; may be zero.
     pub material_damping: f32,
-    /// Strength of the ring of adhesion, N/m.
+    /// Strength of the ring of adhesion, N/m; may be zero.
     pub adhesion_strength: f32,
-    /// Strength of the damping of adhesion.
+    /// Strength of the damping of adhesion; may be zero.
     pub adhesion_damping: f32,
-    /// Friction coefficient.
+    /// Friction coefficient; may be zero.
     pub friction: f32,
-    /// Tolerance of the square of the restitution; 1e-6 suits.
+    /// Tolerance of the square of the restitution; microimpact_contact_init fills in 1e-6.
     pub tolerance: f32,
 }
 
@@ -32,8 +32,11 @@ type Surface = Simulation<f32, HystereticDamping<f32>, Ring<f32>>;
 type Scene = Simulation<f32, HystereticDamping<f32>, Ring<f32>, Coulomb<f32>>;
 type Method = Collocation<7, f32>;
 
+/// What suits single precision.
+const TOLERANCE: f32 = 1e-6;
+
 impl ContactScene {
-    fn check(self) -> Result<(Scene, Method), InputError> {
+    pub(crate) fn check(self) -> Result<(Scene, Method), InputError> {
         let (surface, method) = self.surface()?;
         Ok((surface.with_friction(self.friction)?, method))
     }
@@ -50,6 +53,34 @@ impl ContactScene {
     pub(crate) fn critical_speed(self, radius: f32) -> Result<CriticalSpeed<f32>, InputError> {
         let (surface, method) = Self { radius, ..self }.surface()?;
         surface.critical_speed(&method)
+    }
+}
+
+/// Initialises a scene with parameters, of which what is left out is zero, fills in the tolerance if it is, and checks every
+/// one. The error names the first that is outside its range, and may be null. Where this fails, the scene holds zeros, which
+/// every function reports. The parameters and the scene may be the same memory.
+///
+/// # Safety
+/// Each pointer is null or points to what its type says, and nobody else uses it during the call.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn microimpact_contact_init(
+    parameters: *const ContactScene,
+    scene: *mut ContactScene,
+    error: *mut Error,
+) -> Status {
+    // SAFETY: the contract of this function is that of the functions in `memory`.
+    unsafe {
+        let initialised = || -> Result<(), Failure> {
+            let parameters = memory::read(parameters);
+            followed(memory::write(scene, ContactScene::default()))?;
+            let mut parameters = followed(parameters)?;
+            if parameters.tolerance == 0.0 {
+                parameters.tolerance = TOLERANCE;
+            }
+            parameters.check()?;
+            followed(memory::write(scene, parameters))
+        };
+        finish(initialised(), error)
     }
 }
 
@@ -110,12 +141,17 @@ pub unsafe extern "C" fn microimpact_simulate(
 
 fn simulate(scene: &Scene, method: &Method, motion: Motion) -> Result<Contact, Failure> {
     let impact: SimulatedImpact<f32, TangentialContact<f32>, ()> = scene.observe(method, &motion.check()?)?;
+    contact(&impact)
+}
+
+/// What C is told of an impact, whatever was observed besides.
+pub(crate) fn contact<O>(impact: &SimulatedImpact<f32, TangentialContact<f32>, O>) -> Result<Contact, Failure> {
     let class = impact.class().ok_or(Failure::Status(Status::Unsolved))?;
     Ok(Contact {
         impact_class: class.into(),
         restitution: impact.normal.overall_restitution(),
         peak_indentation: impact.normal.peak_indentation().unwrap_or(-1.0),
-        tangential: impact.tangential.velocity(),
+        tangential: impact.tangential.tangential(),
         spin: impact.tangential.spin(),
     })
 }

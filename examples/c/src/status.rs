@@ -12,13 +12,13 @@ use crate::memory;
 pub enum Status {
     /// All is well, and the results are there.
     Ok,
-    /// A pointer that is null or misaligned; nothing was written.
+    /// A pointer that is null or misaligned; there is no result.
     Pointer,
     /// A number outside its range: the error says which.
     Input,
     /// The simulation did not come to an end within its budget; nothing was written for this motion.
     Unsolved,
-    /// Fewer results fit than there are motions; those that fit were written.
+    /// Fewer results fit than there are motions, and those that fit were written; or no trajectory fits.
     Capacity,
     /// A table that was never made.
     Unmade,
