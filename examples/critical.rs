@@ -5,15 +5,13 @@
 
 mod sheet;
 
-use std::error::Error;
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
 use comfy_table::Cell;
 use microimpact::simulation::{Collocation, Nodes, Simulation};
 use microimpact::{CriticalSpeed, InputError, Sphere, Stiffness};
-use sheet::command::{self, Format, ScalarType, Work};
+use sheet::command::{BadRows, TableOptions, Work};
 use sheet::{Row, Scalar, reason};
 
 /// Spheres of the paper's figure 6 and Table 1; its program halves the damping of adhesion.
@@ -29,7 +27,8 @@ Figure 6: 13 um,6.5e-6,2600,7.5e10,250,10.5,6.25
 \"50 um, no adhesion\",2.5e-5,2600,7.5e10,0,10.5,0
 ";
 
-/// Find the approach speeds that separate capture from rebound, by the contact simulation.
+/// Find the approach speeds that separate capture from rebound, by the contact simulation; without a table, those of
+/// spheres of the paper.
 ///
 /// Columns read, in SI units; an empty cell means what stands in brackets:
 ///   radius_m, density_kg_m3, stiffness_pa (K),
@@ -46,31 +45,21 @@ Figure 6: 13 um,6.5e-6,2600,7.5e10,250,10.5,6.25
 #[derive(Parser)]
 #[command(name = "critical", verbatim_doc_comment)]
 struct Options {
-    /// Table of spheres; `-` for standard input. Without it, spheres of the paper.
-    file: Option<PathBuf>,
     /// Largest relative error of the speed; a number type's rounding limits it.
     #[arg(long, default_value_t = 1e-9)]
     tolerance: f64,
-    /// A table to read, or the whole result for a spreadsheet.
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    format: Format,
-    /// Number type to compute in.
-    #[arg(long, value_enum, default_value_t = ScalarType::F64)]
-    scalar: ScalarType,
+    #[command(flatten)]
+    table: TableOptions,
 }
 
 fn main() -> ExitCode {
     let options = Options::parse();
-    let result = match options.scalar {
-        ScalarType::F32 => run::<f32>(&options),
-        ScalarType::F64 => run::<f64>(&options),
-    };
-    command::exit_code("critical", result)
+    options.table.run("critical", || run::<f32>(&options), || run::<f64>(&options))
 }
 
-fn run<T: Scalar + Nodes<8> + Nodes<12>>(options: &Options) -> Result<usize, Box<dyn Error>> {
+fn run<T: Scalar + Nodes<8> + Nodes<12>>(options: &Options) -> BadRows {
     let work = Critical::<T>::new(options.tolerance)?;
-    command::run(options.file.as_deref(), BUNDLED, options.format, &work)
+    options.table.work(BUNDLED, &work)
 }
 
 /// The search, coarse or fine.

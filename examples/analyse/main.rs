@@ -6,6 +6,8 @@
 
 #[path = "../sheet/mod.rs"]
 mod sheet;
+#[path = "../sheet/words.rs"]
+mod words;
 
 mod measured;
 mod plots;
@@ -20,12 +22,13 @@ use std::process::ExitCode;
 use clap::Parser;
 use comfy_table::Cell;
 use indicatif::{ProgressBar, ProgressStyle};
-use microimpact::{Outcome, Real, SurfaceMotion};
+use microimpact::Real;
 use sheet::Row;
-use sheet::command::{self, Format, ScalarType, Work};
+use sheet::command::{BadRows, TableOptions, Work};
 
 use measured::{Inputs, Measured, Number};
 use summary::Summary;
+use words::{motion_name, outcome_name};
 
 /// Analyse measured impacts of microspheres: coefficients, energy, class and how sure it is.
 ///
@@ -49,31 +52,21 @@ use summary::Summary;
 #[derive(Parser)]
 #[command(name = "analyse", verbatim_doc_comment)]
 struct Options {
-    /// Table of impacts; `-` for standard input. Without it, bundled impacts.
-    file: Option<PathBuf>,
     /// Folder for figures: velocity_ratio.svg and impulse_ratio.svg.
     #[arg(long)]
     plots: Option<PathBuf>,
-    /// A table to read, or the whole result for a spreadsheet.
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    format: Format,
-    /// Number type to compute in.
-    #[arg(long, value_enum, default_value_t = ScalarType::F64)]
-    scalar: ScalarType,
+    #[command(flatten)]
+    table: TableOptions,
 }
 
 fn main() -> ExitCode {
     let options = Options::parse();
-    let result = match options.scalar {
-        ScalarType::F32 => run::<f32>(&options),
-        ScalarType::F64 => run::<f64>(&options),
-    };
-    command::exit_code("analyse", result)
+    options.table.run("analyse", || run::<f32>(&options), || run::<f64>(&options))
 }
 
-fn run<T: Number>(options: &Options) -> Result<usize, Box<dyn Error>> {
+fn run<T: Number>(options: &Options) -> BadRows {
     let analysis = Analysis::<T> { summary: RefCell::default(), progress: progress()?, scalar: PhantomData };
-    let bad_rows = command::run(options.file.as_deref(), include_str!("impacts.csv"), options.format, &analysis)?;
+    let bad_rows = options.table.work(include_str!("impacts.csv"), &analysis)?;
     analysis.progress.finish_and_clear();
     let summary = analysis.summary.into_inner();
     eprint!("{summary}");
@@ -202,20 +195,5 @@ impl<T: Number> Work for Analysis<T> {
             share(ledger.rolling),
         ];
         Ok(cells.into_iter().map(Cell::new).collect())
-    }
-}
-
-fn outcome_name(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Rebound => "rebound",
-        Outcome::Capture => "capture",
-    }
-}
-
-fn motion_name(motion: SurfaceMotion) -> &'static str {
-    match motion {
-        SurfaceMotion::Sliding => "sliding",
-        SurfaceMotion::Rolling => "rolling",
-        SurfaceMotion::Resting => "resting",
     }
 }

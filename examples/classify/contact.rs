@@ -6,7 +6,8 @@ use microimpact::{Class, InputError, Outcome, Sphere, Stiffness, SurfaceMotion};
 
 use crate::sheet::command::Work;
 use crate::sheet::{Row, Scalar, reason};
-use crate::{motion_name, outcome_name, sphere_and_motion};
+use crate::sphere_and_motion;
+use crate::words::{motion_name, outcome_name};
 
 /// The simulation to a tolerance, in numbers of type `T`.
 pub struct SimulationModel<T> {
@@ -106,7 +107,7 @@ impl<T: Scalar + AdaptiveNodes> Work for SimulationModel<T> {
             row.cell(outputs.impulses.adhesion_rebound),
             row.cell(outputs.works.material),
             row.cell(outputs.works.adhesion),
-            row.cell(tangential.velocity()),
+            row.cell(tangential.tangential()),
             row.cell(tangential.spin()),
             row.cell(tangential.rotation()),
             row.cell(tangential.displacement()),
@@ -147,7 +148,7 @@ impl<T: Scalar + AdaptiveNodes> Work for SimulationModel<T> {
             class.to_string(),
             format!("{:.4}", normal.overall_restitution()),
             format!("{:.3}", normal.rebound_speed()),
-            format!("{:.3}", tangential.velocity() + T::ZERO),
+            format!("{:.3}", tangential.tangential() + T::ZERO),
             format!("{:.2e}", tangential.spin() + T::ZERO),
             nano(normal.peak_indentation()),
             nano(outputs.times.contact),

@@ -5,21 +5,22 @@
 
 #[path = "../sheet/mod.rs"]
 mod sheet;
+#[path = "../sheet/words.rs"]
+mod words;
 
 mod contact;
 mod rigid_body;
 
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
 use comfy_table::Cell;
 use microimpact::simulation::AdaptiveNodes;
-use microimpact::{NormalMotion, Outcome, PlanarMotion, Sphere, SurfaceMotion};
-use sheet::command::{self, Format, ScalarType, Work};
+use microimpact::{NormalMotion, PlanarMotion, Sphere};
+use sheet::command::{BadRows, TableOptions, Work};
 use sheet::{Row, Scalar, reason};
 
-/// Classify impacts of microspheres: rebound sliding or rolling, or capture.
+/// Classify impacts of microspheres: rebound sliding or rolling, or capture; without a table, those of the paper.
 ///
 /// Columns read, in SI units; an empty cell means what stands in brackets:
 ///   radius_m, density_kg_m3, speed_normal_m_s (approach speed),
@@ -33,28 +34,22 @@ use sheet::{Row, Scalar, reason};
 ///   external_force_n (positive out of the surface; 0).
 /// All other columns pass through; one that is named like a computed column is kept as input_NAME.
 ///
-/// Computed by the simulation: restitution is the overall one; time_roll_s is 0 for a sphere that never slid and -1 for one
-/// that never stopped; what does not exist is left empty; a captured sphere at rest rolls. With both models the columns of the rigid body begin with
-/// rigid_body_.
+/// Computed by the simulation: restitution is the overall one; time_roll_s is 0 for a sphere that never slid and -1 for
+/// one that never stopped; what does not exist is left empty; a captured sphere at rest rolls. With both models the
+/// columns of the rigid body begin with rigid_body_.
 ///
 /// Exit status: 0, or 1 if a row was bad (its reason stands in the column `error`), or 2 if nothing could be read.
 #[derive(Parser)]
 #[command(name = "classify", verbatim_doc_comment)]
 struct Options {
-    /// Table of impacts; `-` for standard input. Without it, impacts of the paper.
-    file: Option<PathBuf>,
     /// The model that classifies.
     #[arg(long, value_enum, default_value_t = Model::RigidBody)]
     model: Model,
     /// Largest error of the square of the restitution by the simulation.
     #[arg(long, default_value_t = 1e-9)]
     tolerance: f64,
-    /// A table to read, or the whole result for a spreadsheet.
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    format: Format,
-    /// Number type to compute in.
-    #[arg(long, value_enum, default_value_t = ScalarType::F64)]
-    scalar: ScalarType,
+    #[command(flatten)]
+    table: TableOptions,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -66,21 +61,17 @@ enum Model {
 
 fn main() -> ExitCode {
     let options = Options::parse();
-    let result = match options.scalar {
-        ScalarType::F32 => run::<f32>(&options),
-        ScalarType::F64 => run::<f64>(&options),
-    };
-    command::exit_code("classify", result)
+    options.table.run("classify", || run::<f32>(&options), || run::<f64>(&options))
 }
 
-fn run<T: Scalar + AdaptiveNodes>(options: &Options) -> Result<usize, Box<dyn std::error::Error>> {
-    let (file, bundled) = (options.file.as_deref(), include_str!("impacts.csv"));
+fn run<T: Scalar + AdaptiveNodes>(options: &Options) -> BadRows {
+    let (table, bundled) = (&options.table, include_str!("impacts.csv"));
     let rigid_body = rigid_body::RigidBodyModel::<T>::new();
     let simulation = contact::SimulationModel::<T>::new(options.tolerance)?;
     match options.model {
-        Model::RigidBody => command::run(file, bundled, options.format, &rigid_body),
-        Model::Simulation => command::run(file, bundled, options.format, &simulation),
-        Model::Both => command::run(file, bundled, options.format, &Both { rigid_body, simulation }),
+        Model::RigidBody => table.work(bundled, &rigid_body),
+        Model::Simulation => table.work(bundled, &simulation),
+        Model::Both => table.work(bundled, &Both { rigid_body, simulation }),
     }
 }
 
@@ -139,7 +130,7 @@ impl<T: Scalar + AdaptiveNodes> Work for Both<T> {
             body.classification.class().to_string(),
             format!("{:.4}", contact.normal.overall_restitution()),
             format!("{:.4}", body.impact.normal.overall_restitution()),
-            format!("{:.4}", contact.tangential.velocity() + T::ZERO),
+            format!("{:.4}", contact.tangential.tangential() + T::ZERO),
             format!("{:.4}", body.impact.tangential.tangential() + T::ZERO),
             format!("{:.2e}", contact.tangential.spin() + T::ZERO),
             format!("{:.2e}", body.impact.tangential.spin(&body.sphere) + T::ZERO),
@@ -160,19 +151,4 @@ fn sphere_and_motion<T: Scalar>(row: &Row<'_>) -> Result<(Sphere<T>, PlanarMotio
         .and_then(|motion| motion.with_spin(&sphere, spin))
         .map_err(reason)?;
     Ok((sphere, motion))
-}
-
-fn outcome_name(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Rebound => "rebound",
-        Outcome::Capture => "capture",
-    }
-}
-
-fn motion_name(motion: SurfaceMotion) -> &'static str {
-    match motion {
-        SurfaceMotion::Sliding => "sliding",
-        SurfaceMotion::Rolling => "rolling",
-        SurfaceMotion::Resting => "resting",
-    }
 }

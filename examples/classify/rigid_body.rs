@@ -11,7 +11,8 @@ use microimpact::{
 
 use crate::sheet::command::Work;
 use crate::sheet::{Row, Scalar, reason};
-use crate::{motion_name, outcome_name, sphere_and_motion};
+use crate::sphere_and_motion;
+use crate::words::{motion_name, outcome_name};
 
 /// The rigid-body model in numbers of type `T`.
 pub struct RigidBodyModel<T> {

@@ -3,17 +3,30 @@
 use std::error::Error;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
-use std::path::Path;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::ValueEnum;
+use clap::{Args, ValueEnum};
 use comfy_table::{Cell, CellAlignment, ContentArrangement, Table, presets};
 
 use super::{Row, Sheet};
 
+/// The options that all of these commands have.
+#[derive(Args)]
+pub struct TableOptions {
+    /// Table to work on; `-` for standard input. Without it, the bundled one.
+    file: Option<PathBuf>,
+    /// A table to read, or the whole result for a spreadsheet.
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+    /// Number type to compute in.
+    #[arg(long, value_enum, default_value_t = ScalarType::F64)]
+    scalar: ScalarType,
+}
+
 /// How a result is written.
 #[derive(Clone, Copy, ValueEnum)]
-pub enum Format {
+enum Format {
     /// To read.
     Table,
     /// The whole result, for a spreadsheet.
@@ -22,7 +35,7 @@ pub enum Format {
 
 /// The number type to compute in.
 #[derive(Clone, Copy, ValueEnum)]
-pub enum ScalarType {
+enum ScalarType {
     F32,
     F64,
 }
@@ -45,29 +58,44 @@ pub trait Work {
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<Cell>, String>;
 }
 
-/// Works on all rows of a file, of standard input where it is `-`, or of a bundled table; the number of bad rows.
-pub fn run(file: Option<&Path>, bundled: &str, format: Format, work: &impl Work) -> Result<usize, Box<dyn Error>> {
-    let source: Box<dyn BufRead> = match file {
-        None => Box::new(bundled.as_bytes()),
-        Some(path) if path.as_os_str() == "-" => Box::new(io::stdin().lock()),
-        Some(path) => {
-            Box::new(BufReader::new(File::open(path).map_err(|error| format!("{}: {error}", path.display()))?))
+/// The number of bad rows, or why nothing could be done.
+pub type BadRows = Result<usize, Box<dyn Error>>;
+
+impl TableOptions {
+    /// Works on all rows of a file, of standard input where it is `-`, or of a bundled table.
+    pub fn work(&self, bundled: &str, work: &impl Work) -> BadRows {
+        let source: Box<dyn BufRead> = match &self.file {
+            None => Box::new(bundled.as_bytes()),
+            Some(path) if path.as_os_str() == "-" => Box::new(io::stdin().lock()),
+            Some(path) => {
+                Box::new(BufReader::new(File::open(path).map_err(|error| format!("{}: {error}", path.display()))?))
+            }
+        };
+        let sheet = Sheet::open(source)?;
+        let sink = io::stdout().lock();
+        match self.format {
+            Format::Csv => write_csv(sheet, sink, work),
+            Format::Table => write_table(sheet, sink, work),
         }
-    };
-    let sheet = Sheet::open(source)?;
-    let sink = io::stdout().lock();
-    match format {
-        Format::Csv => write_csv(sheet, sink, work),
-        Format::Table => write_table(sheet, sink, work),
+    }
+
+    /// Runs a command in the number type asked for; its exit status.
+    pub fn run(&self, command: &str, single: impl FnOnce() -> BadRows, double: impl FnOnce() -> BadRows) -> ExitCode {
+        let outcome = match self.scalar {
+            ScalarType::F32 => single(),
+            ScalarType::F64 => double(),
+        };
+        exit_code(command, outcome)
     }
 }
 
 /// The exit status of a command: 0, or 1 if a row was bad, or 2 if nothing could be done.
-pub fn exit_code(command: &str, result: Result<usize, Box<dyn Error>>) -> ExitCode {
-    match result {
+pub fn exit_code(command: &str, outcome: BadRows) -> ExitCode {
+    match outcome {
         Ok(0) => ExitCode::SUCCESS,
         Ok(bad_rows) => {
-            eprintln!("{command}: {bad_rows} bad rows, each with its reason");
+            let rows = if bad_rows == 1 { "row, with its reason" } else { "rows, each with its reason" };
+            eprintln!("{command}: {bad_rows} bad {rows}");
             ExitCode::from(1)
         }
         Err(error) if is_broken_pipe(error.as_ref()) => ExitCode::SUCCESS,
@@ -87,11 +115,7 @@ fn is_broken_pipe(error: &(dyn Error + 'static)) -> bool {
     io_error.is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
 }
 
-fn write_csv(
-    mut sheet: Sheet<Box<dyn BufRead + '_>>,
-    sink: impl Write,
-    work: &impl Work,
-) -> Result<usize, Box<dyn Error>> {
+fn write_csv(mut sheet: Sheet<Box<dyn BufRead + '_>>, sink: impl Write, work: &impl Work) -> BadRows {
     let mut columns = work.columns();
     let computed = columns.len();
     columns.push("error".into());
@@ -111,11 +135,7 @@ fn write_csv(
     Ok(bad_rows)
 }
 
-fn write_table(
-    mut sheet: Sheet<Box<dyn BufRead + '_>>,
-    mut sink: impl Write,
-    work: &impl Work,
-) -> Result<usize, Box<dyn Error>> {
+fn write_table(mut sheet: Sheet<Box<dyn BufRead + '_>>, mut sink: impl Write, work: &impl Work) -> BadRows {
     let mut table = Table::new();
     table.load_preset(presets::UTF8_FULL_CONDENSED).set_content_arrangement(ContentArrangement::Dynamic);
     table.set_header(work.heads());

@@ -330,7 +330,7 @@ fn tangential_motion_is_that_of_the_simulation() {
             let after = rebound.separation(&coulomb, 0.4, &motion);
             let simulated: SimulatedImpact<_, TangentialContact<_>, ()> = scene.observe(&method, &motion).unwrap();
             let allowed = speed * friction * table.impulse_error();
-            assert!((after.tangential - simulated.tangential.velocity()).abs() <= allowed);
+            assert!((after.tangential - simulated.tangential.tangential()).abs() <= allowed);
             assert!((after.peripheral - simulated.tangential.spin() * radius).abs() <= 2.5 * allowed);
             let over = friction * rebound.impulse * 3.5 - slip.abs();
             if over.abs() > friction * 3.5 * table.impulse_error() {

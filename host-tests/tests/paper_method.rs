@@ -92,7 +92,7 @@ fn converges_to_the_reference() {
         compare(impact.outputs.works.adhesion, "work_adhesion_j", 1e-5);
         let rolls = impact.tangential.motion() == SurfaceMotion::Rolling;
         assert_eq!(rolls, case.text("motion") == "rolling", "{name}");
-        compare(impact.tangential.velocity(), "speed_tangential_out_m_s", 1e-5);
+        compare(impact.tangential.tangential(), "speed_tangential_out_m_s", 1e-5);
         compare(impact.tangential.spin(), "spin_out_rad_s", 1e-5);
         compare(impact.tangential.rotation(), "rotation_rad", 1e-5);
         compare(impact.tangential.displacement(), "displacement_tangential_m", 1e-5);
@@ -217,8 +217,8 @@ fn printed(solve: impl Fn(&Scene, &Motion) -> Answer) -> Printed {
         restitution: table1.restitution,
         peak: table1.peak,
         work_of_adhesion: table1.work_of_adhesion,
-        rebound_angle: (table1.tangential.velocity() / table1.rebound_speed).atan().to_degrees(),
-        tangential: table1.tangential.velocity(),
+        rebound_angle: (table1.tangential.tangential() / table1.rebound_speed).atan().to_degrees(),
+        tangential: table1.tangential.tangential(),
         spin: table1.tangential.spin(),
         rotation: table1.tangential.rotation_degrees(),
         equilibrium: slowly(2.5e-6, 250.0).peak * 0.6,

@@ -1,10 +1,11 @@
 //! Instant classification: tables of a surface and a material, made once, that are read in tens of instructions.
 //!
 //! At a fixed density, stiffness, adhesion and damping the critical speed depends on the radius alone, and smoothly. A
-//! [`BoundaryTable`] holds that curve, with a bound for its own error; a query closer to the curve than that is too close
-//! to call, and one outside the table is told so. Tables are made on the device at start-up from any source of critical
-//! speeds, or on a host as constants, in an array or in [cells](BoundarySlice) that lie elsewhere. A [`RestitutionTable`] adds a surface over radius and speed, from which rebound speed
-//! and sliding or rolling follow without an integration.
+//! [`BoundaryTable`] holds that curve, with a bound for its own error; a query closer to the curve than that is too
+//! close to call, and one outside the table is told so. Tables are made on the device at start-up from any source of
+//! critical speeds, or on a host as constants, in an array or in [cells](BoundarySlice) that lie elsewhere. A
+//! [`RestitutionTable`] adds a surface over radius and speed, from which rebound speed and sliding or rolling follow
+//! without an integration.
 
 mod logarithm;
 mod restitution;

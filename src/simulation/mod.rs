@@ -126,7 +126,7 @@ impl<T: Nodes<N>, O: Observer<T>, const N: usize> Method<T, O> for Collocation<N
 /// let impact = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &before)?;
 /// assert!((impact.normal.overall_restitution() - 0.746193).abs() < 1e-6);
 /// assert!((impact.normal.peak_indentation().unwrap() - 4.251e-8).abs() < 1e-11);
-/// assert!((impact.tangential.velocity() - 0.2102).abs() < 1e-4);
+/// assert!((impact.tangential.tangential() - 0.2102).abs() < 1e-4);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -397,7 +397,7 @@ where
     /// assert_eq!(scene.impact(&method, &motion)?.tangential.motion(), SurfaceMotion::Sliding);
     /// let settled: SettledImpact<_, TangentialContact<f64>> = scene.observe_to_rest(&method, &motion, &criterion)?;
     /// assert_eq!(settled.impact.tangential.motion(), SurfaceMotion::Rolling);
-    /// assert!((settled.impact.tangential.velocity() - 50.0).abs() < 1e-9);
+    /// assert!((settled.impact.tangential.tangential() - 50.0).abs() < 1e-9);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn observe_to_rest<const N: usize, M, G, O>(

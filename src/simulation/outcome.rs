@@ -7,9 +7,9 @@ use super::dimensionless::DimensionlessContact;
 use super::motion::{End, NormalPath};
 use super::run::Status;
 use super::scaled::Scaled;
-use super::tangential::{SpinDamping, SurfaceImpulse, TangentialMotion};
+use super::tangential::{NoPeeling, SpinDamping, SurfaceImpulse, SurfaceResult, TangentialMotion};
 use crate::rigid::EnergyLedger;
-use crate::{Class, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
+use crate::{Class, ContactClass, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
 
 /// The normal side of a simulated impact.
 ///
@@ -210,7 +210,7 @@ impl<T: Real> NormalContact<T> {
 /// let motion = NormalMotion::new(1.0)?.with_tangential(0.7)?;
 /// let contact = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &motion)?.tangential;
 /// assert_eq!(contact.motion(), SurfaceMotion::Rolling);
-/// assert!((contact.velocity() - 0.5).abs() < 1e-12);
+/// assert!((contact.tangential() - 0.5).abs() < 1e-12);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -220,7 +220,7 @@ pub struct TangentialContact<T> {
     motion: SurfaceMotion,
     /// Whether nothing moves any more.
     resting: bool,
-    velocity: T,
+    tangential: T,
     spin: T,
     rotation: T,
     displacement: T,
@@ -229,18 +229,20 @@ pub struct TangentialContact<T> {
     energies: [T; 3],
 }
 
-impl<T: Real> TangentialContact<T> {
-    pub(super) fn new<P: SpinDamping<T>>(
-        motion: &TangentialMotion<T, P>,
+impl<T: Real, P: SpinDamping<T>> SurfaceResult<T, TangentialContact<T>> for P {
+    type Observer = TangentialMotion<T, P>;
+
+    fn result(
+        motion: &Self::Observer,
         path: &NormalPath<T>,
         sphere: &Sphere<T>,
         units: &Scaled<T>,
-    ) -> Self {
+    ) -> TangentialContact<T> {
         let energies = [motion.energy(), motion.friction_loss, motion.peeling_loss];
-        Self {
+        TangentialContact {
             motion: surface_motion(motion.slides(), false),
             resting: path.end == End::Capture && motion.rests(),
-            velocity: motion.tangential * units.speed,
+            tangential: motion.tangential * units.speed,
             spin: motion.peripheral * units.speed / sphere.radius(),
             rotation: motion.rotation * (units.length / sphere.radius()),
             displacement: motion.displacement * units.length,
@@ -248,7 +250,9 @@ impl<T: Real> TangentialContact<T> {
             energies: energies.map(|energy| energy * units.speed * units.speed),
         }
     }
+}
 
+impl<T: Real> TangentialContact<T> {
     /// Whether the contact point slips or the sphere rolls, if only with no speed at all.
     ///
     /// ```
@@ -275,11 +279,11 @@ impl<T: Real> TangentialContact<T> {
     /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_friction(0.1)?;
     /// let motion = NormalMotion::new(1.0)?.with_tangential(5.0)?;
     /// let contact = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &motion)?.tangential;
-    /// assert!((contact.velocity() - 4.8).abs() < 1e-8);
+    /// assert!((contact.tangential() - 4.8).abs() < 1e-8);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn velocity(&self) -> T {
-        self.velocity
+    pub fn tangential(&self) -> T {
+        self.tangential
     }
 
     /// Spin W, rad/s.
@@ -381,7 +385,7 @@ impl<T: Real> TangentialContact<T> {
 /// let impact: SimulatedImpact<_, TangentialVelocities<f64>, ()> =
 ///     scene.observe(&method, &NormalMotion::new(1.0)?.with_tangential(5.0)?)?;
 /// assert_eq!(impact.tangential.motion, SurfaceMotion::Sliding);
-/// assert!((impact.tangential.velocity - 4.8).abs() < 1e-5);
+/// assert!((impact.tangential.tangential - 4.8).abs() < 1e-5);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -391,20 +395,36 @@ pub struct TangentialVelocities<T> {
     /// Whether the sphere slides, rolls or, captured, rests.
     pub motion: SurfaceMotion,
     /// Tangential velocity V_t, m/s.
-    pub velocity: T,
+    pub tangential: T,
     /// Spin W, rad/s.
     pub spin: T,
 }
 
-impl<T: Real> TangentialVelocities<T> {
-    pub(super) fn new(motion: &SurfaceImpulse<T>, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
+impl<T: Real> SurfaceResult<T, TangentialVelocities<T>> for NoPeeling {
+    type Observer = SurfaceImpulse<T>;
+
+    fn result(
+        motion: &Self::Observer,
+        path: &NormalPath<T>,
+        sphere: &Sphere<T>,
+        units: &Scaled<T>,
+    ) -> TangentialVelocities<T> {
         let captured = path.end == End::Capture;
-        let (sliding, [velocity, peripheral]) = motion.after(captured);
-        Self {
+        let (sliding, [tangential, peripheral]) = motion.after(captured);
+        TangentialVelocities {
             motion: surface_motion(sliding, captured && motion.rests()),
-            velocity: velocity * units.speed,
+            tangential: tangential * units.speed,
             spin: peripheral * units.speed / sphere.radius(),
         }
+    }
+}
+
+impl<T: Real> SurfaceResult<T, ContactClass<T>> for NoPeeling {
+    type Observer = SurfaceImpulse<T>;
+
+    fn result(motion: &Self::Observer, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> ContactClass<T> {
+        let after: TangentialVelocities<T> = Self::result(motion, path, sphere, units);
+        ContactClass { motion: after.motion, friction_over_limit: motion.friction_over_limit() }
     }
 }
 
@@ -423,7 +443,7 @@ fn surface_motion(sliding: bool, resting: bool) -> SurfaceMotion {
 /// use microimpact::simulation::{SurfaceState, TangentialVelocities};
 /// use microimpact::SurfaceMotion;
 ///
-/// let slow = TangentialVelocities { motion: SurfaceMotion::Rolling, velocity: 1e-3, spin: 1e3 };
+/// let slow = TangentialVelocities { motion: SurfaceMotion::Rolling, tangential: 1e-3, spin: 1e3 };
 /// assert_eq!(SurfaceState::surface_motion(&slow), SurfaceMotion::Rolling);
 /// ```
 pub trait SurfaceState {

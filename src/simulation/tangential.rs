@@ -15,12 +15,11 @@ use super::law::NormalLaw;
 use super::motion::NormalPath;
 use super::nodes::Nodes;
 use super::observer::Observer;
-use super::outcome::{TangentialContact, TangentialVelocities};
+use super::outcome::TangentialContact;
 use super::relaxation::{SLOW, relaxed};
-use super::ring::Ring;
-use super::scaled::Scaled;
+use super::scaled::{ScalePeeling, Scaled};
 use super::stretch::{Stretch, dot, integrals};
-use crate::{ContactClass, Coulomb, InputError, NoFriction, Oblique, Parameter, Real, Sphere};
+use crate::{Coulomb, InputError, NoFriction, Oblique, Parameter, Real, Sphere};
 
 /// No peeling moment.
 ///
@@ -145,9 +144,8 @@ struct Slide<T, const N: usize> {
     peripheral_after: T,
 }
 
-impl<T: Real, P: SpinDamping<T>> TangentialMotion<T, P> {
-    /// The motion before contact, with velocities divided by `unit`.
-    pub(super) fn new(motion: &impl Oblique<T>, unit: T, friction: T, gyration_ratio: T, peeling: P) -> Self {
+impl<T: Real, P: SpinDamping<T>> SurfaceObserver<T, P> for TangentialMotion<T, P> {
+    fn new(motion: &impl Oblique<T>, unit: T, friction: T, gyration_ratio: T, peeling: P) -> Self {
         let direction = direction(motion.slip());
         let (tangential, peripheral) = (motion.tangential() / unit, motion.peripheral() / unit);
         Self {
@@ -166,7 +164,9 @@ impl<T: Real, P: SpinDamping<T>> TangentialMotion<T, P> {
             rounding: rounding(tangential, peripheral, gyration_ratio),
         }
     }
+}
 
+impl<T: Real, P: SpinDamping<T>> TangentialMotion<T, P> {
     /// Whether it rolls with no more than a speed of rounding.
     pub(super) fn rests(&self) -> bool {
         !self.slides() && self.tangential.abs() <= self.rounding
@@ -433,12 +433,14 @@ pub struct SurfaceImpulse<T> {
     elastic: T,
 }
 
-impl<T: Real> SurfaceImpulse<T> {
-    fn new(motion: &impl Oblique<T>, unit: T, friction: T, gyration_ratio: T) -> Self {
+impl<T: Real> SurfaceObserver<T, NoPeeling> for SurfaceImpulse<T> {
+    fn new(motion: &impl Oblique<T>, unit: T, friction: T, gyration_ratio: T, _peeling: NoPeeling) -> Self {
         let (tangential, peripheral) = (motion.tangential() / unit, motion.peripheral() / unit);
         Self { friction, gyration_ratio, tangential, peripheral, elastic: T::ZERO }
     }
+}
 
+impl<T: Real> SurfaceImpulse<T> {
     /// What friction can change of the slip.
     #[inline]
     fn reach(&self) -> T {
@@ -446,7 +448,7 @@ impl<T: Real> SurfaceImpulse<T> {
     }
 
     /// The same over the slip; `None` where nothing slips.
-    fn friction_over_limit(&self) -> Option<T> {
+    pub(super) fn friction_over_limit(&self) -> Option<T> {
         let slip = (self.tangential - self.peripheral).abs();
         (slip > T::ZERO).then(|| self.reach().saturating_div(slip))
     }
@@ -487,8 +489,9 @@ impl<T: Real> Integrals<T> for SurfaceImpulse<T> {
 
 observe_by_integrals!(SurfaceImpulse, timed: true);
 
-/// A tangential side of a scene, with a result `G`: `()` without friction; with it all of [`TangentialContact`], or, without a
-/// peeling moment, [`TangentialVelocities`] or [`ContactClass`] alone.
+/// A tangential side of a scene, with a result `G`: `()` without friction; with it all of [`TangentialContact`], or,
+/// without a peeling moment, [`TangentialVelocities`](super::TangentialVelocities) or
+/// [`ContactClass`](crate::ContactClass) alone.
 ///
 /// ```
 /// use microimpact::simulation::{NoPeeling, TangentialScene};
@@ -550,102 +553,44 @@ impl<T: Real, M, A, P> TangentialScene<T, M, A, P, ()> for NoFriction {
     fn finish((): (), _: &NormalPath<T>, _: &Sphere<T>, _: &Scaled<T>) {}
 }
 
-impl<T: Real, M: Oblique<T>, A> TangentialScene<T, M, A, NoPeeling, TangentialVelocities<T>> for Coulomb<T> {
-    type Observer = SurfaceImpulse<T>;
+impl<T, M, A, P, G> TangentialScene<T, M, A, P, G> for Coulomb<T>
+where
+    T: Real,
+    M: Oblique<T>,
+    P: ScalePeeling<T, A, Scaled: SurfaceResult<T, G>>,
+{
+    type Observer = <P::Scaled as SurfaceResult<T, G>>::Observer;
 
     fn start(
         &self,
         sphere: &Sphere<T>,
-        _adhesion: &A,
-        _peeling: &NoPeeling,
+        adhesion: &A,
+        peeling: &P,
         motion: &M,
         units: &Scaled<T>,
     ) -> Result<Self::Observer, InputError> {
-        Ok(SurfaceImpulse::new(motion, units.speed, self.coefficient(), sphere.gyration_ratio()))
+        let peeling = peeling.scale(adhesion, sphere, units)?;
+        Ok(SurfaceObserver::new(motion, units.speed, self.coefficient(), sphere.gyration_ratio(), peeling))
     }
 
-    fn finish(
-        observer: Self::Observer,
-        path: &NormalPath<T>,
-        sphere: &Sphere<T>,
-        units: &Scaled<T>,
-    ) -> TangentialVelocities<T> {
-        TangentialVelocities::new(&observer, path, sphere, units)
+    fn finish(observer: Self::Observer, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> G {
+        P::Scaled::result(&observer, path, sphere, units)
     }
 }
 
-impl<T: Real, M: Oblique<T>, A> TangentialScene<T, M, A, NoPeeling, ContactClass<T>> for Coulomb<T> {
-    type Observer = SurfaceImpulse<T>;
-
-    fn start(
-        &self,
-        sphere: &Sphere<T>,
-        _adhesion: &A,
-        _peeling: &NoPeeling,
-        motion: &M,
-        units: &Scaled<T>,
-    ) -> Result<Self::Observer, InputError> {
-        Ok(SurfaceImpulse::new(motion, units.speed, self.coefficient(), sphere.gyration_ratio()))
-    }
-
-    fn finish(
-        observer: Self::Observer,
-        path: &NormalPath<T>,
-        sphere: &Sphere<T>,
-        units: &Scaled<T>,
-    ) -> ContactClass<T> {
-        let motion = TangentialVelocities::new(&observer, path, sphere, units).motion;
-        ContactClass { motion, friction_over_limit: observer.friction_over_limit() }
-    }
+/// What is integrated along the motion of a sphere with friction, under a scaled peeling moment `P`.
+pub trait SurfaceObserver<T: Real, P> {
+    /// The state before contact, with velocities divided by `unit`.
+    fn new(motion: &impl Oblique<T>, unit: T, friction: T, gyration_ratio: T, peeling: P) -> Self;
 }
 
-impl<T: Real, M: Oblique<T>, A> TangentialScene<T, M, A, NoPeeling, TangentialContact<T>> for Coulomb<T> {
-    type Observer = TangentialMotion<T, NoPeeling>;
+/// A scaled peeling moment, or none, under which a scene with friction has the result `G`.
+pub trait SurfaceResult<T: Real, G>: Sized {
+    /// What is integrated for it.
+    type Observer: SurfaceObserver<T, Self>;
 
-    fn start(
-        &self,
-        sphere: &Sphere<T>,
-        _adhesion: &A,
-        peeling: &NoPeeling,
-        motion: &M,
-        units: &Scaled<T>,
-    ) -> Result<Self::Observer, InputError> {
-        Ok(TangentialMotion::new(motion, units.speed, self.coefficient(), sphere.gyration_ratio(), *peeling))
-    }
-
-    fn finish(
-        observer: Self::Observer,
-        path: &NormalPath<T>,
-        sphere: &Sphere<T>,
-        units: &Scaled<T>,
-    ) -> TangentialContact<T> {
-        TangentialContact::new(&observer, path, sphere, units)
-    }
-}
-
-impl<T: Real, M: Oblique<T>> TangentialScene<T, M, Ring<T>, Peeling<T>, TangentialContact<T>> for Coulomb<T> {
-    type Observer = TangentialMotion<T, ScaledPeeling<T>>;
-
-    fn start(
-        &self,
-        sphere: &Sphere<T>,
-        adhesion: &Ring<T>,
-        peeling: &Peeling<T>,
-        motion: &M,
-        units: &Scaled<T>,
-    ) -> Result<Self::Observer, InputError> {
-        let peeling = super::scaled::peeling(peeling, adhesion, sphere, units)?;
-        Ok(TangentialMotion::new(motion, units.speed, self.coefficient(), sphere.gyration_ratio(), peeling))
-    }
-
-    fn finish(
-        observer: Self::Observer,
-        path: &NormalPath<T>,
-        sphere: &Sphere<T>,
-        units: &Scaled<T>,
-    ) -> TangentialContact<T> {
-        TangentialContact::new(&observer, path, sphere, units)
-    }
+    /// The result in SI units.
+    fn result(motion: &Self::Observer, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> G;
 }
 
 /// Place, value and, at a node, slope at an end of a bracket.

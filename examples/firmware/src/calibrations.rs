@@ -3,15 +3,16 @@
 
 use core::marker::PhantomData;
 
+use microimpact::Stiffness;
 use microimpact::calibrate::{
     CalibrationError, Estimate, ImpulseRatios, Rebound, RestitutionFit, adhesion_damping, friction, material_damping,
     parameter, ring_strength,
 };
-use microimpact::simulation::{Collocation, Method, Simulation};
-use microimpact::{InputError, Sphere, Stiffness};
+use microimpact::simulation::{Collocation, Method};
 
-use super::contacts::{MATERIAL_DAMPING, RING_N_M, STIFFNESS_PA, Setting, surface_of};
-use super::scenes::{DENSITY_KG_M3, Number, RADIUS_M, given};
+use super::contacts::{Setting, elastic, surface_of};
+use super::scenes::{Number, given, sphere};
+use super::table_1::{APPROACH_M_S, MATERIAL_DAMPING, OVERALL_RESTITUTION, RADIUS_M, RING_N_M, STIFFNESS_PA};
 
 /// A calibration, with what was measured for it.
 pub trait Calibration<T: Number>: Sized {
@@ -26,17 +27,38 @@ pub trait Calibration<T: Number>: Sized {
     fn calibrate(&self) -> Result<Self::Answer, CalibrationError>;
 }
 
-/// A measured rebound of the sphere, and the method and the tolerance with which it is explained.
-struct OneRebound<T, M> {
+/// A parameter that one rebound of the sphere gives.
+pub trait OfOneRebound {
+    /// Name of the calibration.
+    const NAME: &'static str;
+    /// Approach speed (m/s) and restitution.
+    const MEASURED: (f64, f64);
+
+    /// The parameter, to a relative tolerance.
+    fn find<T: Number>(rebound: &Rebound<T>, method: &impl Method<T, ()>, tolerance: T) -> Result<T, CalibrationError>;
+}
+
+/// A measured rebound of the sphere, and the method and the tolerance with which it is explained by the parameter `P`.
+pub struct OneRebound<T, M, P> {
     rebound: Rebound<T>,
     method: M,
     tolerance: T,
+    parameter: PhantomData<P>,
 }
 
-impl<T: Number, M: Tolerant> OneRebound<T, M> {
-    fn new(speed: f64, restitution: f64) -> Option<Self> {
+impl<T: Number, M: Tolerant + Method<T, ()>, P: OfOneRebound> Calibration<T> for OneRebound<T, M, P> {
+    const NAME: &'static str = P::NAME;
+    type Answer = [T; 1];
+
+    fn new() -> Option<Self> {
+        let (speed, restitution) = P::MEASURED;
         let rebound = Rebound { speed: given(speed), restitution: given(restitution) };
-        Some(Self { rebound, method: M::new()?, tolerance: given(M::TOLERANCE) })
+        Some(Self { rebound, method: M::new()?, tolerance: given(M::TOLERANCE), parameter: PhantomData })
+    }
+
+    #[inline(always)]
+    fn calibrate(&self) -> Result<[T; 1], CalibrationError> {
+        Ok([P::find(&self.rebound, &self.method, self.tolerance)?])
     }
 }
 
@@ -55,57 +77,42 @@ impl Tolerant for Collocation<9, f64> {
 }
 
 /// zeta_H from R, at a speed where adhesion hardly counts.
-pub struct MaterialDamping<T, M>(OneRebound<T, M>);
+pub struct MaterialDamping;
 
-impl<T: Number, M: Tolerant + Method<T, ()>> Calibration<T> for MaterialDamping<T, M> {
+impl OfOneRebound for MaterialDamping {
     const NAME: &'static str = "calibrate/material-damping";
-    type Answer = [T; 1];
-
-    fn new() -> Option<Self> {
-        OneRebound::new(13.0, 0.909).map(Self)
-    }
+    const MEASURED: (f64, f64) = (13.0, 0.909);
 
     #[inline(always)]
-    fn calibrate(&self) -> Result<[T; 1], CalibrationError> {
-        let OneRebound { rebound, method, tolerance } = &self.0;
-        Ok([material_damping(&bare()?, method, rebound, *tolerance)?])
+    fn find<T: Number>(rebound: &Rebound<T>, method: &impl Method<T, ()>, tolerance: T) -> Result<T, CalibrationError> {
+        material_damping(&elastic()?, method, rebound, tolerance)
     }
 }
 
 /// zeta_A from e of Table 1.
-pub struct AdhesionDamping<T, M>(OneRebound<T, M>);
+pub struct AdhesionDamping;
 
-impl<T: Number, M: Tolerant + Method<T, ()>> Calibration<T> for AdhesionDamping<T, M> {
+impl OfOneRebound for AdhesionDamping {
     const NAME: &'static str = "calibrate/adhesion-damping";
-    type Answer = [T; 1];
-
-    fn new() -> Option<Self> {
-        OneRebound::new(2.8, 0.746).map(Self)
-    }
+    const MEASURED: (f64, f64) = (APPROACH_M_S, OVERALL_RESTITUTION);
 
     #[inline(always)]
-    fn calibrate(&self) -> Result<[T; 1], CalibrationError> {
-        let OneRebound { rebound, method, tolerance } = &self.0;
-        let damped = bare()?.with_damping(given(MATERIAL_DAMPING))?;
-        Ok([adhesion_damping(&damped, given(RING_N_M), method, rebound, *tolerance)?])
+    fn find<T: Number>(rebound: &Rebound<T>, method: &impl Method<T, ()>, tolerance: T) -> Result<T, CalibrationError> {
+        let damped = elastic()?.with_damping(given(MATERIAL_DAMPING))?;
+        adhesion_damping(&damped, given(RING_N_M), method, rebound, tolerance)
     }
 }
 
 /// The radius from e of Table 1, between 2 um and 20 um.
-pub struct Radius<T, M>(OneRebound<T, M>);
+pub struct Radius;
 
-impl<T: Number, M: Tolerant + Method<T, ()>> Calibration<T> for Radius<T, M> {
+impl OfOneRebound for Radius {
     const NAME: &'static str = "calibrate/radius";
-    type Answer = [T; 1];
-
-    fn new() -> Option<Self> {
-        OneRebound::new(2.8, 0.746).map(Self)
-    }
+    const MEASURED: (f64, f64) = (APPROACH_M_S, OVERALL_RESTITUTION);
 
     #[inline(always)]
-    fn calibrate(&self) -> Result<[T; 1], CalibrationError> {
-        let OneRebound { rebound, method, tolerance } = &self.0;
-        Ok([parameter((given(2e-6), given(20e-6)), surface_of, method, rebound, *tolerance)?])
+    fn find<T: Number>(rebound: &Rebound<T>, method: &impl Method<T, ()>, tolerance: T) -> Result<T, CalibrationError> {
+        parameter((given(2e-6), given(20e-6)), surface_of, method, rebound, tolerance)
     }
 }
 
@@ -202,14 +209,6 @@ fn numbers<T>(Estimate { value, standard_error }: Estimate<T>) -> [T; 2] {
     [value, standard_error]
 }
 
-fn sphere<T: Number>() -> Result<Sphere<T>, InputError> {
-    Sphere::solid(given(RADIUS_M), given(DENSITY_KG_M3))
-}
-
-fn bare<T: Number>() -> Result<Simulation<T>, InputError> {
-    Ok(Simulation::new(sphere()?, Stiffness::new(given(STIFFNESS_PA))?))
-}
-
 /// Work to do for every calibration and number type.
 pub trait CalibrationVisitor {
     /// Does it for one of them.
@@ -223,10 +222,10 @@ pub fn visit_calibrations(visitor: &mut impl CalibrationVisitor) {
 }
 
 fn visit_calibrations_of<T: Number, M: Tolerant + Method<T, ()>>(visitor: &mut impl CalibrationVisitor) {
-    visitor.visit::<T, MaterialDamping<T, M>>();
-    visitor.visit::<T, AdhesionDamping<T, M>>();
+    visitor.visit::<T, OneRebound<T, M, MaterialDamping>>();
+    visitor.visit::<T, OneRebound<T, M, AdhesionDamping>>();
     visitor.visit::<T, AdhesionStrength<T>>();
-    visitor.visit::<T, Radius<T, M>>();
+    visitor.visit::<T, OneRebound<T, M, Radius>>();
     visitor.visit::<T, RestitutionLaw<T>>();
     visitor.visit::<T, Friction<T>>();
 }

@@ -11,12 +11,8 @@ use microimpact::simulation::{
 use microimpact::{Class, Coulomb, InputError, NoFriction, NormalMotion, Outcome, PlanarMotion, Sphere, Stiffness};
 
 use super::impacts::{CONTACTS, Impact};
-use super::scenes::{Answer, DENSITY_KG_M3, FRICTION, Measured, Number, RADIUS_M, Scene, Visitor, given};
-
-pub(super) const STIFFNESS_PA: f64 = 7.5e10;
-pub(super) const MATERIAL_DAMPING: f64 = 10.5;
-pub(super) const RING_N_M: f64 = 250.0;
-const RING_DAMPING: f64 = 6.25;
+use super::scenes::{Answer, Measured, Number, Scene, Visitor, given};
+use super::table_1::{DENSITY_KG_M3, FRICTION, MATERIAL_DAMPING, RADIUS_M, RING_DAMPING, RING_N_M, STIFFNESS_PA};
 
 /// The class of an impact that the library refuses.
 pub const REFUSED: &str = "refused";
@@ -157,10 +153,17 @@ pub(super) fn surface<T: Number>() -> Result<Surface<T>, InputError> {
 
 /// The surface, and a sphere of the same material with another radius.
 pub(super) fn surface_of<T: Number>(radius: T) -> Result<Surface<T>, InputError> {
+    elastic_of(radius)?.with_damping(given(MATERIAL_DAMPING))?.with_ring(given(RING_N_M), given(RING_DAMPING))
+}
+
+/// The same without damping and adhesion.
+pub(super) fn elastic<T: Number>() -> Result<Simulation<T>, InputError> {
+    elastic_of(given(RADIUS_M))
+}
+
+fn elastic_of<T: Number>(radius: T) -> Result<Simulation<T>, InputError> {
     let sphere = Sphere::solid(radius, given(DENSITY_KG_M3))?;
-    Simulation::new(sphere, Stiffness::new(given(STIFFNESS_PA))?)
-        .with_damping(given(MATERIAL_DAMPING))?
-        .with_ring(given(RING_N_M), given(RING_DAMPING))
+    Ok(Simulation::new(sphere, Stiffness::new(given(STIFFNESS_PA))?))
 }
 
 /// Overall restitution in f64, by the most exact method.

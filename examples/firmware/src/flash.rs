@@ -3,9 +3,11 @@
 use core::hint::black_box;
 
 use crate::scenes::{Measured, Number, Scene};
+use crate::table_1::{APPROACH_M_S, SPIN_RAD_S};
 
-/// Brach & Dunn (1995), Table 1.
-pub const MEASURED: Measured<f32> = Measured { approach_m_s: 2.8, tangential_m_s: 0.0, spin_rad_s: 1.46e5 };
+/// The impact of Table 1.
+pub const MEASURED: Measured<f32> =
+    Measured { approach_m_s: APPROACH_M_S as f32, tangential_m_s: 0.0, spin_rad_s: SPIN_RAD_S as f32 };
 
 /// Validates a scene and then, for ever, a motion, and classifies it.
 pub fn classify_for_ever<T: Number, S: Scene<T>>(impact: Measured<T>) -> ! {

@@ -1,5 +1,7 @@
 //! The impacts that the firmware classifies and simulates: plain numbers in SI units.
 
+use super::table_1::{APPROACH_M_S, SPIN_RAD_S};
+
 /// A motion before the impact.
 #[derive(Debug, Clone, Copy)]
 pub struct Impact {
@@ -24,14 +26,15 @@ impl Impact {
     }
 }
 
+const TABLE_1: Impact = Impact::new("table-1", APPROACH_M_S, 0.0, SPIN_RAD_S);
+
 /// Every way in which an impact can end, with some of them close to another class.
 ///
 /// The names say what becomes of the sphere where adhesion is given by its work; where
 /// it is given by a coefficient below one, every sphere rebounds.
 pub static IMPACTS: [Impact; 9] = [
     Impact::new("straight", 2.8, 0.0, 0.0),
-    // Brach & Dunn (1995), Table 1.
-    Impact::new("table-1", 2.8, 0.0, 1.46e5),
+    TABLE_1,
     Impact::new("oblique", 2.8, 20.0, 0.0),
     Impact::new("just-slides", 2.8, 1.75, 0.0),
     Impact::new("backspin", 2.8, 1.0, -5.0e5),
@@ -47,8 +50,7 @@ pub static CONTACTS: [Impact; 6] = [
     Impact::new("straight", 2.8, 0.0, 0.0),
     Impact::new("just-rebounds", 1.5, 0.0, 0.0),
     Impact::new("rests", 0.5, 0.0, 0.0),
-    // Brach & Dunn (1995), Table 1.
-    Impact::new("table-1", 2.8, 0.0, 1.46e5),
+    TABLE_1,
     Impact::new("oblique", 2.8, 20.0, 0.0),
     Impact::new("slides-on", 0.5, 20.0, 0.0),
 ];

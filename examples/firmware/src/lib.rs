@@ -1,8 +1,8 @@
 //! What the firmware binaries share: the impacts, the scenes that classify
 //! them, and calls of all of the library.
 //!
-//! `approximate`, `impacts`, `scenes`, `contacts`, `fixed_contacts`, `tables`, `variants` and `calibrations` know nothing of a
-//! microcontroller; the runner `cargo qemu` compiles the same eight files for the host and compares.
+//! `approximate`, `impacts`, `scenes`, `contacts`, `fixed_contacts`, `table_1`, `tables`, `variants` and `calibrations` know
+//! nothing of a microcontroller; the runner `cargo qemu` compiles the same nine files for the host and compares.
 
 #![no_std]
 
@@ -25,5 +25,6 @@ pub mod methods;
 pub mod scenes;
 #[cfg(feature = "instrument")]
 pub mod station;
+pub mod table_1;
 pub mod tables;
 pub mod variants;

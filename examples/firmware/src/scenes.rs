@@ -1,5 +1,5 @@
-//! The scenes in which the impacts are classified as rigid bodies: normal impacts only, or
-//! friction and spin, each with adhesion given in either way, in f32 and in f64.
+//! The scenes in which the impacts are classified as rigid bodies, with the sphere of Brach & Dunn (1995), Table 1: normal
+//! impacts only, or friction and spin, each with adhesion given in either way, in f32 and in f64.
 
 use core::fmt::LowerExp;
 use core::hint::black_box;
@@ -15,15 +15,10 @@ use super::approximate::Approximate;
 use super::contacts::NormalContacts;
 use super::fixed_contacts::visit_fixed_contacts;
 use super::impacts::{IMPACTS, Impact};
+use super::table_1::{
+    ADHESION_COEFFICIENT, DENSITY_KG_M3, FRICTION, RADIUS_M, RESTITUTION_SPEED_M_S, WORK_OF_ADHESION_J,
+};
 use super::tables::visit_tables;
-
-// The sphere of Brach & Dunn (1995), Table 1.
-pub(super) const RADIUS_M: f64 = 5.06e-6;
-pub(super) const DENSITY_KG_M3: f64 = 2600.0;
-pub(super) const FRICTION: f64 = 0.1;
-const RESTITUTION_SPEED_M_S: f64 = 130.0;
-const ADHESION_COEFFICIENT: f64 = 0.237;
-pub(super) const WORK_OF_ADHESION_J: f64 = 2.22e-12;
 
 /// A number type of the comparison.
 pub trait Number: Real + LowerExp {
@@ -189,9 +184,11 @@ impl<T: Number> Adhesion<T> for WorkOfAdhesion<T> {
 }
 
 pub(super) fn bare_scene<T: Number>() -> Result<RigidBody<T, SpeedRestitution<T>>, InputError> {
-    let sphere = Sphere::solid(given(RADIUS_M), given(DENSITY_KG_M3))?;
-    let restitution = SpeedRestitution::new(given(RESTITUTION_SPEED_M_S))?;
-    Ok(RigidBody::new(sphere, restitution))
+    Ok(RigidBody::new(sphere()?, SpeedRestitution::new(given(RESTITUTION_SPEED_M_S))?))
+}
+
+pub(super) fn sphere<T: Number>() -> Result<Sphere<T>, InputError> {
+    Sphere::solid(given(RADIUS_M), given(DENSITY_KG_M3))
 }
 
 /// A number that the compiler does not know, as if it were read from a configuration:

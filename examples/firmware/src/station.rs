@@ -5,6 +5,8 @@ use microimpact::instrument::{PlanarReading, SpeedBins};
 use microimpact::rigid::WorkOfAdhesion;
 use microimpact::{Class, Coulomb, InputError, Real, RigidBody, SpeedRestitution, Sphere};
 
+use crate::table_1::{DENSITY_KG_M3, FRICTION, RADIUS_M, RESTITUTION_SPEED_M_S, WORK_OF_ADHESION_J};
+
 /// Particle and surface.
 pub type Scene<T> = RigidBody<T, SpeedRestitution<T>, WorkOfAdhesion<T>, Coulomb<T>>;
 /// What the detector delivers.
@@ -32,10 +34,10 @@ pub const OTHER_WORK: u32 = 300_000;
 /// # Errors
 /// None for the values here.
 pub fn scene<T: Real>() -> Result<Scene<T>, InputError> {
-    let sphere = Sphere::solid(T::constant(5.06e-6), T::constant(2600.0))?;
-    RigidBody::new(sphere, SpeedRestitution::new(T::constant(130.0))?)
-        .with_work_of_adhesion(T::constant(2.22e-12))?
-        .with_friction(T::constant(0.1))
+    let sphere = Sphere::solid(T::constant(RADIUS_M), T::constant(DENSITY_KG_M3))?;
+    RigidBody::new(sphere, SpeedRestitution::new(T::constant(RESTITUTION_SPEED_M_S))?)
+        .with_work_of_adhesion(T::constant(WORK_OF_ADHESION_J))?
+        .with_friction(T::constant(FRICTION))
 }
 
 /// Bins of approach speed for the statistics of restitution.

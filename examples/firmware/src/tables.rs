@@ -9,7 +9,8 @@ use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, SurfaceMotion
 
 use super::contacts::{exact_restitution, surface_of};
 use super::impacts::{CONTACTS, Impact};
-use super::scenes::{Answer, FRICTION, Measured, Number, RADIUS_M, Scene, Visitor, given};
+use super::scenes::{Answer, Measured, Number, Scene, Visitor, given};
+use super::table_1::{FRICTION, RADIUS_M};
 
 /// Three octaves of radii around that of the sphere.
 pub type Table = BoundaryTable<12>;
@@ -92,7 +93,7 @@ fn surface<T: Number + Nodes<7> + Single>() -> Result<Surface<T>, InputError> {
         let along = T::constant(10.0) * speed;
         let motion = NormalMotion::new(speed)?.with_tangential(along)?.with_peripheral_velocity(T::ZERO)?;
         let impact: SimulatedImpact<_, TangentialContact<_>, ()> = scene.observe(&method, &motion)?;
-        let impulse = (along - impact.tangential.velocity()) / speed;
+        let impulse = (along - impact.tangential.tangential()) / speed;
         Ok(Rebound { restitution: impact.normal.overall_restitution(), impulse })
     })
 }

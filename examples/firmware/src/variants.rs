@@ -1,5 +1,6 @@
 //! Scenes that differ by one term each, so that the difference of their costs is the price of that term: as rigid bodies,
-//! simulated by one method of fixed cost, and simulated to a tolerance. All are on the surface of Brach & Dunn (1995), Table 1.
+//! simulated by one method of fixed cost, and simulated to a tolerance. All are on the surface of Brach & Dunn (1995),
+//! Table 1.
 
 use core::hint::black_box;
 
@@ -11,14 +12,13 @@ use microimpact::simulation::{
 };
 use microimpact::{
     Classification, ContactClass, Coulomb, InputError, NoAdhesion, NoFriction, NormalMotion, ObliqueMotion,
-    PlanarMotion, RigidBody, SpeedRestitution, Sphere, Stiffness,
+    PlanarMotion, RigidBody, SpeedRestitution, Sphere,
 };
 
-use super::contacts::{MATERIAL_DAMPING, STIFFNESS_PA, Surface, exact_restitution, surface};
+use super::contacts::{Surface, elastic, exact_restitution, surface};
 use super::impacts::{CONTACTS, IMPACTS, Impact};
-use super::scenes::{
-    Answer, DENSITY_KG_M3, FRICTION, Measured, Number, RADIUS_M, Scene, Visitor, WORK_OF_ADHESION_J, bare_scene, given,
-};
+use super::scenes::{Answer, Measured, Number, Scene, Visitor, bare_scene, given};
+use super::table_1::{FRICTION, MATERIAL_DAMPING, WORK_OF_ADHESION_J};
 
 const ROLLING_ARM_M: f64 = 2e-8;
 const EXTERNAL_FORCE_N: f64 = -1e-5;
@@ -175,48 +175,40 @@ variant! {
     classify -> Classification<T, ContactClass<T>>,
 }
 
-variant! {
+/// A scene along the normal, simulated at a fixed cost.
+macro_rules! fixed_cost {
+    ($(#[$documentation:meta])* $name:ident: $label:literal, $scene:ty = $new:expr) => {
+        variant! {
+            $(#[$documentation])*
+            $name: $label,
+            scene: $scene = $new,
+            by method: FixedCost<5> = FixedCost::new(black_box(3)),
+            impacts: CONTACTS as NormalMotion<T>,
+            normal_impact -> Result<NormalContact<T>, InputError>,
+            exact: $new,
+            where T: PhaseSamples<5, 7>
+        }
+    };
+}
+
+fixed_cost! {
     /// Hertz's force alone.
-    FixedCostBare: "fixed-cost/bare",
-    scene: Simulation<T> = elastic(),
-    by method: FixedCost<5> = FixedCost::new(black_box(3)),
-    impacts: CONTACTS as NormalMotion<T>,
-    normal_impact -> Result<NormalContact<T>, InputError>,
-    exact: elastic(),
-    where T: PhaseSamples<5, 7>
+    FixedCostBare: "fixed-cost/bare", Simulation<T> = elastic()
 }
 
-variant! {
+fixed_cost! {
     /// Damping too.
-    FixedCostDamping: "fixed-cost/damping",
-    scene: Simulation<T, HystereticDamping<T>> = damped(),
-    by method: FixedCost<5> = FixedCost::new(black_box(3)),
-    impacts: CONTACTS as NormalMotion<T>,
-    normal_impact -> Result<NormalContact<T>, InputError>,
-    exact: damped(),
-    where T: PhaseSamples<5, 7>
+    FixedCostDamping: "fixed-cost/damping", Simulation<T, HystereticDamping<T>> = damped()
 }
 
-variant! {
+fixed_cost! {
     /// Damping and adhesion.
-    FixedCostAdhesion: "fixed-cost/adhesion",
-    scene: Surface<T> = surface(),
-    by method: FixedCost<5> = FixedCost::new(black_box(3)),
-    impacts: CONTACTS as NormalMotion<T>,
-    normal_impact -> Result<NormalContact<T>, InputError>,
-    exact: surface(),
-    where T: PhaseSamples<5, 7>
+    FixedCostAdhesion: "fixed-cost/adhesion", Surface<T> = surface()
 }
 
-variant! {
+fixed_cost! {
     /// A constant external force too.
-    FixedCostForce: "fixed-cost/force",
-    scene: Pulled<T> = pulled(),
-    by method: FixedCost<5> = FixedCost::new(black_box(3)),
-    impacts: CONTACTS as NormalMotion<T>,
-    normal_impact -> Result<NormalContact<T>, InputError>,
-    exact: pulled(),
-    where T: PhaseSamples<5, 7>
+    FixedCostForce: "fixed-cost/force", Pulled<T> = pulled()
 }
 
 variant! {
@@ -274,26 +266,30 @@ variant! {
     where T: Tolerated
 }
 
-variant! {
-    /// Normal motion, recorded in 16 samples.
-    CollocationRecording16: "collocation/recording-16",
-    scene: Surface<T> = surface(),
-    by method: T::Method = T::method(),
-    impacts: CONTACTS as NormalMotion<T>,
-    observe -> Result<SimulatedImpact<T, (), Trajectory<T, 16>>, InputError>,
-    exact: surface(),
-    where T: Tolerated
+/// A scene along the normal, recorded.
+macro_rules! recording {
+    ($(#[$documentation:meta])* $name:ident: $label:literal, $samples:literal) => {
+        variant! {
+            $(#[$documentation])*
+            $name: $label,
+            scene: Surface<T> = surface(),
+            by method: T::Method = T::method(),
+            impacts: CONTACTS as NormalMotion<T>,
+            observe -> Result<SimulatedImpact<T, (), Trajectory<T, $samples>>, InputError>,
+            exact: surface(),
+            where T: Tolerated
+        }
+    };
 }
 
-variant! {
-    /// Normal motion, recorded in 32 samples.
-    CollocationRecording32: "collocation/recording-32",
-    scene: Surface<T> = surface(),
-    by method: T::Method = T::method(),
-    impacts: CONTACTS as NormalMotion<T>,
-    observe -> Result<SimulatedImpact<T, (), Trajectory<T, 32>>, InputError>,
-    exact: surface(),
-    where T: Tolerated
+recording! {
+    /// In 16 samples.
+    CollocationRecording16: "collocation/recording-16", 16
+}
+
+recording! {
+    /// In 32 samples.
+    CollocationRecording32: "collocation/recording-32", 32
 }
 
 impl<T: Number, const N: usize> From<Result<SimulatedImpact<T, (), Trajectory<T, N>>, InputError>> for Answer<T> {
@@ -304,11 +300,6 @@ impl<T: Number, const N: usize> From<Result<SimulatedImpact<T, (), Trajectory<T,
 
 fn adhesive<T: Number>() -> Result<Body<T>, InputError> {
     bare_scene()?.with_work_of_adhesion(given(WORK_OF_ADHESION_J))
-}
-
-fn elastic<T: Number>() -> Result<Simulation<T>, InputError> {
-    let sphere = Sphere::solid(given(RADIUS_M), given(DENSITY_KG_M3))?;
-    Ok(Simulation::new(sphere, Stiffness::new(given(STIFFNESS_PA))?))
 }
 
 fn damped<T: Number>() -> Result<Simulation<T, HystereticDamping<T>>, InputError> {

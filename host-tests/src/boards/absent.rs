@@ -1,8 +1,8 @@
-//! The proof that an absent term costs nothing: the firmware of a scene is, byte for byte, the firmware that a library yields in
-//! which the terms that the scene does not use do not exist.
+//! The proof that an absent term costs nothing: the firmware of a scene is, byte for byte, the firmware that a library
+//! yields in which the terms that the scene does not use do not exist.
 //!
-//! Every item of the library that names such a term is taken out of a copy of its source, and what names that item, as is what
-//! the scene does not need of the firmware's own source.
+//! Every item of the library that names such a term is taken out of a copy of its source, and what names that item, as is
+//! what the scene does not need of the firmware's own source.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -23,79 +23,109 @@ pub struct Proof {
     pub scene: &'static str,
     /// Its firmware.
     binary: &'static str,
-    /// What is absent, in words.
-    pub absent: &'static str,
-    parts: Parts<'static>,
+    absent: [&'static [Term]; 3],
 }
 
-/// Modules that no scene of the rigid body uses, that of the firmware with scenes of the simulation among them.
-const OUTSIDE_THE_RIGID_BODY: [&str; 9] =
-    ["simulation", "boundary", "calibrate", "dual", "uncertainty", "instrument", "fixed", "hertz", "contacts"];
+/// What a scene may be without.
+struct Term {
+    /// In words.
+    name: &'static str,
+    modules: &'static [&'static str],
+    types: &'static [&'static str],
+    methods: &'static [&'static str],
+}
 
-/// Modules that no simulation of an impact alone uses: tables, calibration, derivatives, recording, motion to rest ...
-const OUTSIDE_THE_SIMULATION: [&str; 9] =
-    ["boundary", "calibrate", "dual", "uncertainty", "instrument", "fixed", "trajectory", "rest", "paper"];
+/// A term without parts.
+const TERM: Term = Term { name: "", modules: &[], types: &[], methods: &[] };
+
+const FRICTION: [Term; 1] = [Term { name: "friction, spin", types: &["Coulomb"], methods: &["with_friction"], ..TERM }];
+
+/// What no rigid body of the proof uses.
+const OF_THE_RIGID_BODY: [Term; 4] = [
+    Term {
+        name: "rolling dissipation",
+        types: &["RollingDissipation"],
+        methods: &["with_rolling_dissipation"],
+        ..TERM
+    },
+    Term {
+        name: "external impulses",
+        types: &["Microforce"],
+        methods: &["with_external_impulses", "with_external_force"],
+        ..TERM
+    },
+    Term { name: "constant restitution", types: &["ConstantRestitution"], ..TERM },
+    // With the firmware's scenes of it.
+    Term { name: "the simulation", modules: &["simulation", "hertz", "contacts"], ..TERM },
+];
+
+/// What no simulation of the proof uses.
+const OF_THE_SIMULATION: [Term; 5] = [
+    Term { name: "peeling", types: &["Peeling"], methods: &["with_peeling"], ..TERM },
+    Term { name: "external force", types: &["ConstantForce"], methods: &["with_external_force"], ..TERM },
+    Term { name: "recording", modules: &["trajectory"], ..TERM },
+    Term { name: "motion to rest", modules: &["rest"], ..TERM },
+    Term { name: "the paper's method", modules: &["paper"], ..TERM },
+];
+
+/// What no impact alone uses.
+const AROUND_AN_IMPACT: [Term; 5] = [
+    Term { name: "tables", modules: &["boundary"], ..TERM },
+    Term { name: "calibration", modules: &["calibrate"], ..TERM },
+    Term { name: "uncertainty", modules: &["uncertainty", "dual"], ..TERM },
+    Term { name: "instrument", modules: &["instrument"], ..TERM },
+    Term { name: "fixed point", modules: &["fixed"], ..TERM },
+];
 
 /// The scenes of the proof.
 pub const PROOFS: [Proof; 4] = [
     Proof {
         scene: "normal/coefficient",
         binary: "flash_normal",
-        absent: "friction, spin, rolling dissipation, external impulses, the simulation, tables, calibration, uncertainty, \
-                 instrument, fixed point",
-        parts: Parts {
-            modules: &OUTSIDE_THE_RIGID_BODY,
-            types: &["Coulomb", "RollingDissipation", "Microforce", "ConstantRestitution"],
-            methods: &["with_friction", "with_rolling_dissipation", "with_external_impulses", "with_external_force"],
-        },
+        absent: [&FRICTION, &OF_THE_RIGID_BODY, &AROUND_AN_IMPACT],
     },
-    Proof {
-        scene: "planar/work",
-        binary: "flash_planar_work",
-        absent: "rolling dissipation, external impulses, the simulation, tables, calibration, uncertainty, instrument, fixed \
-                 point",
-        parts: Parts {
-            modules: &OUTSIDE_THE_RIGID_BODY,
-            types: &["RollingDissipation", "Microforce", "ConstantRestitution"],
-            methods: &["with_rolling_dissipation", "with_external_impulses", "with_external_force"],
-        },
-    },
+    Proof { scene: "planar/work", binary: "flash_planar_work", absent: [&[], &OF_THE_RIGID_BODY, &AROUND_AN_IMPACT] },
     Proof {
         scene: "simulation/fixed-1e-5",
         binary: "flash_contact_fixed",
-        absent: "friction, spin, peeling, external force, recording, motion to rest, the paper's method, tables, calibration, \
-                 uncertainty, instrument, fixed point",
-        parts: Parts {
-            modules: &OUTSIDE_THE_SIMULATION,
-            types: &["Coulomb", "Peeling", "ConstantForce"],
-            methods: &["with_friction", "with_peeling", "with_external_force"],
-        },
+        absent: [&FRICTION, &OF_THE_SIMULATION, &AROUND_AN_IMPACT],
     },
     Proof {
         scene: "simulation/oblique",
         binary: "flash_contact_oblique",
-        absent: "peeling, external force, recording, motion to rest, the paper's method, tables, calibration, uncertainty, \
-                 instrument, fixed point",
-        parts: Parts {
-            modules: &OUTSIDE_THE_SIMULATION,
-            types: &["Peeling", "ConstantForce"],
-            methods: &["with_peeling", "with_external_force"],
-        },
+        absent: [&[], &OF_THE_SIMULATION, &AROUND_AN_IMPACT],
     },
 ];
+
+impl Proof {
+    /// What is absent, in words.
+    pub fn absent(&self) -> String {
+        let names: Vec<_> = self.terms().map(|term| term.name).collect();
+        names.join(", ")
+    }
+
+    /// The parts of the library that belong to it.
+    fn parts(&self) -> Parts<'static> {
+        let all = |parts: fn(&Term) -> &'static [&'static str]| self.terms().flat_map(parts).copied().collect();
+        Parts { modules: all(|term| term.modules), types: all(|term| term.types), methods: all(|term| term.methods) }
+    }
+
+    fn terms(&self) -> impl Iterator<Item = &'static Term> {
+        self.absent.into_iter().flatten()
+    }
+}
 
 /// Bytes that differ, for each proof.
 pub fn differing(toolchain: &Toolchain, board: &Board) -> Result<Vec<u32>, String> {
     let copy = firmware::target_folder(toolchain, board).join("copy");
     frame(&copy)?;
-    let whole = Parts { modules: &[], types: &[], methods: &[] };
     let binaries = PROOFS.map(|proof| proof.binary);
-    sources(&copy, &whole)?;
+    sources(&copy, &Parts::default())?;
     let folder = firmware::build_copy(toolchain, board, &copy, &binaries)?;
     let complete = binaries.iter().map(|binary| contents(&folder.join(binary))).collect::<Result<Vec<_>, _>>()?;
     // That a scene does not build without a term that it uses shows that terms are taken out.
     let [_, planar, ..] = PROOFS;
-    sources(&copy, &Parts { types: &["Coulomb"], ..planar.parts })?;
+    sources(&copy, &Parts { types: vec!["Coulomb"], ..planar.parts() })?;
     if firmware::build_copy(toolchain, board, &copy, &[planar.binary]).is_ok() {
         return Err(format!("{}: {} builds without friction, so that nothing is proved", board.core, planar.scene));
     }
@@ -103,7 +133,7 @@ pub fn differing(toolchain: &Toolchain, board: &Board) -> Result<Vec<u32>, Strin
         .iter()
         .zip(complete)
         .map(|(proof, complete)| {
-            sources(&copy, &proof.parts)?;
+            sources(&copy, &proof.parts())?;
             let folder = firmware::build_copy(toolchain, board, &copy, &[proof.binary])?;
             let reduced = contents(&folder.join(proof.binary))?;
             let same = complete.iter().zip(&reduced).filter(|(one, other)| one == other).count();
@@ -157,11 +187,10 @@ fn sources(copy: &Path, parts: &Parts<'_>) -> Result<(), String> {
         }
     }
     without::copy(&repository().join("src"), &copy.join("src"), parts)?;
-    let modules: Vec<&str> = parts.modules.iter().chain(&OTHER_FIRMWARE).copied().collect();
-    let rest = Parts { modules: &modules, ..*parts };
+    let mut rest = parts.clone();
+    rest.modules.extend(OTHER_FIRMWARE);
     without::copy(&repository().join(&firmware), &copy.join(&firmware), &rest)?;
-    let whole = Parts { modules: &[], types: &[], methods: &[] };
-    without::copy(&repository().join(&firmware).join("bin"), &copy.join(&firmware).join("bin"), &whole)
+    without::copy(&repository().join(&firmware).join("bin"), &copy.join(&firmware).join("bin"), &Parts::default())
 }
 
 /// All bytes that a firmware puts into memory.

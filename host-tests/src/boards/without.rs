@@ -1,5 +1,5 @@
-//! A source without some of its parts: every item that names one of them is taken out, and what names an item taken out, until
-//! nothing is left that does.
+//! A source without some of its parts: every item that names one of them is taken out, and what names an item taken out,
+//! until nothing is left that does.
 //!
 //! A part is a module, or a type or method by its name. Names that a `use` brought from a part count in its file alone.
 
@@ -12,13 +12,14 @@ use quote::ToTokens;
 use syn::{File, ImplItem, Item, UseTree};
 
 /// What a source is to be without.
+#[derive(Clone, Default)]
 pub struct Parts<'a> {
     /// Names of modules.
-    pub modules: &'a [&'a str],
+    pub modules: Vec<&'a str>,
     /// Names of types.
-    pub types: &'a [&'a str],
+    pub types: Vec<&'a str>,
     /// Names of methods.
-    pub methods: &'a [&'a str],
+    pub methods: Vec<&'a str>,
 }
 
 /// What is taken out so far.
@@ -34,7 +35,7 @@ struct Taken {
 /// Copies the Rust files below `from` to `to`, without some parts.
 pub fn copy(from: &Path, to: &Path, parts: &Parts<'_>) -> Result<(), String> {
     let mut files = BTreeMap::new();
-    read(from, Path::new(""), parts.modules, &mut files)?;
+    read(from, Path::new(""), &parts.modules, &mut files)?;
     take_out(&mut files, parts);
     for (path, file) in &files {
         let path = to.join(path);
@@ -48,8 +49,8 @@ pub fn copy(from: &Path, to: &Path, parts: &Parts<'_>) -> Result<(), String> {
 /// Takes the parts out of parsed files.
 fn take_out(files: &mut BTreeMap<PathBuf, File>, parts: &Parts<'_>) {
     let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
-    let mut taken = Taken { modules: owned(parts.modules), names: owned(parts.types), functions: BTreeSet::new() };
-    taken.names.extend(owned(parts.methods));
+    let mut taken = Taken { modules: owned(&parts.modules), names: owned(&parts.types), functions: BTreeSet::new() };
+    taken.names.extend(owned(&parts.methods));
     if !(taken.modules.is_empty() && taken.names.is_empty()) {
         loop {
             let before = taken.clone();
@@ -135,8 +136,9 @@ impl Taken {
                 // A method, and the definition of another function of the name, are none of these functions.
                 let is_free = !matches!(place.checked_sub(1).and_then(|before| tokens.get(before)),
                     Some(before) if [".", "fn"].contains(&&*before.to_string()));
-                let has_arguments = matches!(after.first(), Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis);
-            let is_called = is_free && (in_path || has_arguments);
+                let has_arguments = matches!(after.first(),
+                    Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis);
+                let is_called = is_free && (in_path || has_arguments);
                 self.names.contains(&name)
                     || self.functions.contains(&name) && is_called
                     || self.modules.contains(&name) && in_path
@@ -251,7 +253,7 @@ mod tests {
             fn remains<T>(scene: &Scene<T>) -> bool { scene.law().is_some() }
         ";
         let mut files = BTreeMap::from([(PathBuf::new(), syn::parse_file(source).unwrap())]);
-        let parts = Parts { modules: &["tables"], types: &["Peeling"], methods: &["with_peeling"] };
+        let parts = Parts { modules: vec!["tables"], types: vec!["Peeling"], methods: vec!["with_peeling"] };
         take_out(&mut files, &parts);
         let text = |file: &File| file.to_token_stream().to_string();
         assert_eq!(text(&files[&PathBuf::new()]), text(&syn::parse_file(left).unwrap()));

@@ -4,10 +4,10 @@ use std::hint::black_box;
 
 use crate::Case;
 use microimpact::simulation::{
-    Adaptive, Collocation, ContactImpulses, ContactTimes, FixedCost, Nodes, NormalContact, PhaseNodes, RungeKuttaGill,
-    SimulatedImpact, TangentialContact,
+    Adaptive, Collocation, ContactImpulses, ContactTimes, FixedCost, HystereticDamping, Method, NoPeeling, Nodes,
+    Output, PhaseNodes, Ring, RungeKuttaGill, SimulatedImpact, Simulation, Tangential, TangentialScene,
 };
-use microimpact::{Real, Stiffness};
+use microimpact::{Approach, Real, Stiffness};
 
 use crate::contest::contestant::{Answer, Contestant, tolerances};
 use crate::contest::problem::Problem;
@@ -23,33 +23,35 @@ type Outputs<T> = (ContactTimes<T>, ContactImpulses<T>);
 
 /// The normal motion.
 pub fn normal(case: &Case) -> Vec<Contestant> {
-    let mut all = collocation::<5, f64>(COLLOCATION, case);
-    all.extend(collocation::<6, f64>(COLLOCATION, case));
-    all.extend(collocation::<7, f64>(COLLOCATION, case));
-    all.extend(collocation::<8, f64>(COLLOCATION, case));
-    all.extend(collocation::<9, f64>(COLLOCATION, case));
-    all.extend(collocation::<10, f64>(COLLOCATION, case));
-    all.extend(collocation::<12, f64>(COLLOCATION, case));
-    all.extend(collocation::<14, f64>(COLLOCATION, case));
-    all.extend(adaptive(case));
-    all.extend(collocation::<6, f32>(SINGLE_PRECISION, case));
-    all.extend(collocation::<8, f32>(SINGLE_PRECISION, case));
+    let (impact, single) = (normal_scene::<f64>(case), normal_scene::<f32>(case));
+    let mut all = collocation::<5, f64>(COLLOCATION, impact);
+    all.extend(collocation::<6, f64>(COLLOCATION, impact));
+    all.extend(collocation::<7, f64>(COLLOCATION, impact));
+    all.extend(collocation::<8, f64>(COLLOCATION, impact));
+    all.extend(collocation::<9, f64>(COLLOCATION, impact));
+    all.extend(collocation::<10, f64>(COLLOCATION, impact));
+    all.extend(collocation::<12, f64>(COLLOCATION, impact));
+    all.extend(collocation::<14, f64>(COLLOCATION, impact));
+    all.extend(adaptive(impact));
+    all.extend(collocation::<6, f32>(SINGLE_PRECISION, single));
+    all.extend(collocation::<8, f32>(SINGLE_PRECISION, single));
     all.extend(fixed_cost::<5>(case));
     all.extend(fixed_cost::<6>(case));
     all.extend(fixed_cost::<7>(case));
     all.extend(fixed_cost::<8>(case));
-    all.extend(paper_method(case));
+    all.extend(paper_method(impact));
     all
 }
 
 /// The same impact with friction and spin.
 pub fn oblique(case: &Case) -> Vec<Contestant> {
-    let mut all = oblique_collocation::<6>(case);
-    all.extend(oblique_collocation::<7>(case));
-    all.extend(oblique_collocation::<9>(case));
-    all.extend(oblique_collocation::<12>(case));
-    all.extend(oblique_adaptive(case));
-    all.extend(oblique_paper_method(case));
+    let impact = (case.scene::<f64>().unwrap(), case.motion().unwrap());
+    let mut all = collocation::<6, f64>(COLLOCATION, impact);
+    all.extend(collocation::<7, f64>(COLLOCATION, impact));
+    all.extend(collocation::<9, f64>(COLLOCATION, impact));
+    all.extend(collocation::<12, f64>(COLLOCATION, impact));
+    all.extend(adaptive(impact));
+    all.extend(paper_method(impact));
     all
 }
 
@@ -60,71 +62,52 @@ pub fn problem(case: &Case) -> Problem {
     Problem::new(&scene, stiffness, &motion)
 }
 
-fn answer<T: Into<f64> + Real>(
-    normal: &NormalContact<T>,
-    (times, impulses): &Outputs<T>,
-    effort: (u32, &'static str),
-) -> Option<Answer> {
-    Some(Answer {
-        restitution: solved(normal.overall_restitution(), normal.status())?.into(),
-        contact_time: times.contact.map(Into::into),
-        impulse: Some(impulses.elastic.into()),
-        effort: Some((effort.0 as usize, effort.1)),
-    })
+/// A scene and a motion, for a method `S`.
+trait Impact<T, S>: Copy + 'static {
+    fn answer(&self, method: &S) -> Option<Answer>;
 }
 
-fn collocation<const N: usize, T: Nodes<N> + Into<f64>>(entry: &'static str, case: &Case) -> Vec<Contestant> {
-    let contestant = |tolerance: f64| {
-        let (scene, motion) = normal_scene::<T>(case);
-        let method = Collocation::<N, T>::new(T::constant(tolerance)).ok()?;
-        Some(Contestant::new(entry, format!("{N} nodes"), format!("{tolerance:.0e}"), move || {
-            let impact: SimulatedImpact<_, _, Outputs<T>> =
-                black_box(&scene).observe(&method, black_box(&motion)).ok()?;
-            answer(&impact.normal, &impact.outputs, (impact.run.evaluations, "evaluations"))
-        }))
-    };
-    tolerances().filter_map(contestant).collect()
-}
-
-fn oblique_collocation<const N: usize>(case: &Case) -> Vec<Contestant>
+impl<T, F, M, S> Impact<T, S> for (Simulation<T, HystereticDamping<T>, Ring<T>, F>, M)
 where
-    f64: Nodes<N>,
+    T: Real + Into<f64> + 'static,
+    F: Tangential<T> + TangentialScene<T, M, Ring<T>, NoPeeling, <F as Tangential<T>>::Contact> + Copy + 'static,
+    M: Approach<T> + Copy + 'static,
+    S: Method<T, (<Outputs<T> as Output<T>>::Observer, Observer<T, F, M>)>,
 {
+    fn answer(&self, method: &S) -> Option<Answer> {
+        let (scene, motion) = self;
+        let impact: SimulatedImpact<T, F::Contact, Outputs<T>> =
+            black_box(scene).observe(method, black_box(motion)).ok()?;
+        let (times, impulses) = &impact.outputs;
+        Some(Answer {
+            restitution: solved(impact.normal.overall_restitution(), impact.normal.status())?.into(),
+            contact_time: times.contact.map(Into::into),
+            impulse: Some(impulses.elastic.into()),
+            effort: Some((impact.run.evaluations as usize, "evaluations")),
+        })
+    }
+}
+
+/// What is integrated along the surface.
+type Observer<T, F, M> = <F as TangentialScene<T, M, Ring<T>, NoPeeling, <F as Tangential<T>>::Contact>>::Observer;
+
+fn collocation<const N: usize, T: Nodes<N> + 'static>(
+    entry: &'static str,
+    impact: impl Impact<T, Collocation<N, T>>,
+) -> Vec<Contestant> {
     let contestant = |tolerance: f64| {
-        let (scene, motion) = (case.scene().unwrap(), case.motion().unwrap());
-        let method = Collocation::<N, f64>::new(tolerance).ok()?;
-        Some(Contestant::new(COLLOCATION, format!("{N} nodes"), format!("{tolerance:.0e}"), move || {
-            let impact: SimulatedImpact<_, TangentialContact<f64>, Outputs<f64>> =
-                black_box(&scene).observe(&method, black_box(&motion)).ok()?;
-            answer(&impact.normal, &impact.outputs, (impact.run.evaluations, "evaluations"))
-        }))
+        let method = Collocation::<N, T>::new(T::constant(tolerance)).ok()?;
+        let run = move || impact.answer(&method);
+        Some(Contestant::new(entry, format!("{N} nodes"), format!("{tolerance:.0e}"), run))
     };
     tolerances().filter_map(contestant).collect()
 }
 
 /// It chooses nodes and method by the tolerance.
-fn adaptive(case: &Case) -> Vec<Contestant> {
+fn adaptive(impact: impl Impact<f64, Adaptive<f64>>) -> Vec<Contestant> {
     let contestant = |tolerance: f64| {
-        let (scene, motion) = normal_scene::<f64>(case);
         let method = Adaptive::new(tolerance).ok()?;
-        Some(Contestant::new(ADAPTIVE, "", format!("{tolerance:.0e}"), move || {
-            let impact: SimulatedImpact<_, _, Outputs<f64>> =
-                black_box(&scene).observe(&method, black_box(&motion)).ok()?;
-            answer(&impact.normal, &impact.outputs, (impact.run.evaluations, "evaluations"))
-        }))
-    };
-    tolerances().filter_map(contestant).collect()
-}
-
-fn oblique_adaptive(case: &Case) -> Vec<Contestant> {
-    let contestant = |tolerance: f64| {
-        let (scene, motion) = (case.scene().unwrap(), case.motion().unwrap());
-        let method = Adaptive::new(tolerance).ok()?;
-        Some(Contestant::new(ADAPTIVE, "", format!("{tolerance:.0e}"), move || {
-            let impact: SimulatedImpact<_, TangentialContact<f64>, Outputs<f64>> =
-                black_box(&scene).observe(&method, black_box(&motion)).ok()?;
-            answer(&impact.normal, &impact.outputs, (impact.run.evaluations, "evaluations"))
-        }))
+        Some(Contestant::new(ADAPTIVE, "", format!("{tolerance:.0e}"), move || impact.answer(&method)))
     };
     tolerances().filter_map(contestant).collect()
 }
@@ -151,28 +134,10 @@ fn steps() -> impl Iterator<Item = u32> {
     (0..=14).map(|half_octaves| (250.0 * 2f64.powf(0.5 * f64::from(half_octaves))) as u32)
 }
 
-fn paper_method(case: &Case) -> Vec<Contestant> {
+fn paper_method(impact: impl Impact<f64, RungeKuttaGill>) -> Vec<Contestant> {
     let contestant = |steps: u32| {
-        let (scene, motion) = normal_scene::<f64>(case);
         let method = RungeKuttaGill::new(steps);
-        Contestant::new(PAPER, "Runge-Kutta-Gill", format!("{steps} steps"), move || {
-            let impact: SimulatedImpact<_, _, Outputs<f64>> =
-                black_box(&scene).observe(&method, black_box(&motion)).ok()?;
-            answer(&impact.normal, &impact.outputs, (impact.run.evaluations, "evaluations"))
-        })
-    };
-    steps().map(contestant).collect()
-}
-
-fn oblique_paper_method(case: &Case) -> Vec<Contestant> {
-    let contestant = |steps: u32| {
-        let (scene, motion) = (case.scene::<f64>().unwrap(), case.motion().unwrap());
-        let method = RungeKuttaGill::new(steps);
-        Contestant::new(PAPER, "Runge-Kutta-Gill", format!("{steps} steps"), move || {
-            let impact: SimulatedImpact<_, TangentialContact<f64>, Outputs<f64>> =
-                black_box(&scene).observe(&method, black_box(&motion)).ok()?;
-            answer(&impact.normal, &impact.outputs, (impact.run.evaluations, "evaluations"))
-        })
+        Contestant::new(PAPER, "Runge-Kutta-Gill", format!("{steps} steps"), move || impact.answer(&method))
     };
     steps().map(contestant).collect()
 }

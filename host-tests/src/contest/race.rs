@@ -5,8 +5,8 @@ use std::time::Instant;
 /// A turn repeats a run until it takes about this long, s.
 const TURN: f64 = 1e-4;
 
-/// Least time of a run of each contestant in so many turns, s.
-pub fn least_times(contestants: &mut [&mut dyn FnMut()], turns: u32) -> Vec<f64> {
+/// Least time of a run of each contestant in so many turns, s; `turn_ends` is told of each.
+pub fn least_times(contestants: &mut [&mut dyn FnMut()], turns: u32, mut turn_ends: impl FnMut()) -> Vec<f64> {
     // The first run is not counted; the second says how often a turn repeats it.
     let repeats: Vec<u32> = contestants
         .iter_mut()
@@ -20,6 +20,7 @@ pub fn least_times(contestants: &mut [&mut dyn FnMut()], turns: u32) -> Vec<f64>
         for ((run, &repeats), least) in contestants.iter_mut().zip(&repeats).zip(&mut least) {
             *least = least.min(time(*run, repeats));
         }
+        turn_ends();
     }
     least
 }

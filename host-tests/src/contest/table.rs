@@ -96,7 +96,7 @@ fn perform(contestants: Vec<Contestant>, exact: &Answer) -> Vec<Performance> {
     let mut runs: Vec<&mut dyn FnMut()> = runs.iter_mut().map(|run| run as _).collect();
     // Cargo names its purpose: a benchmark that is only tested takes one turn.
     let turns = if std::env::args().any(|argument| argument == "--bench") { TURNS } else { 1 };
-    let times = least_times(&mut runs, turns);
+    let times = least_times(&mut runs, turns, || ());
     for (one, time) in all.iter_mut().zip(times) {
         one.time = time;
     }

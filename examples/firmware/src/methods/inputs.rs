@@ -3,6 +3,10 @@
 use microimpact::simulation::{HystereticDamping, Ring, Simulation};
 use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, Real, Sphere, Stiffness};
 
+use crate::table_1::{
+    APPROACH_M_S, DENSITY_KG_M3, FRICTION, MATERIAL_DAMPING, RADIUS_M, RING_DAMPING, RING_N_M, STIFFNESS_PA,
+};
+
 /// Sphere, surface and motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs {
@@ -28,16 +32,16 @@ pub struct Inputs {
     pub spin: f64,
 }
 
-/// Brach & Dunn (1995), Table 1, with half of the printed zeta_A, which is what their program computed.
+/// The impact of Table 1, with the spin of the reference solution.
 pub const TABLE_1: Inputs = Inputs {
-    radius: 5.06e-6,
-    density: 2600.0,
-    stiffness: 7.5e10,
-    ring: 250.0,
-    material_damping: 10.5,
-    ring_damping: 6.25,
-    friction: 0.1,
-    approach: 2.8,
+    radius: RADIUS_M,
+    density: DENSITY_KG_M3,
+    stiffness: STIFFNESS_PA,
+    ring: RING_N_M,
+    material_damping: MATERIAL_DAMPING,
+    ring_damping: RING_DAMPING,
+    friction: FRICTION,
+    approach: APPROACH_M_S,
     tangential: 0.0,
     spin: 1.454e5,
 };

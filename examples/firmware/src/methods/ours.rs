@@ -97,7 +97,7 @@ pub fn oblique<T: Tables>(inputs: &Inputs, extent: Extent, visitor: &mut impl Vi
         visitor.visit::<T>(contestant, move || {
             let impact: SimulatedImpact<T, TangentialContact<T>, ()> =
                 black_box(&scene).observe(black_box(&method), black_box(&motion)).ok()?;
-            let surface = Some([impact.tangential.velocity(), impact.tangential.spin()]);
+            let surface = Some([impact.tangential.tangential(), impact.tangential.spin()]);
             solved(impact.normal.overall_restitution(), surface, impact.run.status)
         });
     }
@@ -189,7 +189,7 @@ fn visit_oblique<T: Number, M: Method<T, ((), Velocities<T>)> + 'static>(
     visitor.visit::<T>(Contestant { task: Task::Oblique, method: name, variant, amount }, move || {
         let impact: SimulatedImpact<T, TangentialVelocities<T>, ()> =
             black_box(&scene).observe(black_box(&method), black_box(&motion)).ok()?;
-        let surface = Some([impact.tangential.velocity, impact.tangential.spin]);
+        let surface = Some([impact.tangential.tangential, impact.tangential.spin]);
         solved(impact.normal.overall_restitution(), surface, impact.run.status)
     });
 }
