@@ -4,15 +4,21 @@ use std::thread;
 
 use embedded_hal_mock::eh1::MockError;
 use embedded_hal_mock::eh1::digital::{Mock, State, Transaction};
+use microimpact::boundary::{self, BoundaryTable, Rebound, RestitutionTable};
 use microimpact::instrument::{
     ClassLines, ClassSet, Classifier, Instrument, NoLines, NormalReading, ObliqueReading, PlanarReading, Queue,
-    Reading, Rejection, Simulated, SpeedBins, Statistics, Tally, Verdict,
+    Reading, Rejection, Simulated, SpeedBins, Statistics, Tabulated, TabulatedClass, Tally, Verdict,
 };
-use microimpact::simulation::{Collocation, FixedCost, Simulation};
-use microimpact::{Class, Fault, NormalMotion, Outcome, Parameter, RigidBody, SpeedRestitution, Sphere, Stiffness};
+use microimpact::simulation::{
+    Collocation, ContactImpulses, FixedCost, HystereticDamping, Ring, SimulatedImpact, Simulation,
+};
+use microimpact::{
+    Class, Coulomb, Dual, Fault, FixedPoint, InputError, NoFriction, NormalMotion, Outcome, Parameter, RigidBody,
+    SpeedRestitution, Sphere, Stiffness,
+};
 use proptest::prelude::*;
 
-type Scene = RigidBody<f64, SpeedRestitution<f64>, microimpact::rigid::WorkOfAdhesion<f64>, microimpact::Coulomb<f64>>;
+type Scene = RigidBody<f64, SpeedRestitution<f64>, microimpact::rigid::WorkOfAdhesion<f64>, Coulomb<f64>>;
 
 fn scene() -> Scene {
     let sphere = Sphere::solid(5.06e-6, 2600.0).unwrap();
@@ -149,6 +155,102 @@ fn classifiers_answer_for_their_scenes() {
         }
     }
     assert!(Class::ALL.iter().all(|class| classes.contains(class)), "{classes:?}");
+}
+
+type Contact = Simulation<f64, HystereticDamping<f64>, Ring<f64>>;
+
+/// The paper's surface.
+fn contact(radius: f64) -> Result<Contact, InputError> {
+    Simulation::new(Sphere::solid(radius, 2600.0)?, Stiffness::new(7.5e10)?).with_damping(10.5)?.with_ring(250.0, 6.25)
+}
+
+/// Radii of 2 to 8 um, up to ten times the critical speed.
+fn table() -> RestitutionTable<f64, 8, 6, 10> {
+    let method = Collocation::<9, f64>::new(1e-9).unwrap();
+    let boundary = BoundaryTable::new(2e-6, |radius| contact(radius)?.critical_speed(&method)).unwrap();
+    let source = |radius, speed: f64| {
+        let scene = contact(radius)?;
+        let impact: SimulatedImpact<_, _, ContactImpulses<f64>> = scene.observe(&method, &NormalMotion::new(speed)?)?;
+        let impulse = impact.outputs.elastic / (scene.sphere().mass() * speed);
+        Ok(Rebound { restitution: impact.normal.overall_restitution(), impulse })
+    };
+    RestitutionTable::new(boundary, 10.0, source).unwrap()
+}
+
+/// Tables in the place of simulations say the same, or that they do not know.
+#[test]
+fn tables_classify_as_simulations_do() {
+    let (table, friction) = (table(), Coulomb::new(0.1).unwrap());
+    let method = Collocation::<9, f64>::new(1e-9).unwrap();
+    let mut classes = Vec::new();
+    let (smallest, end) = table.boundary().radii::<f64>();
+    for radius in [1e-6, 2.5e-6, 5.06e-6, 7.5e-6] {
+        let scene = contact(radius).unwrap();
+        let sphere = *scene.sphere();
+        let boundary = Tabulated { table: *table.boundary(), sphere, friction: NoFriction };
+        let slice = Tabulated { table: table.boundary().as_slice(), sphere, friction: NoFriction };
+        let normal = Tabulated { table, sphere, friction: NoFriction };
+        let oblique = Tabulated { table, sphere, friction };
+        let simulated = Simulated { scene: scene.with_friction(0.1).unwrap(), method };
+        let critical = table.boundary().critical_speed(radius).unwrap_or(1.0);
+        for (ratio, tangential) in
+            [0.5, 0.999, 1.0, 1.001, 1.5, 4.0, 11.0].into_iter().flat_map(|ratio| [(ratio, 0.2), (ratio, 90.0)])
+        {
+            let reading = ObliqueReading { approach: ratio * critical, tangential };
+            let motion = reading.motion().unwrap();
+            let exact = simulated.verdict(&motion).unwrap();
+            let outside = !(smallest..end).contains(&radius);
+            let expected = match exact.class {
+                _ if outside => boundary::Verdict::OutsideTable,
+                _ if ratio == 1.0 => boundary::Verdict::TooCloseToCall,
+                Class::ReboundSliding | Class::ReboundRolling => boundary::Verdict::Rebound,
+                _ => boundary::Verdict::Capture,
+            };
+            for found in [boundary.verdict(&motion).unwrap(), slice.verdict(&motion).unwrap()] {
+                assert_eq!(found, Verdict { class: expected, restitution: None });
+            }
+            // Restitution is not tabulated as far as that.
+            let expected = if ratio > 10.0 { boundary::Verdict::OutsideTable } else { expected };
+            let found = normal.verdict(&motion).unwrap();
+            assert_eq!(found.class, expected);
+            let known = matches!(expected, boundary::Verdict::Rebound | boundary::Verdict::Capture);
+            assert_eq!(found.restitution.is_some(), known);
+            if let Some(restitution) = found.restitution {
+                let error = (restitution - exact.restitution.unwrap()).abs();
+                assert!(error < if ratio > 1.1 { 1e-3 } else { 1e-2 }, "{radius:e} {ratio}: {error:e}");
+            }
+            let with_friction = oblique.verdict(&motion).unwrap();
+            assert_eq!(with_friction.restitution, found.restitution);
+            let expected = match expected {
+                boundary::Verdict::Rebound if exact.class == Class::ReboundSliding => TabulatedClass::ReboundSliding,
+                boundary::Verdict::Rebound => TabulatedClass::ReboundRolling,
+                boundary::Verdict::Capture => TabulatedClass::Capture,
+                boundary::Verdict::TooCloseToCall => TabulatedClass::TooCloseToCall,
+                boundary::Verdict::OutsideTable => TabulatedClass::OutsideTable,
+            };
+            assert_eq!(with_friction.class, expected);
+            classes.push(expected);
+        }
+    }
+    assert!(TabulatedClass::ALL.iter().all(|class| classes.contains(class)), "{classes:?}");
+    assert!(TabulatedClass::ALL.iter().enumerate().all(|(index, class)| class.index() == index));
+    assert!(boundary::Verdict::ALL.iter().enumerate().all(|(index, class)| class.index() == index));
+}
+
+#[test]
+fn an_instrument_with_a_table_counts_what_it_cannot_tell() {
+    let table = table();
+    let critical = table.boundary().critical_speed(5e-6).unwrap();
+    let sphere = Sphere::solid(5e-6, 2600.0).unwrap();
+    let classifier = Tabulated { table, sphere, friction: Coulomb::new(0.1).unwrap() };
+    let mut instrument: Instrument<_, _, _, 5, 3> = Instrument::new(classifier, NoLines, bins());
+    for (ratio, tangential) in [(2.0, 0.1), (2.0, 90.0), (0.5, 0.0), (1.0, 0.0), (20.0, 0.0), (-1.0, 0.0)] {
+        let _ = instrument.process(&PlanarReading { approach: ratio * critical, tangential, peripheral: 0.0 });
+    }
+    let tally = instrument.tally();
+    assert!(TabulatedClass::ALL.iter().all(|&class| tally.count(class) == 1), "{tally:?}");
+    assert_eq!((tally.rejections().input, tally.classified()), (1, 5));
+    assert_eq!(tally.restitution().iter().map(Statistics::count).sum::<u64>(), 2);
 }
 
 #[test]
@@ -289,5 +391,28 @@ fn results_and_scenes_can_be_written() {
     assert_eq!(written(&impact.energy(scene.sphere()))["before"], impact.energy(scene.sphere()).before);
     assert_eq!(written(&scene.classify(&motion))["outcome"], "Rebound");
     let error = NormalMotion::new(-1.0).unwrap_err();
-    assert_eq!(serde_json::from_value::<microimpact::InputError>(written(&error)).unwrap(), error);
+    assert_eq!(serde_json::from_value::<InputError>(written(&error)).unwrap(), error);
+}
+
+/// A table that was made on a host comes back whole, and one that was damaged on the way does not.
+#[test]
+fn tables_and_numbers_can_be_written_and_read() {
+    let table = table();
+    let written = serde_json::to_value(table).unwrap();
+    assert_eq!(written["nodes"].as_array().unwrap().len(), 2 * 6 * 10);
+    let boundary = *table.boundary();
+    let text = serde_json::to_string(&boundary).unwrap();
+    assert_eq!(serde_json::from_str::<BoundaryTable<8>>(&text).unwrap(), boundary);
+    let damaged = text.replace(&format!("\"margin\":{}", boundary.parts().1), "\"margin\":1");
+    assert_ne!(damaged, text);
+    assert!(serde_json::from_str::<BoundaryTable<8>>(&damaged).unwrap_err().to_string().contains("margin"));
+
+    let number = FixedPoint::nearest(0.1);
+    let text = serde_json::to_string(&number).unwrap();
+    assert_eq!(serde_json::from_str::<FixedPoint>(&text).unwrap(), number);
+    for beyond in ["128.0", "-129.0", "1e300"] {
+        assert!(serde_json::from_str::<FixedPoint>(beyond).is_err(), "{beyond}");
+    }
+    let [dual] = Dual::variables([2.5]);
+    assert_eq!(serde_json::to_string(&dual).unwrap(), "{\"value\":2.5,\"partials\":[1.0]}");
 }

@@ -138,9 +138,11 @@ impl<T: Real> Rebound<T> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RestitutionTable<T, const N: usize, const R: usize, const S: usize> {
     boundary: BoundaryTable<N>,
     /// e/sqrt(d) and I/(m v), for each radius over all speeds.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "in_one_row"))]
     nodes: [[[T; 2]; S]; R],
     /// Logarithm of the first radius, and nodes to an octave.
     first: i32,
@@ -375,4 +377,14 @@ fn parabola<T: Single, const COUNT: usize>(place: T) -> (usize, [T; 3]) {
     let a = place - T::from_single(first as f32);
     let (b, c) = (a - T::ONE, a - T::constant(2.0));
     (first, [half * b * c, -(a * c), half * a * b])
+}
+
+/// The nodes as one sequence: serde knows arrays of some lengths alone.
+#[cfg(feature = "serde")]
+fn in_one_row<T, Z, const R: usize, const S: usize>(nodes: &[[[T; 2]; S]; R], serializer: Z) -> Result<Z::Ok, Z::Error>
+where
+    T: serde::Serialize,
+    Z: serde::Serializer,
+{
+    serializer.collect_seq(nodes.iter().flatten().flatten())
 }

@@ -35,6 +35,8 @@ const UNIT: f64 = core::f64::consts::LN_2 / OCTAVE as f64;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(into = "Parts<N>", try_from = "Parts<N>"))]
 pub struct BoundaryTable<const N: usize> {
     cells: [[i32; 4]; N],
     /// Bits of the radius in the middle of the first cell.
@@ -238,5 +240,33 @@ impl<const N: usize> BoundaryTable<N> {
     pub(super) fn radius_at(&self, logarithm: i32) -> f32 {
         let (smallest, largest) = self.ends();
         f32::from_bits(number(logarithm).to_bits().max(smallest).min(largest))
+    }
+}
+
+/// What a table is outside.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Parts<const N: usize> {
+    /// Radius at which the table begins, m.
+    smallest_radius: f32,
+    margin: u32,
+    #[serde(with = "serde_big_array::BigArray")]
+    cells: [[i32; 4]; N],
+}
+
+#[cfg(feature = "serde")]
+impl<const N: usize> From<BoundaryTable<N>> for Parts<N> {
+    fn from(table: BoundaryTable<N>) -> Self {
+        let (smallest_radius, margin, cells) = table.parts();
+        Self { smallest_radius, margin, cells: *cells }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<const N: usize> TryFrom<Parts<N>> for BoundaryTable<N> {
+    type Error = InputError;
+
+    fn try_from(outside: Parts<N>) -> Result<Self, InputError> {
+        Self::from_parts(outside.smallest_radius, outside.margin, outside.cells)
     }
 }

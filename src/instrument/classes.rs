@@ -1,8 +1,9 @@
 //! The classes that a classifier tells apart.
 
+use crate::boundary::Verdict;
 use crate::{Class, Outcome};
 
-/// A set of classes, counted from zero: [`Outcome`] without friction, [`Class`] with it.
+/// A set of classes, counted from zero: [`Outcome`] without friction, [`Class`] with it, [`Verdict`] of a table.
 ///
 /// ```
 /// use microimpact::instrument::ClassSet;
@@ -52,6 +53,21 @@ impl ClassSet for Class {
             Self::CapturedSliding => 2,
             Self::CapturedRolling => 3,
             Self::CapturedResting => 4,
+        }
+    }
+}
+
+impl ClassSet for Verdict {
+    const COUNT: usize = Self::ALL.len();
+    const ALL: &'static [Self] = &[Self::Rebound, Self::Capture, Self::TooCloseToCall, Self::OutsideTable];
+
+    #[inline]
+    fn index(self) -> usize {
+        match self {
+            Self::Rebound => 0,
+            Self::Capture => 1,
+            Self::TooCloseToCall => 2,
+            Self::OutsideTable => 3,
         }
     }
 }

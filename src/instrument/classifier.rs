@@ -1,4 +1,4 @@
-//! What turns a motion into a class: the rigid body, the simulation, or what a user brings.
+//! What turns a motion into a class: the rigid body, the simulation, a [table](super::Tabulated), or what a user brings.
 
 use core::fmt;
 

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! What goes wrong on the way is counted by name: a reading that finds the queue full, one that no particle can have, one
-//! that the classifier cannot solve, and a line that does not switch. Needs the feature `instrument`.
+//! that the classifier cannot solve, and a line that does not switch. The type of the classifier says whether a rigid body, a
+//! simulation or a table classifies. Needs the feature `instrument`.
 
 mod classes;
 mod classifier;
@@ -19,6 +20,7 @@ mod pipeline;
 mod queue;
 mod reading;
 mod statistics;
+mod tabulated;
 mod tally;
 
 pub use classes::ClassSet;
@@ -28,4 +30,5 @@ pub use pipeline::Instrument;
 pub use queue::{Queue, Receiver, Sender};
 pub use reading::{NormalReading, ObliqueReading, PlanarReading, Reading};
 pub use statistics::Statistics;
+pub use tabulated::{Tabulated, TabulatedClass};
 pub use tally::{Rejections, SpeedBins, Tally};

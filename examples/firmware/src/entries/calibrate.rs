@@ -3,8 +3,8 @@
 use core::hint::black_box;
 
 use microimpact::calibrate::{
-    CalibrationError, ImpulseRatios, Location, Rebound, RestitutionFit, adhesion_damping, friction, material_damping,
-    parameter, ring_strength, rolling_motion,
+    CalibrationError, ImpulseRatios, Location, Rebound, RestitutionFit, adhesion_damping, estimate, friction,
+    material_damping, parameter, ring_strength, rolling_motion,
 };
 use microimpact::simulation::{Collocation, FixedCost, Method, Simulation};
 use microimpact::uncertainty::{ClassProbabilities, NormalDistribution, rebound_probability, stopped_slip};
@@ -67,6 +67,7 @@ fn duals<T: AnyNodes>() -> Result<(), InputError> {
     let contact = scene.normal_impact(&method, &NormalMotion::new(fixed())?)?;
     let e = contact.overall_restitution();
     keep((e, e.standard_error(&[any(), any()])));
+    keep(estimate(any(), e, &[any(), any()]));
     keep(scene.critical_speed(&method)?);
     keep(scene.normal_impact(&FixedCost::<5>::new(black_box(3))?, &NormalMotion::new(fixed())?)?.rebound_speed());
     keep([e.two_fifths_power(), e.exp(), e.saturating_div(radius), -e, e.abs(), e.min(radius)]);

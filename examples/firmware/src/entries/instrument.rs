@@ -4,19 +4,23 @@ use core::convert::Infallible;
 use core::hint::black_box;
 
 use embedded_hal::digital::{ErrorType, OutputPin};
+use microimpact::boundary::{BoundaryTable, Rebound, RestitutionTable, Single};
 use microimpact::instrument::link::{Decoder, Encoder, FrameFault, Inlet, PROTOCOL, Reply, Report, Request};
 use microimpact::instrument::{
     ClassLines, ClassSet, Classified, Classifier, Instrument, NoLines, NormalReading, ObliqueReading, PlanarReading,
-    Queue, Reading, Rejection, Signal, Simulated, SpeedBins, Statistics, Tally, Verdict,
+    Queue, Reading, Rejection, Signal, Simulated, SpeedBins, Statistics, Tabulated, Tally, Verdict,
 };
 use microimpact::simulation::{Collocation, FixedCost, Simulation};
-use microimpact::{Approach, Class, InputError, Outcome, Real, RigidBody, SpeedRestitution, Sphere, Stiffness};
+use microimpact::{
+    Approach, Class, Coulomb, CriticalSpeed, InputError, NoFriction, Outcome, Real, RigidBody, SpeedRestitution,
+    Sphere, Stiffness,
+};
 
 use super::simulation::AnyNodes;
 use super::{any, keep};
 
 /// Calls everything, with one number type.
-pub(super) fn call_all<T: AnyNodes>() -> Result<(), InputError> {
+pub(super) fn call_all<T: AnyNodes + Single>() -> Result<(), InputError> {
     let normal = NormalReading::<T> { approach: any() };
     let oblique = ObliqueReading::<T> { approach: any(), tangential: any() };
     let planar = PlanarReading::<T> { approach: any(), tangential: any(), peripheral: any() };
@@ -33,6 +37,13 @@ pub(super) fn call_all<T: AnyNodes>() -> Result<(), InputError> {
     process::<T, _, _, 5>(friction, &planar, lines())?;
     process::<T, _, _, 2>(fixed, &normal, lines())?;
     process::<T, _, _, 5>(exact, &oblique, lines())?;
+    let boundary = BoundaryTable::<2>::new(any::<T>(), |_| Ok(black_box(CriticalSpeed::At(any::<T>()))))?;
+    let source = |_, _| Ok(Rebound { restitution: any::<T>(), impulse: any() });
+    let table = RestitutionTable::<T, 2, 3, 4>::new(boundary, any(), source)?;
+    process::<T, _, _, 4>(Tabulated { table: boundary, sphere, friction: NoFriction }, &normal, lines())?;
+    process::<T, _, _, 4>(Tabulated { table: boundary.as_slice(), sphere, friction: NoFriction }, &normal, lines())?;
+    process::<T, _, _, 4>(Tabulated { table, sphere, friction: NoFriction }, &normal, lines())?;
+    process::<T, _, _, 5>(Tabulated { table, sphere, friction: Coulomb::new(any())? }, &planar, lines())?;
     keep(Signal::<Class>::show(&mut NoLines, black_box(None)));
     link();
     statistics::<T>()

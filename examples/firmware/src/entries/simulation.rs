@@ -185,7 +185,7 @@ fn contact<T: Real>(contact: &NormalContact<T>) {
 
 #[inline(never)]
 fn tangential<T: Real>(contact: &TangentialContact<T>) {
-    keep((contact.motion(), contact.velocity(), contact.spin()));
+    keep((contact.motion(), contact.tangential(), contact.spin()));
     keep((contact.rotation(), contact.rotation_degrees()));
     keep((contact.displacement(), contact.rolls_from()));
 }

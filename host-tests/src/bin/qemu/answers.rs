@@ -3,6 +3,8 @@
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::{self, Display};
 
+use host_tests::table_1;
+
 use contacts::{REFUSED, UNDECIDED, visit_contacts};
 use scenes::{Answer, Number, Scene, Visitor, visit_scenes};
 use variants::{visit_collocations, visit_variants};

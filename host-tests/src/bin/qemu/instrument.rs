@@ -1,9 +1,8 @@
 //! `cargo qemu instrument` and `cargo qemu load`: the instrument of `examples/firmware` on an emulated board, fed with events
 //! over its serial line.
 
-use std::error::Error;
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, BufRead, BufReader, Write};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -15,6 +14,7 @@ use microimpact::Class;
 use microimpact::instrument::{ClassSet, PlanarReading};
 
 use crate::session::{Session, instructions};
+use crate::sheet::{Row, Sheet};
 use host_tests::boards::INSTRUMENT_BOARD as BOARD;
 use host_tests::boards::firmware;
 use host_tests::boards::packages::Permission;
@@ -31,7 +31,8 @@ const INSTRUCTIONS_PER_SECOND: u64 = 50_000_000;
 #[derive(Args)]
 pub(crate) struct Events {
     /// Table with the columns speed_normal_m_s (approach speed), speed_tangential_m_s and spin_rad_s (both 0 where empty or
-    /// absent), or - for standard input; without it, impacts of the paper
+    /// absent), or - for standard input; without it, impacts of the paper. Particle and surface are the instrument's own: other
+    /// columns do not count. Rows are read, sent and answered one by one, so that a file may be larger than memory
     file: Option<PathBuf>,
 }
 
@@ -48,21 +49,33 @@ pub(crate) struct Load {
 
 /// Sends the events of a table and prints their classes.
 pub(crate) fn classify(events: &Events, choice: Choice, permission: Permission) -> Result<Vec<String>, String> {
-    let events = read(events).map_err(|error| error.to_string())?;
+    let mut sheet = Sheet::open(source(events)?)?;
     let toolchain = match toolchain(choice, permission) {
         Ok(toolchain) => toolchain,
         Err(missing) => return Ok(missing),
     };
     let (mut session, mut client) = start(&toolchain, "instrument")?;
     let judge = Judge::new()?;
-    let mut failures = Vec::new();
-    println!("event,class,restitution,lines,reason");
-    for event in events {
-        let number = client.send(event).and_then(|number| client.settle().map(|()| number));
-        let number = number.map_err(|error| error.to_string())?;
+    let radius = station::scene::<f64>().map_err(|error| error.to_string())?.sphere().radius();
+    let mut answers = csv::Writer::from_writer(io::stdout().lock());
+    // Nobody may want the rest of the answers, as `head` does not.
+    let mut wanted = written(&mut answers, &["event", "class", "restitution", "lines", "reason"].map(String::from))?;
+    let (mut failures, mut number, mut unreadable) = (Vec::new(), 0_u64, 0_u64);
+    while let Some(row) = sheet.next_row()?.filter(|_| wanted) {
+        number += 1;
+        let event = match row.check().and_then(|()| event(&row, radius)) {
+            Ok(event) => event,
+            Err(reason) => {
+                unreadable += 1;
+                wanted =
+                    written(&mut answers, &[number.to_string(), String::new(), String::new(), String::new(), reason])?;
+                continue;
+            }
+        };
+        client.send(event).and_then(|_| client.settle()).map_err(|error| error.to_string())?;
         let lines = session.word(LINES)?;
         for (_, event, answer) in client.answers() {
-            println!("{}", row(number, &answer, lines));
+            wanted = wanted && written(&mut answers, &cells(number, &answer, lines))?;
             failures.extend(judge.check(&event, &answer).err());
             let high = answer.ok().map_or(0, |verdict| 1 << verdict.class.index());
             if lines != high {
@@ -74,17 +87,31 @@ pub(crate) fn classify(events: &Events, choice: Choice, permission: Permission) 
     if !report.is_complete() {
         failures.push(format!("the counts do not add up: {report:?}"));
     }
+    if unreadable > 0 {
+        failures.push(format!("rows that are no events: {unreadable}, each with its reason"));
+    }
     Ok(failures)
 }
 
-fn row(number: u32, answer: &Answer, lines: u32) -> String {
-    match answer {
+/// Writes a row at once, and says whether anybody still reads.
+fn written(answers: &mut csv::Writer<impl Write>, cells: &[String; 5]) -> Result<bool, String> {
+    let result = answers.write_record(cells).map_err(io::Error::from).and_then(|()| answers.flush());
+    match result {
+        Ok(()) => Ok(true),
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(false),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+fn cells(number: u64, answer: &Answer, lines: u32) -> [String; 5] {
+    let (class, restitution, reason) = match answer {
         Ok(verdict) => {
             let restitution = verdict.restitution.map_or_else(String::new, |e| format!("{e:.4}"));
-            format!("{number},{},{restitution},{lines:05b},", verdict.class)
+            (verdict.class.to_string(), restitution, String::new())
         }
-        Err(rejection) => format!("{number},,,{lines:05b},\"{rejection}\""),
-    }
+        Err(rejection) => (String::new(), String::new(), rejection.to_string()),
+    };
+    [number.to_string(), class, restitution, format!("{lines:05b}"), reason]
 }
 
 /// Puts the instrument on trial and says what it takes.
@@ -145,31 +172,23 @@ fn start(toolchain: &Toolchain, feature: &str) -> Result<(Session, Client), Stri
     Ok((session, client))
 }
 
-/// The events of a table, or those of the paper.
-fn read(events: &Events) -> Result<Vec<Event>, Box<dyn Error>> {
-    let input: Box<dyn Read> = match &events.file {
+/// The table of events, or that of the paper.
+fn source(events: &Events) -> Result<Box<dyn BufRead>, String> {
+    Ok(match &events.file {
         None => Box::new(include_str!("../../../../examples/classify/impacts.csv").as_bytes()),
-        Some(path) if path.as_os_str() == "-" => Box::new(io::stdin()),
-        Some(path) => Box::new(File::open(path).map_err(|error| format!("{}: {error}", path.display()))?),
-    };
-    let radius = station::scene::<f64>()?.sphere().radius();
-    let mut reader = csv::Reader::from_reader(input);
-    let names = reader.headers()?.clone();
-    let column = |name: &str| names.iter().position(|column| column.trim() == name);
-    let approach = column("speed_normal_m_s").ok_or("the table has no column speed_normal_m_s")?;
-    let (tangential, spin) = (column("speed_tangential_m_s"), column("spin_rad_s"));
-    let mut events = Vec::new();
-    for (row, record) in reader.records().enumerate() {
-        let record = record?;
-        let number = |column: Option<usize>| match column.and_then(|column| record.get(column)).map(str::trim) {
-            None | Some("") => Ok(0.0),
-            Some(text) => text.parse::<f64>().map_err(|_| format!("row {}: no number: {text}", row + 1)),
-        };
-        events.push(PlanarReading {
-            approach: number(Some(approach))? as f32,
-            tangential: number(tangential)? as f32,
-            peripheral: (number(spin)? * radius) as f32,
-        });
-    }
-    Ok(events)
+        Some(path) if path.as_os_str() == "-" => Box::new(io::stdin().lock()),
+        Some(path) => {
+            Box::new(BufReader::new(File::open(path).map_err(|error| format!("{}: {error}", path.display()))?))
+        }
+    })
+}
+
+/// The event of a row, whose sphere has the given radius.
+fn event(row: &Row<'_>, radius: f64) -> Result<Event, String> {
+    let spin: f64 = row.or_zero("spin_rad_s")?;
+    Ok(PlanarReading {
+        approach: row.required("speed_normal_m_s")?,
+        tangential: row.or_zero("speed_tangential_m_s")?,
+        peripheral: (spin * radius) as f32,
+    })
 }

@@ -27,6 +27,9 @@ mod limits;
 mod panics;
 mod report;
 mod session;
+#[path = "../../../../examples/sheet/mod.rs"]
+#[allow(dead_code, reason = "tables are only read here")]
+mod sheet;
 
 /// Runs the firmware on emulated Cortex-M0, M3, M4F, M7 and M33 and on RISC-V, and
 /// reports class and instructions of every classification, flash, static memory, stack,
