@@ -1,13 +1,13 @@
 //! From measurements back to parameters: the paper's values, there and back again, reasons, outliers and coverage.
 
 use microimpact::calibrate::{
-    CalibrationError, Estimate, ImpulseRatios, Location, Rebound, RestitutionFit, adhesion_damping, friction,
+    CalibrationError, Estimate, ImpulseRatios, Location, Rebound, RestitutionFit, adhesion_damping, estimate, friction,
     material_damping, parameter, ring_strength, rolling_motion,
 };
 use microimpact::rigid::{Departure, infer_assuming_rolling};
 use microimpact::simulation::{Collocation, FixedCost, HystereticDamping, Ring, Simulation};
 use microimpact::{
-    CriticalSpeed, Fault, InputError, NormalMotion, Oblique, Parameter, Real, RestitutionLaw, RigidBody,
+    CriticalSpeed, Dual, Fault, InputError, NormalMotion, Oblique, Parameter, Real, RestitutionLaw, RigidBody,
     SpeedRestitution, Sphere, Stiffness,
 };
 use proptest::prelude::*;
@@ -383,4 +383,54 @@ proptest! {
             prop_assert!(found.is_err() || found.is_ok_and(|value| value.is_finite() && value >= 0.0), "{found:?}");
         }
     }
+}
+
+/// The restitution of the paper's scene with derivatives by one of its parameters, at first f0, zeta_H, zeta_A or the
+/// radius, and by the speed.
+fn sensitive(which: usize, value: f64, speed: f64) -> Dual<f64, 2> {
+    let [parameter, speed] = Dual::variables([value, speed]);
+    let fixed = Dual::<f64, 2>::fixed;
+    let mut inputs = [250.0, 10.5, 6.25, 5.06e-6].map(fixed);
+    inputs[which] = parameter;
+    let [f0, zeta_h, zeta_a, radius] = inputs;
+    let sphere = Sphere::solid(radius, fixed(2600.0)).unwrap();
+    let scene = Simulation::new(sphere, Stiffness::new(fixed(7.5e10)).unwrap());
+    let scene = scene.with_damping(zeta_h).unwrap().with_ring(f0, zeta_a).unwrap();
+    let method = Collocation::<9, Dual<f64, 2>>::new(fixed(1e-9)).unwrap();
+    scene.normal_impact(&method, &NormalMotion::new(speed).unwrap()).unwrap().overall_restitution()
+}
+
+/// Standard errors of what one impact tells are those of many repetitions of it.
+#[test]
+fn standard_errors_of_one_impact() {
+    const DRAWS: u32 = 2000;
+    let (damped, ringed) = (bare(5.06e-6).with_damping(10.5).unwrap(), bare(5.06e-6).with_ring(250.0, 6.25).unwrap());
+    let found = |which: usize, rebound: &Rebound<f64>| match which {
+        0 => parameter((0.0, 1e3), |f0| Ok(scene(5.06e-6, f0, 10.5, 6.25)), &method(), rebound, 1e-9),
+        1 => material_damping(&ringed, &method(), rebound, 1e-9),
+        2 => adhesion_damping(&damped, 250.0, &method(), rebound, 1e-9),
+        _ => parameter((2e-6, 2e-5), |radius| Ok(scene(radius, 250.0, 10.5, 6.25)), &method(), rebound, 1e-9),
+    };
+    let mut random = StdRng::seed_from_u64(13);
+    let errors = [0.004, 0.01];
+    let [restitution_error, speed_error] = errors.map(|error| Normal::new(0.0, error).unwrap());
+    for (which, truth) in [250.0, 10.5, 6.25, 5.06e-6].into_iter().enumerate() {
+        let exact = restitution(&scene(5.06e-6, 250.0, 10.5, 6.25), 2.8);
+        let stated = estimate(truth, sensitive(which, truth, 2.8), &errors).unwrap();
+        let mut squares = 0.0;
+        for _ in 0..DRAWS {
+            let rebound = Rebound {
+                speed: 2.8 + speed_error.sample(&mut random),
+                restitution: exact + restitution_error.sample(&mut random),
+            };
+            squares += (found(which, &rebound).unwrap() - truth).powi(2) / f64::from(DRAWS);
+        }
+        let share = squares.sqrt() / stated.standard_error;
+        assert!((share - 1.0).abs() < 0.08, "{which}: {share}");
+    }
+    let blind = estimate(1.0, Dual::fixed(0.7), &[0.01, 0.01]);
+    assert_eq!(blind.map(|_: Estimate<f64>| ()), Err(CalibrationError::Undetermined));
+    let wrong = estimate(6.25, sensitive(2, 6.25, 2.8), &[0.01, -0.01]);
+    let error = InputError { parameter: Parameter::StandardError, fault: Fault::TooSmall };
+    assert_eq!(wrong, Err(CalibrationError::Input(error)));
 }

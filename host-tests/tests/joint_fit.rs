@@ -1,6 +1,9 @@
 //! The joint fit on synthetic clouds: it finds the truth within the intervals that it states.
 
+use std::process::{Command, Output};
+
 use host_tests::fit::{COUNT, FitError, Impact, JointFit, Known, NAMES, Parameters, figures, restitution};
+use microimpact::Parameter;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rand_distr::{Distribution, Normal, StandardNormal};
@@ -92,6 +95,21 @@ fn what_cannot_be_fitted_says_why() {
     assert!(matches!(JointFit::of(&known, &impacts[..10], first(&known)), Err(FitError::TooFew)));
     let outside = Known { density: -1.0, ..known };
     assert!(matches!(JointFit::of(&outside, &impacts, first(&known)), Err(FitError::Input(_))));
+    let at_fault = |known: &Known, impacts: &[Impact]| match JointFit::of(known, impacts, first(known)).err() {
+        Some(FitError::Input(error)) => Some(error.parameter),
+        _ => None,
+    };
+    assert_eq!(at_fault(&Known { noise: 0.0, ..known }, &impacts), Some(Parameter::StandardError));
+    assert_eq!(at_fault(&Known { diameter: (8.6e-6, f64::NAN), ..known }, &impacts), Some(Parameter::StandardError));
+    for (speed, restitution, parameter) in [
+        (3.0, 1.5, Parameter::Restitution),
+        (3.0, f64::NAN, Parameter::Restitution),
+        (f64::NAN, 0.5, Parameter::ApproachSpeed),
+        (-3.0, 0.5, Parameter::ApproachSpeed),
+    ] {
+        let wrong = [&impacts[..], &[Impact { speed, restitution }]].concat();
+        assert_eq!(at_fault(&known, &wrong), Some(parameter), "{speed} {restitution}");
+    }
     // One speed gives two numbers, a mean and a variance, for five parameters.
     let alike: Vec<_> = (0..40).map(|i| Impact { speed: 5.0, restitution: 0.8 + 0.001 * f64::from(i % 7) }).collect();
     let error = JointFit::of(&known, &alike, first(&known)).map(|fit| fit.covariance).unwrap_err();
@@ -116,24 +134,44 @@ fn figures_show_every_impact() {
     }
 }
 
+/// The program run on a table, with the paper's mean sphere.
+fn run_on(name: &str, table: &[u8]) -> Output {
+    let path = std::env::temp_dir().join(format!("microimpact-joint-fit-{name}-{}.csv", std::process::id()));
+    std::fs::write(&path, table).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_joint_fit"))
+        .arg(&path)
+        .args(["--noise", &NOISE.to_string(), "--diameter", "8.6e-6", "--diameter-error", &DIAMETER_ERROR.to_string()])
+        .output()
+        .unwrap();
+    std::fs::remove_file(&path).unwrap();
+    output
+}
+
+#[test]
+fn tables_that_cannot_be_read_say_where() {
+    let header = "Speed_normal_m_s;restitution\n";
+    for (name, table, sign) in [
+        ("empty", String::new(), "the table is empty"),
+        ("columns", "a,b\n1,2\n".into(), "row 1: speed_normal_m_s: missing"),
+        ("word", format!("{header}2,5;0,5\n\"3\";half\n"), "row 2: restitution: \"half\" is not a number"),
+        ("few", format!("{header}2,5;0,5\n"), "needs 15 impacts"),
+    ] {
+        let output = run_on(name, table.as_bytes());
+        let complaint = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && complaint.contains(sign), "{name}: {complaint}");
+    }
+}
+
 /// The program reads a table, and its intervals hold the truth.
 #[test]
 fn from_a_table() {
     use std::fmt::Write;
-    let (known, impacts) = cloud(&mut StdRng::seed_from_u64(21), 40);
+    let (_, impacts) = cloud(&mut StdRng::seed_from_u64(21), 40);
     let mut table = String::from("speed_normal_m_s,restitution\n");
     for impact in &impacts {
-        writeln!(table, "{},{}", impact.speed, impact.restitution).unwrap();
+        writeln!(table, "{},{}", impact.speed, impact.restitution.max(0.0)).unwrap();
     }
-    let path = std::env::temp_dir().join(format!("microimpact-joint-fit-{}.csv", std::process::id()));
-    std::fs::write(&path, table).unwrap();
-    let [diameter, error] = [known.diameter.0, known.diameter.1].map(|number| number.to_string());
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_joint_fit"))
-        .arg(&path)
-        .args(["--noise", "0.005", "--diameter", &diameter, "--diameter-error", &error])
-        .output()
-        .unwrap();
-    std::fs::remove_file(&path).unwrap();
+    let output = run_on("cloud", table.as_bytes());
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     for (index, (name, _)) in NAMES.into_iter().enumerate() {

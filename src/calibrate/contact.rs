@@ -3,9 +3,9 @@
 use core::f64::consts::PI;
 
 use super::root::root;
-use super::{CalibrationError, Rebound};
+use super::{CalibrationError, Estimate, Rebound};
 use crate::simulation::{Attraction, Damping, Method, NoPeeling, Scale, Simulation, Status};
-use crate::{InputError, NoAdhesion, NormalMotion, Parameter, Real, Sphere, Stiffness};
+use crate::{Dual, InputError, NoAdhesion, NormalMotion, Parameter, Real, Sphere, Stiffness};
 
 /// Steps, each four times the one before, in which a strength is sought that slows the rebound enough.
 const MOST_STEPS: u32 = 20;
@@ -150,6 +150,56 @@ where
         return search.between((bracket.0, first), (bracket.1, last));
     }
     Err(if first > T::ZERO { CalibrationError::ReboundTooSlow } else { CalibrationError::ReboundTooFast })
+}
+
+/// A parameter that was found from a rebound, with its standard error: by how much the errors of all that was measured move it.
+///
+/// `restitution` is that of the scene with this parameter, which is the first of the inputs of the [`Dual`] numbers. In
+/// `errors` the standard error of the measured restitution comes first, and those of the other inputs follow in their order.
+///
+/// # Errors
+/// A standard error outside its range, or a restitution that does not depend on the parameter.
+///
+/// ```
+/// use microimpact::calibrate::{Rebound, adhesion_damping, estimate};
+/// use microimpact::simulation::{Collocation, Simulation};
+/// use microimpact::{Dual, NormalMotion, Sphere, Stiffness};
+///
+/// // zeta_A of Table 1, where e, the speed and the radius have errors of 1 %.
+/// let scene = Simulation::new(Sphere::solid(5.06e-6, 2600.0)?, Stiffness::new(7.5e10)?).with_damping(10.5)?;
+/// let method = Collocation::<9, f64>::new(1e-9)?;
+/// let zeta = adhesion_damping(&scene, 250.0, &method, &Rebound { speed: 2.8, restitution: 0.746 }, 1e-9)?;
+///
+/// let [zeta_a, speed, radius] = Dual::variables([zeta, 2.8, 5.06e-6]);
+/// let fixed = Dual::<f64, 3>::fixed;
+/// let scene = Simulation::new(Sphere::solid(radius, fixed(2600.0))?, Stiffness::new(fixed(7.5e10))?)
+///     .with_damping(fixed(10.5))?
+///     .with_ring(fixed(250.0), zeta_a)?;
+/// let method = Collocation::<9, Dual<f64, 3>>::new(fixed(1e-9))?;
+/// let restitution = scene.normal_impact(&method, &NormalMotion::new(speed)?)?.overall_restitution();
+/// let found = estimate(zeta, restitution, &[0.0075, 0.028, 0.05e-6])?;
+/// assert!((found.value - 6.25).abs() < found.standard_error);
+/// assert!((1.0..1.2).contains(&found.standard_error)); // one digit of zeta_A
+/// # Ok::<(), microimpact::calibrate::CalibrationError>(())
+/// ```
+pub fn estimate<T: Real, const N: usize>(
+    parameter: T,
+    restitution: Dual<T, N>,
+    errors: &[T; N],
+) -> Result<Estimate<T>, CalibrationError> {
+    let mut squares = T::ZERO;
+    for (index, (partial, error)) in restitution.partials.iter().zip(errors).enumerate() {
+        let error = Parameter::StandardError.check(*error)?;
+        // The theorem of implicit functions: e(p, x) - e = 0, so that dp de/dp = d(e) - sum of dx de/dx.
+        let share = if index == 0 { error } else { *partial * error };
+        squares = squares + share * share;
+    }
+    let slope = restitution.partials.first().map_or(T::ZERO, |partial| partial.abs());
+    if slope == T::ZERO {
+        return Err(CalibrationError::Undetermined);
+    }
+    let standard_error = squares.sqrt().saturating_div(slope);
+    Ok(Estimate { value: parameter, standard_error })
 }
 
 /// The search for a value with which a scene rebounds as measured.

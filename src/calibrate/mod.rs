@@ -1,9 +1,9 @@
 //! From measurements to the parameters of the models.
 //!
 //! One impact gives one parameter of a contact, by a bracketed search of bounded length: damping, the strength of
-//! adhesion, the radius. Many impacts give the restitution law and the work of adhesion, the friction coefficient or the
-//! spin, each with its standard error and whatever the outliers are. What a measurement cannot tell is a [`CalibrationError`]
-//! that says why.
+//! adhesion, the radius; derivatives give its standard error. Many impacts give the restitution law and the work of adhesion,
+//! the friction coefficient or the spin, each with its standard error and whatever the outliers are. What a measurement
+//! cannot tell is a [`CalibrationError`] that says why.
 
 mod contact;
 mod error;
@@ -12,7 +12,7 @@ mod robust;
 mod root;
 mod tangential;
 
-pub use contact::{adhesion_damping, material_damping, parameter, ring_strength};
+pub use contact::{adhesion_damping, estimate, material_damping, parameter, ring_strength};
 pub use error::CalibrationError;
 pub use restitution::RestitutionFit;
 pub use robust::{Estimate, Location};

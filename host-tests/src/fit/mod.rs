@@ -16,7 +16,7 @@ use std::num::NonZeroUsize;
 use gauss_quad::hermite::GaussHermite;
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use microimpact::simulation::{Collocation, Nodes, Simulation};
-use microimpact::{Dual, InputError, NormalMotion, Real, Sphere, Stiffness};
+use microimpact::{Dual, Fault, InputError, NormalMotion, Parameter, Real, Sphere, Stiffness};
 use nalgebra::storage::Owned;
 use nalgebra::{Const, DVector, Dyn, OMatrix, SMatrix, SVector};
 
@@ -124,6 +124,9 @@ const DIAMETERS: usize = 9;
 /// Rounds of least squares, each with the variances of the one before.
 const ROUNDS: usize = 4;
 
+/// Standard errors by which a measured restitution may lie outside its range.
+const FARTHEST: f64 = 5.0;
+
 /// Of a normal distribution, and of the square of two: what 95 % lie within.
 const WITHIN: (f64, f64) = (1.959_964, 5.991_465);
 
@@ -135,6 +138,17 @@ impl JointFit {
     pub fn of(known: &Known, impacts: &[Impact], first: Parameters) -> Result<Self, FitError> {
         if impacts.len() < 3 * COUNT {
             return Err(FitError::TooFew);
+        }
+        for error in [known.noise, known.diameter.1] {
+            // Deviations are counted in both.
+            if Parameter::StandardError.check(error)? <= 0.0 {
+                return Err(InputError { parameter: Parameter::StandardError, fault: Fault::TooSmall }.into());
+            }
+        }
+        // Errors may carry a measurement beyond its range, but not far.
+        let reach = FARTHEST * known.noise;
+        for impact in impacts.iter().filter(|impact| !(-reach..=1.0 + reach).contains(&impact.restitution)) {
+            Parameter::Restitution.check(impact.restitution)?;
         }
         let mut speeds: Vec<f64> = impacts.iter().map(|impact| impact.speed).collect();
         speeds.sort_by(f64::total_cmp);

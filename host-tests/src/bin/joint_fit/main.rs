@@ -3,16 +3,23 @@
 //! `cargo run --release -p host-tests --bin joint_fit -- FILE.csv --diameter 8.6e-6 --diameter-error 2e-7`
 
 use std::error::Error;
+use std::fs::File;
+use std::io::{self, BufReader, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
 use comfy_table::Table;
 use host_tests::fit::{Impact, JointFit, Known, NAMES, figures};
+use sheet::{Sheet, command};
+
+#[path = "../../../../examples/sheet/mod.rs"]
+#[allow(dead_code, reason = "tables are only read here")]
+mod sheet;
 
 /// Fit f0, zeta_H, zeta_A, mean and spread of diameters to a table of speeds and restitutions.
 ///
-/// Columns read: speed_normal_m_s, restitution (zero for a capture).
+/// Columns read: speed_normal_m_s, restitution (zero for a capture). Without a value in each row there is no fit.
 #[derive(Parser)]
 #[command(name = "joint_fit", verbatim_doc_comment)]
 struct Options {
@@ -42,26 +49,11 @@ struct Options {
 }
 
 fn main() -> ExitCode {
-    match run(&Options::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("joint_fit: {error}");
-            ExitCode::from(2)
-        }
-    }
+    command::exit_code("joint_fit", run(&Options::parse()).map(|()| 0))
 }
 
 fn run(options: &Options) -> Result<(), Box<dyn Error>> {
-    let mut reader = csv::Reader::from_path(&options.file)?;
-    let names = reader.headers()?.clone();
-    let column = |name: &str| names.iter().position(|other| other == name).ok_or(format!("no column {name}"));
-    let (speed, restitution) = (column("speed_normal_m_s")?, column("restitution")?);
-    let mut impacts = Vec::new();
-    for row in reader.records() {
-        let row = row?;
-        let number = |index: usize| row.get(index).unwrap_or_default().trim().parse::<f64>();
-        impacts.push(Impact { speed: number(speed)?, restitution: number(restitution)? });
-    }
+    let impacts = read(options)?;
     let known = Known {
         stiffness: options.stiffness,
         density: options.density,
@@ -79,11 +71,27 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         let cells = [fit.parameters[index], low, high].map(|number| format!("{number:.4e}"));
         table.add_row([[name.to_owned()].as_slice(), &cells, &[unit.to_owned()]].concat());
     }
-    println!("{table}");
+    let mut output = io::stdout().lock();
+    writeln!(output, "{table}")?;
     let mean_square = fit.residuals().map(|(_, residual)| residual * residual).sum::<f64>() / impacts.len() as f64;
-    println!("impacts: {}, mean square of the residuals in their variance: {mean_square:.3}", impacts.len());
+    writeln!(output, "impacts: {}, mean square of the residuals in their variance: {mean_square:.3}", impacts.len())?;
     if let Some(figure) = &options.figure {
         figures::draw(&fit, figure)?;
     }
     Ok(())
+}
+
+/// The impacts of a table.
+fn read(options: &Options) -> Result<Vec<Impact>, String> {
+    let named = |error: io::Error| format!("{}: {error}", options.file.display());
+    let mut sheet = Sheet::open(BufReader::new(File::open(&options.file).map_err(named)?))?;
+    let mut impacts = Vec::new();
+    while let Some(row) = sheet.next_row()? {
+        let number = |column: &str| row.required(column);
+        let impact = row
+            .check()
+            .and_then(|()| Ok(Impact { speed: number("speed_normal_m_s")?, restitution: number("restitution")? }));
+        impacts.push(impact.map_err(|reason| format!("row {}: {reason}", impacts.len() + 1))?);
+    }
+    Ok(impacts)
 }
