@@ -56,7 +56,7 @@ where
         assert_eq!(slides, case.text("motion") == "sliding", "{}", case.text("name"));
         let (radius, tangential) = (case.number("radius_m"), case.number("speed_tangential_m_s"));
         let slip = (tangential - radius * case.number("spin_rad_s")).abs().max(tangential.abs());
-        let along = f64::from(impact.tangential.velocity) - case.number("speed_tangential_out_m_s");
+        let along = f64::from(impact.tangential.tangential) - case.number("speed_tangential_out_m_s");
         let around = radius * (f64::from(impact.tangential.spin) - case.number("spin_out_rad_s"));
         if slip > 0.0 {
             velocity = velocity.max(along.abs().max(around.abs()) / slip);

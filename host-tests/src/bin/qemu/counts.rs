@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::io;
 
 use host_tests::boards::BOARDS;
-use host_tests::boards::absent::PROOFS;
+use host_tests::boards::absent::{PROOFS, Proof};
 use host_tests::boards::figures::{Figure, Quantity};
 
 use crate::report;
@@ -48,7 +48,8 @@ pub(crate) fn absent_terms(figures: &[Figure]) -> String {
     let mut text =
         String::from("Bytes that differ from the firmware of a library in which absent terms do not exist\n");
     for Figure { subject, value } in figures.iter().filter(|figure| figure.subject.quantity == Quantity::AbsentTerms) {
-        let absent = PROOFS.iter().find(|proof| proof.scene == subject.scene).map_or("", |proof| proof.absent);
+        let proof = PROOFS.iter().find(|proof| proof.scene == subject.scene);
+        let absent = proof.map(Proof::absent).unwrap_or_default();
         // Writing to a String cannot fail.
         let _ = writeln!(text, "  {:<10}  {value} in {}, without {absent}", subject.core, subject.scene);
     }

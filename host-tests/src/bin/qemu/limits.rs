@@ -56,6 +56,11 @@ pub(crate) fn of(scene: &str, quantity: Quantity) -> Option<f64> {
         Quantity::Flash if scene == "small/fixed-oblique-1e-5" => Some(6.0 * 1024.0),
         Quantity::Flash if is_small(scene) => None,
         Quantity::StaticMemory | Quantity::AbsentTerms => Some(0.0),
+        Quantity::Error if scene == "simulation/fixed-class" || scene == "simulation/fixed-point" => Some(1e-4),
+        Quantity::Error if scene == "simulation/fixed-1e-5" => Some(1e-5),
+        // That of the method and what single precision adds.
+        Quantity::Error if scene == "simulation/fixed-1e-6" => Some(1.5e-6),
+        Quantity::Error if scene == "table/restitution" => Some(1e-3),
         Quantity::Classify if scene == "table/boundary" => Some(60.0),
         Quantity::Classify if scene == "table/restitution" => Some(300.0),
         _ if is_simulated(scene) || is_table(scene) || is_calibration(scene) => None,
