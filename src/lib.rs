@@ -1,4 +1,4 @@
-#![doc = include_str!("figures.md")]
+#![cfg_attr(doc, doc = include_str!("figures.md"))]
 #![doc = include_str!("../README.md")]
 #![no_std]
 #![forbid(unsafe_code)]
