@@ -329,7 +329,7 @@ fn visit_variants_of<T: Number + PhaseSamples<5, 7>>(visitor: &mut impl Visitor)
     visitor.visit::<T, FixedCostFriction<T>>();
 }
 
-/// Goes through the scenes of simulations to a tolerance, in both number types.
+/// Goes through the scene with a term that only simulations to a tolerance take, in both number types.
 pub fn visit_collocations(visitor: &mut impl Visitor) {
     visit_collocations_of::<f32>(visitor);
     visit_collocations_of::<f64>(visitor);
@@ -337,6 +337,15 @@ pub fn visit_collocations(visitor: &mut impl Visitor) {
 
 fn visit_collocations_of<T: Tolerated>(visitor: &mut impl Visitor) {
     visitor.visit::<T, CollocationPeeling<T>>();
+}
+
+/// Goes through the scenes that record the motion, in both number types.
+pub fn visit_recordings(visitor: &mut impl Visitor) {
+    visit_recordings_of::<f32>(visitor);
+    visit_recordings_of::<f64>(visitor);
+}
+
+fn visit_recordings_of<T: Tolerated>(visitor: &mut impl Visitor) {
     visitor.visit::<T, CollocationRecording16<T>>();
     visitor.visit::<T, CollocationRecording32<T>>();
 }

@@ -1,4 +1,4 @@
-//! Measures simulations to a tolerance with terms that only they have.
+//! Measures a simulation to a tolerance with a term that only those have.
 
 #![no_std]
 #![no_main]

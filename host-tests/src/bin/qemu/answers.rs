@@ -7,7 +7,7 @@ use host_tests::table_1;
 
 use contacts::{REFUSED, UNDECIDED, visit_contacts};
 use scenes::{Answer, Number, Scene, Visitor, visit_scenes};
-use variants::{visit_collocations, visit_variants};
+use variants::{visit_collocations, visit_recordings, visit_variants};
 
 #[expect(unreachable_pub, reason = "part of the firmware, and public there")]
 #[path = "../../../../examples/firmware/src/approximate.rs"]
@@ -249,6 +249,7 @@ pub(crate) fn expected() -> Result<BTreeMap<Case, Expected>, String> {
     visit_contacts(&mut host);
     visit_variants(&mut host);
     visit_collocations(&mut host);
+    visit_recordings(&mut host);
     if host.refused.is_empty() {
         Ok(host.verdicts)
     } else {
