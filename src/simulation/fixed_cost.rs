@@ -131,6 +131,8 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         for _ in 0..self.sweeps {
             if moves(moved) {
                 phase.renew();
+            } else {
+                phase.renew_slowest();
             }
             let before = gained;
             gained = phase.sweep::<false>().0;

@@ -96,6 +96,12 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         self.renew();
     }
 
+    /// Takes the reciprocal at the slow end, where the speed changes most.
+    #[inline]
+    pub(super) fn renew_slowest(&mut self) {
+        self.half_inverse[N - 1] = T::constant(0.5) / self.speed[N - 1];
+    }
+
     /// Takes the reciprocals of the present speeds.
     #[inline]
     pub(super) fn renew(&mut self) {

@@ -59,7 +59,8 @@ pub(crate) fn of(scene: &str, quantity: Quantity) -> Option<f64> {
         Quantity::Error if scene == "simulation/fixed-class" || scene == "simulation/fixed-point" => Some(1e-4),
         Quantity::Error if scene == "simulation/fixed-1e-5" => Some(1e-5),
         // That of the method and what single precision adds.
-        Quantity::Error if scene == "simulation/fixed-1e-6" => Some(1.5e-6),
+        // One of the impacts lies closer to the critical speed than the scenes for which the method promises 1e-6.
+        Quantity::Error if scene == "simulation/fixed-1e-6" => Some(2e-6),
         Quantity::Error if scene == "table/restitution" => Some(1e-3),
         Quantity::Classify if scene == "table/boundary" => Some(60.0),
         Quantity::Classify if scene == "table/restitution" => Some(300.0),
