@@ -186,7 +186,7 @@ fn numbers_in_prose_are_the_tested_ones() {
 fn errors_of_fixed_cost_are_the_tested_ones() {
     let tests = include_str!("fixed_cost.rs");
     let added = 1e-6;
-    let statement = format!("5 % above the critical speed they are up to {added:e} larger");
+    let statement = format!("closer to the critical speed they are up to {added:e} larger");
     assert!(words().contains(&statement), "README.md lacks: {statement}");
     for (method, row, scene) in [
         ("&FixedCost::<5>::new(3)", "`FixedCost<5>`, 3 sweeps, error of e", "simulation/fixed-1e-5"),

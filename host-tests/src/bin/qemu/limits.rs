@@ -58,7 +58,6 @@ pub(crate) fn of(scene: &str, quantity: Quantity) -> Option<f64> {
         Quantity::StaticMemory | Quantity::AbsentTerms => Some(0.0),
         Quantity::Error if scene == "simulation/fixed-class" || scene == "simulation/fixed-point" => Some(1e-4),
         Quantity::Error if scene == "simulation/fixed-1e-5" => Some(1e-5),
-        // That of the method and what single precision adds.
         // One of the impacts lies closer to the critical speed than the scenes for which the method promises 1e-6.
         Quantity::Error if scene == "simulation/fixed-1e-6" => Some(2e-6),
         Quantity::Error if scene == "table/restitution" => Some(1e-3),
