@@ -4,7 +4,7 @@ use core::cmp::Ordering;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::Real;
-use crate::simulation::{Nodes, PhaseNodes, PhaseSamples, Share};
+use crate::contact::{Fraction, Nodes, PhaseNodes, PhaseSamples};
 
 /// A value with its partial derivatives by `N` inputs (forward-mode differentiation).
 ///
@@ -223,14 +223,14 @@ const fn fixed_rows<T: Real, const N: usize, const M: usize, const L: usize>(
 
 /// The same for contact radii.
 #[allow(clippy::indexing_slicing)]
-const fn fixed_shares<T: Real, const N: usize, const M: usize>(shares: [Share<T>; M]) -> [Share<Dual<T, N>>; M] {
+const fn fixed_shares<T: Real, const N: usize, const M: usize>(shares: [Fraction<T>; M]) -> [Fraction<Dual<T, N>>; M] {
     let zero = Dual::fixed(T::ZERO);
-    let mut fixed = [Share { radius: zero, square: zero, cubic: zero, quintic: zero }; M];
+    let mut fixed = [Fraction { value: zero, square: zero, cubic: zero, quintic: zero }; M];
     let mut i = 0;
     while i < M {
-        let Share { radius, square, cubic, quintic } = shares[i];
-        fixed[i] = Share {
-            radius: Dual::fixed(radius),
+        let Fraction { value, square, cubic, quintic } = shares[i];
+        fixed[i] = Fraction {
+            value: Dual::fixed(value),
             square: Dual::fixed(square),
             cubic: Dual::fixed(cubic),
             quintic: Dual::fixed(quintic),
@@ -265,7 +265,7 @@ impl<T: Nodes<M>, const N: usize, const M: usize> Nodes<M> for Dual<T, N> {
 
 impl<T: PhaseNodes<M>, const N: usize, const M: usize> PhaseNodes<M> for Dual<T, N> {
     const Z: [Self; M] = fixed_all(T::Z);
-    const SHARES: [Share<Self>; M] = fixed_shares(T::SHARES);
+    const FRACTIONS: [Fraction<Self>; M] = fixed_shares(T::FRACTIONS);
     const RUNNING: [[Self; M]; M] = fixed_rows(T::RUNNING);
     const RUNNING_ENDS: [(Self, Self); M] = fixed_pairs(T::RUNNING_ENDS);
     const WHOLE: [Self; M] = fixed_all(T::WHOLE);
@@ -275,6 +275,6 @@ impl<T: PhaseNodes<M>, const N: usize, const M: usize> PhaseNodes<M> for Dual<T,
 }
 
 impl<T: PhaseSamples<L, M>, const N: usize, const L: usize, const M: usize> PhaseSamples<L, M> for Dual<T, N> {
-    const SHARES: [Share<Self>; M] = fixed_shares(<T as PhaseSamples<L, M>>::SHARES);
+    const FRACTIONS: [Fraction<Self>; M] = fixed_shares(<T as PhaseSamples<L, M>>::FRACTIONS);
     const RUNNING: [[Self; M]; L] = fixed_rows(<T as PhaseSamples<L, M>>::RUNNING);
 }

@@ -7,6 +7,7 @@
 pub mod boundary;
 pub mod calibrate;
 mod classify;
+pub mod contact;
 mod dual;
 mod error;
 #[cfg(feature = "fixed")]
@@ -18,7 +19,6 @@ mod motion;
 mod real;
 pub mod rigid;
 mod scene;
-pub mod simulation;
 mod sphere;
 mod surface;
 pub mod uncertainty;

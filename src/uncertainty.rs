@@ -6,7 +6,7 @@
 
 use core::f64::consts::FRAC_1_SQRT_2;
 
-use crate::simulation::Nodes;
+use crate::contact::Nodes;
 use crate::{Class, Coulomb, CriticalSpeed, Dual, InputError, Oblique, Parameter, Real, Sphere};
 
 impl<T: Real, const N: usize> Dual<T, N> {

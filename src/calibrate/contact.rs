@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use super::root::root;
 use super::{CalibrationError, Estimate, Rebound};
-use crate::simulation::{Attraction, Damping, Method, NoPeeling, Scale, Simulation, Status};
+use crate::contact::{Attraction, Contact, ContactLaw, Damping, HertzLaw, Method, Status};
 use crate::{Dual, InputError, NoAdhesion, NormalMotion, Parameter, Real, Sphere, Stiffness};
 
 /// Steps, each four times the one before, in which a strength is sought that slows the rebound enough.
@@ -20,28 +20,29 @@ const MOST_STEPS: u32 = 20;
 ///
 /// ```
 /// use microimpact::calibrate::{Rebound, material_damping};
-/// use microimpact::simulation::{Collocation, Simulation};
+/// use microimpact::contact::{Collocation, Contact};
 /// use microimpact::{RestitutionLaw, SpeedRestitution, Sphere, Stiffness};
 ///
 /// // R of silver-coated glass on steel at 13 m/s, where adhesion hardly counts, gives the paper's 10.45.
 /// let restitution = SpeedRestitution::new(130.0)?.restitution(13.0);
-/// let scene = Simulation::new(Sphere::solid(4.3e-6, 2600.0)?, Stiffness::new(7.5e10)?);
+/// let scene = Contact::hertz(Sphere::solid(4.3e-6, 2600.0)?, Stiffness::new(7.5e10)?);
 /// let method = Collocation::<9, f64>::new(1e-9)?;
 /// let zeta = material_damping(&scene, &method, &Rebound { speed: 13.0, restitution }, 1e-9)?;
 /// assert!((zeta - 10.5).abs() < 0.1);
 /// # Ok::<(), microimpact::calibrate::CalibrationError>(())
 /// ```
-pub fn material_damping<T, D, A, F, P, X>(
-    scene: &Simulation<T, D, A, F, P, X>,
-    method: &impl Method<T, ()>,
+pub fn material_damping<T, D, A, X, S>(
+    scene: &Contact<T, HertzLaw<T, D, A, X>, S>,
+    method: &impl Method<T>,
     rebound: &Rebound<T>,
     tolerance: T,
 ) -> Result<T, CalibrationError>
 where
     T: Real,
-    Simulation<T, D, A, F, P, X>: Copy,
-    A: Scale<T, Scaled: Attraction<T>>,
-    X: Scale<T, Scaled: Attraction<T>>,
+    D: Copy,
+    A: Attraction<T>,
+    X: Attraction<T>,
+    S: Copy,
 {
     strength(Parameter::MaterialDamping, method, rebound, tolerance, |zeta| scene.with_damping(zeta))
 }
@@ -54,28 +55,28 @@ where
 ///
 /// ```
 /// use microimpact::calibrate::{Rebound, adhesion_damping};
-/// use microimpact::simulation::{Collocation, Simulation};
+/// use microimpact::contact::{Collocation, Contact};
 /// use microimpact::{Sphere, Stiffness};
 ///
 /// // The paper's mean sphere; its program halves this damping, so that its 12.5 is 6.25 here.
-/// let scene = Simulation::new(Sphere::solid(4.3e-6, 2600.0)?, Stiffness::new(7.5e10)?).with_damping(10.5)?;
+/// let scene = Contact::hertz(Sphere::solid(4.3e-6, 2600.0)?, Stiffness::new(7.5e10)?).with_damping(10.5)?;
 /// let method = Collocation::<9, f64>::new(1e-9)?;
 /// let zeta = adhesion_damping(&scene, 250.0, &method, &Rebound { speed: 2.8, restitution: 0.62 }, 1e-9)?;
 /// assert!((zeta - 6.25).abs() < 0.05);
 /// # Ok::<(), microimpact::calibrate::CalibrationError>(())
 /// ```
-pub fn adhesion_damping<T, D, F, X>(
-    scene: &Simulation<T, D, NoAdhesion, F, NoPeeling, X>,
+pub fn adhesion_damping<T, D, X, S>(
+    scene: &Contact<T, HertzLaw<T, D, NoAdhesion, X>, S>,
     f0: T,
-    method: &impl Method<T, ()>,
+    method: &impl Method<T>,
     rebound: &Rebound<T>,
     tolerance: T,
 ) -> Result<T, CalibrationError>
 where
     T: Real,
-    Simulation<T, D, NoAdhesion, F, NoPeeling, X>: Copy,
-    D: Scale<T, Scaled: Damping<T>>,
-    X: Scale<T, Scaled: Attraction<T>>,
+    D: Damping<T>,
+    X: Attraction<T>,
+    S: Copy,
 {
     strength(Parameter::AdhesionDamping, method, rebound, tolerance, |zeta| scene.with_ring(f0, zeta))
 }
@@ -114,31 +115,25 @@ pub fn ring_strength<T: Real>(sphere: &Sphere<T>, stiffness: Stiffness<T>, conta
 ///
 /// ```
 /// use microimpact::calibrate::{Rebound, parameter};
-/// use microimpact::simulation::{Collocation, Simulation};
+/// use microimpact::contact::{Collocation, Contact};
 /// use microimpact::{Sphere, Stiffness};
 ///
 /// // The radius that explains the rebound of Table 1.
 /// let scene = |radius| {
-///     Simulation::new(Sphere::solid(radius, 2600.0)?, Stiffness::new(7.5e10)?).with_damping(10.5)?.with_ring(250.0, 6.25)
+///     Contact::hertz(Sphere::solid(radius, 2600.0)?, Stiffness::new(7.5e10)?).with_damping(10.5)?.with_ring(250.0, 6.25)
 /// };
 /// let method = Collocation::<9, f64>::new(1e-9)?;
 /// let radius = parameter((2e-6, 20e-6), scene, &method, &Rebound { speed: 2.8, restitution: 0.746 }, 1e-9)?;
 /// assert!((radius - 5.06e-6).abs() < 0.005e-6);
 /// # Ok::<(), microimpact::calibrate::CalibrationError>(())
 /// ```
-pub fn parameter<T, D, A, F, P, X>(
+pub fn parameter<T: Real, L: ContactLaw<T>, S>(
     bracket: (T, T),
-    scene: impl Fn(T) -> Result<Simulation<T, D, A, F, P, X>, InputError>,
-    method: &impl Method<T, ()>,
+    scene: impl Fn(T) -> Result<Contact<T, L, S>, InputError>,
+    method: &impl Method<T>,
     rebound: &Rebound<T>,
     tolerance: T,
-) -> Result<T, CalibrationError>
-where
-    T: Real,
-    D: Scale<T, Scaled: Damping<T>>,
-    A: Scale<T, Scaled: Attraction<T>>,
-    X: Scale<T, Scaled: Attraction<T>>,
-{
+) -> Result<T, CalibrationError> {
     let search = Search::new(scene, method, rebound, tolerance)?;
     let (first, last) = (search.excess(bracket.0)?, search.excess(bracket.1)?);
     for (end, excess) in [(bracket.0, first), (bracket.1, last)] {
@@ -162,21 +157,21 @@ where
 ///
 /// ```
 /// use microimpact::calibrate::{Rebound, adhesion_damping, estimate};
-/// use microimpact::simulation::{Collocation, Simulation};
+/// use microimpact::contact::{Collocation, Contact};
 /// use microimpact::{Dual, NormalMotion, Sphere, Stiffness};
 ///
 /// // zeta_A of Table 1, where e, the speed and the radius have errors of 1 %.
-/// let scene = Simulation::new(Sphere::solid(5.06e-6, 2600.0)?, Stiffness::new(7.5e10)?).with_damping(10.5)?;
+/// let scene = Contact::hertz(Sphere::solid(5.06e-6, 2600.0)?, Stiffness::new(7.5e10)?).with_damping(10.5)?;
 /// let method = Collocation::<9, f64>::new(1e-9)?;
 /// let zeta = adhesion_damping(&scene, 250.0, &method, &Rebound { speed: 2.8, restitution: 0.746 }, 1e-9)?;
 ///
 /// let [zeta_a, speed, radius] = Dual::variables([zeta, 2.8, 5.06e-6]);
 /// let fixed = Dual::<f64, 3>::fixed;
-/// let scene = Simulation::new(Sphere::solid(radius, fixed(2600.0))?, Stiffness::new(fixed(7.5e10))?)
+/// let scene = Contact::hertz(Sphere::solid(radius, fixed(2600.0))?, Stiffness::new(fixed(7.5e10))?)
 ///     .with_damping(fixed(10.5))?
 ///     .with_ring(fixed(250.0), zeta_a)?;
 /// let method = Collocation::<9, Dual<f64, 3>>::new(fixed(1e-9))?;
-/// let restitution = scene.normal_impact(&method, &NormalMotion::new(speed)?)?.overall_restitution();
+/// let restitution = scene.solve_normal(&NormalMotion::new(speed)?, &method)?.overall_restitution();
 /// let found = estimate(zeta, restitution, &[0.0075, 0.028, 0.05e-6])?;
 /// assert!((found.value - 6.25).abs() < found.standard_error);
 /// assert!((1.0..1.2).contains(&found.standard_error)); // one digit of zeta_A
@@ -203,26 +198,24 @@ pub fn estimate<T: Real, const N: usize>(
 }
 
 /// The search for a value with which a scene rebounds as measured.
-struct Search<'a, T, C, S> {
+struct Search<'a, T, C, M> {
     /// Makes the scene of a value.
     scene: C,
-    method: &'a S,
+    method: &'a M,
     motion: NormalMotion<T>,
     /// The square of the measured restitution.
     measured: T,
     tolerance: T,
 }
 
-impl<'a, T, D, A, F, P, X, C, S> Search<'a, T, C, S>
+impl<'a, T, L, S, C, M> Search<'a, T, C, M>
 where
     T: Real,
-    D: Scale<T, Scaled: Damping<T>>,
-    A: Scale<T, Scaled: Attraction<T>>,
-    X: Scale<T, Scaled: Attraction<T>>,
-    C: Fn(T) -> Result<Simulation<T, D, A, F, P, X>, InputError>,
-    S: Method<T, ()>,
+    L: ContactLaw<T>,
+    C: Fn(T) -> Result<Contact<T, L, S>, InputError>,
+    M: Method<T>,
 {
-    fn new(scene: C, method: &'a S, rebound: &Rebound<T>, tolerance: T) -> Result<Self, CalibrationError> {
+    fn new(scene: C, method: &'a M, rebound: &Rebound<T>, tolerance: T) -> Result<Self, CalibrationError> {
         let tolerance = Parameter::Tolerance.check(tolerance)?;
         let (motion, measured) = rebound.checked()?;
         if measured > T::ZERO {
@@ -234,7 +227,7 @@ where
 
     /// How far e^2 of a value's scene, which is smooth down to capture where e is not, lies above the measured one.
     fn excess(&self, value: T) -> Result<T, CalibrationError> {
-        let contact = (self.scene)(value)?.normal_impact(self.method, &self.motion)?;
+        let contact = (self.scene)(value)?.solve_normal(&self.motion, self.method)?;
         if contact.status() != Status::Solved {
             return Err(CalibrationError::BudgetSpent);
         }
@@ -249,19 +242,13 @@ where
 }
 
 /// The strength of a loss that grows from zero: the restitution falls with it.
-fn strength<T, D, A, F, P, X>(
+fn strength<T: Real, L: ContactLaw<T>, S>(
     limits: Parameter,
-    method: &impl Method<T, ()>,
+    method: &impl Method<T>,
     rebound: &Rebound<T>,
     tolerance: T,
-    scene: impl Fn(T) -> Result<Simulation<T, D, A, F, P, X>, InputError>,
-) -> Result<T, CalibrationError>
-where
-    T: Real,
-    D: Scale<T, Scaled: Damping<T>>,
-    A: Scale<T, Scaled: Attraction<T>>,
-    X: Scale<T, Scaled: Attraction<T>>,
-{
+    scene: impl Fn(T) -> Result<Contact<T, L, S>, InputError>,
+) -> Result<T, CalibrationError> {
     let search = Search::new(scene, method, rebound, tolerance)?;
     let mut weaker = (T::ZERO, search.excess(T::ZERO)?);
     if weaker.1 <= T::ZERO {

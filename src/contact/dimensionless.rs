@@ -1,13 +1,9 @@
 //! An impact as the solver sees it: a few numbers near one, which any number type holds.
 
-use super::Simulation;
-use super::damping::ScaledDamping;
-use super::force::NoForce;
-use super::law::{Attraction, Damping, HertzLaw};
-use super::motion::{End, Method, NormalPath};
-use super::ring::ScaledRing;
-use super::run::Status;
-use super::scaled::Scale;
+use super::law::{Attraction, Damping, HertzLaw, HystereticDamping, NoForce, Ring};
+use super::scene::Contact;
+use super::solve::path::{End, NormalPath};
+use super::solve::{Method, Status};
 use crate::{Approach, InputError, Outcome, Parameter, Real};
 
 /// The normal motion of an impact in units of its own, without an external force.
@@ -17,10 +13,10 @@ use crate::{Approach, InputError, Outcome, Parameter, Real};
 /// floating point these numbers are computed beforehand, for scenes that do not change, or in f32.
 ///
 /// ```
-/// use microimpact::simulation::{DimensionlessImpact, FixedCost, Simulation};
+/// use microimpact::contact::{Contact, DimensionlessImpact, FixedCost};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
-/// let scene = Simulation::new(Sphere::solid(5.06e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+/// let scene = Contact::hertz(Sphere::solid(5.06e-6, 2600.0)?, Stiffness::new(7.5e10)?)
 ///     .with_damping(10.5)?
 ///     .with_ring(250.0, 6.25)?;
 /// let impact: DimensionlessImpact<f64> = scene.dimensionless(&NormalMotion::new(2.8)?)?;
@@ -45,7 +41,7 @@ pub struct DimensionlessImpact<T> {
 /// How a dimensionless impact ends.
 ///
 /// ```
-/// use microimpact::simulation::{DimensionlessContact, DimensionlessImpact, FixedCost, Status};
+/// use microimpact::contact::{DimensionlessContact, DimensionlessImpact, FixedCost, Status};
 /// use microimpact::Outcome;
 ///
 /// // Hertz's impact.
@@ -67,11 +63,11 @@ pub struct DimensionlessContact<T> {
 }
 
 impl<T: Real> DimensionlessContact<T> {
-    pub(super) fn new(path: &NormalPath<T>, energy: T) -> Self {
+    pub(crate) fn new(path: &NormalPath<T>, energy: T) -> Self {
         let outcome = match path.end {
             End::Separation => Some(Outcome::Rebound),
             End::Capture => Some(Outcome::Capture),
-            End::Budget => None,
+            End::Budget | End::Unsupported => None,
         };
         let restitution_squared = match outcome {
             Some(Outcome::Rebound) => path.energy.max(T::ZERO) / energy,
@@ -83,7 +79,7 @@ impl<T: Real> DimensionlessContact<T> {
     /// Overall restitution e; zero for a capture and where there is no solution.
     ///
     /// ```
-    /// use microimpact::simulation::{DimensionlessImpact, FixedCost};
+    /// use microimpact::contact::{DimensionlessImpact, FixedCost};
     ///
     /// let impact = DimensionlessImpact::new(0.0, 0.0, 0.0)?;
     /// assert!((impact.solve(&FixedCost::<4>::new(2)?).overall_restitution() - 1.0_f64).abs() < 1e-12);
@@ -124,7 +120,7 @@ impl<T: Real> DimensionlessImpact<T> {
     /// [`Collocation`](super::Collocation) they stay below 1e25, which f32 holds.
     ///
     /// ```
-    /// use microimpact::simulation::{DimensionlessImpact, FixedCost};
+    /// use microimpact::contact::{DimensionlessImpact, FixedCost};
     /// use microimpact::Outcome;
     ///
     /// let impact = DimensionlessImpact::new(0.97, 0.4, 0.1)?;
@@ -132,42 +128,38 @@ impl<T: Real> DimensionlessImpact<T> {
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     #[inline]
-    pub fn solve(&self, method: &impl Method<T, ()>) -> DimensionlessContact<T> {
+    pub fn solve(&self, method: &impl Method<T>) -> DimensionlessContact<T> {
         let law = HertzLaw {
-            damping: ScaledDamping(self.material_damping),
-            adhesion: ScaledRing { strength: self.adhesion, damping: self.adhesion_damping },
+            stiffness: T::ONE,
+            damping: HystereticDamping { rate: self.material_damping },
+            adhesion: Ring { strength: self.adhesion, damping: self.adhesion_damping },
             force: NoForce,
         };
         DimensionlessContact::new(&method.solve(&law, self.energy, &mut ()), self.energy)
     }
 }
 
-impl<T, D, A, F, P> Simulation<T, D, A, F, P>
-where
-    T: Real,
-    D: Scale<T, Scaled: Damping<T>>,
-    A: Scale<T, Scaled: Attraction<T>>,
-{
+impl<T: Real, D: Damping<T>, A: Attraction<T>, S> Contact<T, HertzLaw<T, D, A>, S> {
     /// The impact of a sphere that arrives with `motion`, in units of its own.
     ///
     /// # Errors
-    /// As [`impact`](Self::impact).
+    /// As [`solve`](Self::solve).
     ///
     /// ```
-    /// use microimpact::simulation::{DimensionlessImpact, Simulation};
+    /// use microimpact::contact::{Contact, DimensionlessImpact};
     /// use microimpact::{NormalMotion, Sphere, Stiffness};
     ///
-    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
     /// assert_eq!(scene.dimensionless(&NormalMotion::new(1.0)?)?, DimensionlessImpact::new(0.0, 0.0, 0.0)?);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn dimensionless(&self, motion: &impl Approach<T>) -> Result<DimensionlessImpact<T>, InputError> {
-        let units = self.units(motion.normal().speed())?;
+        let (law, units) = self.in_units(motion.normal().speed())?;
         Ok(DimensionlessImpact {
-            adhesion: units.adhesion,
+            adhesion: law.adhesion_strength(),
             energy: units.energy,
-            material_damping: self.damping.scale(&self.sphere, &units)?.rate(),
-            adhesion_damping: self.adhesion.scale(&self.sphere, &units)?.damping_rate(),
+            material_damping: law.damping.rate(),
+            adhesion_damping: law.adhesion.damping_rate(),
         })
     }
 }

@@ -1,102 +1,122 @@
-//! What a simulation can be asked for besides how it ends: each a type that costs nothing where it is not named.
+//! What a simulation can be asked for besides how it ends: each a value that costs nothing where it is not given.
 
-use super::integrals::{Impulses, Times, Works};
-use super::motion::{End, NormalPath};
-use super::observer::Observer;
-use super::scaled::Scaled;
+use core::f64::consts::PI;
+
+use super::along::{SlipStart, TangentialMotion};
+use super::law::Units;
+use super::solve::integrals;
+use super::solve::observer::Observer;
+use super::solve::path::{End, NormalPath};
+use crate::rigid::EnergyLedger;
 use crate::{Real, Sphere};
 
-/// Something that a simulation can be asked for besides how it ends; chosen by its type, and absent where not named.
+/// Something that a simulation can be asked for besides how it ends. `S` is the state along the surface before contact.
+///
+/// Two to four outputs make a tuple.
 ///
 /// ```
-/// use microimpact::simulation::{ContactTimes, Output};
+/// use microimpact::contact::{Adaptive, Contact, Impulses, Times};
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
-/// // Times of separation and peak are all that has to be carried along for them.
-/// assert_eq!(size_of::<<ContactTimes<f64> as Output<f64>>::Observer>(), 16);
+/// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
+/// let (impact, (times, impulses)) =
+///     scene.solve_for(&NormalMotion::new(1.0)?, &Adaptive::new(1e-9_f64)?, (Times, Impulses))?;
+/// assert!(times.contact.is_some() && impulses.elastic > 0.0);
+/// # Ok::<(), microimpact::InputError>(())
 /// ```
-pub trait Output<T: Real>: Sized {
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no output of this scene",
+    label = "outputs are `Times`, `Impulses`, `Works`, `Energy`, `Recording` and, with friction, `Slip`"
+)]
+pub trait Output<T: Real, S> {
     /// What is integrated along the motion.
     type Observer: Observer<T>;
 
-    /// The state at first touch.
-    fn begin() -> Self::Observer;
+    /// What comes out.
+    type Result;
+
+    /// The state at first contact.
+    fn begin(&self, start: &S) -> Self::Observer;
 
     /// The output in SI units.
-    fn finish(observer: Self::Observer, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self;
+    fn finish(&self, observer: Self::Observer, end: &Ended<'_, T>) -> Self::Result;
 }
 
-impl<T: Real> Output<T> for () {
+/// A motion that has come to its end, and its units.
+#[derive(Clone, Copy, Debug)]
+pub struct Ended<'a, T> {
+    pub(super) path: &'a NormalPath<T>,
+    pub(super) sphere: &'a Sphere<T>,
+    pub(super) units: &'a Units<T>,
+}
+
+/// No output.
+impl<T: Real, S> Output<T, S> for () {
     type Observer = ();
+    type Result = ();
 
-    fn begin() {}
+    #[inline]
+    fn begin(&self, _start: &S) {}
 
-    fn finish((): (), _path: &NormalPath<T>, _sphere: &Sphere<T>, _units: &Scaled<T>) {}
+    #[inline]
+    fn finish(&self, (): (), _end: &Ended<'_, T>) {}
 }
 
-impl<T: Real, A: Output<T>, B: Output<T>> Output<T> for (A, B) {
-    type Observer = (A::Observer, B::Observer);
+/// Outputs side by side. Observers come in pairs, so that those of a longer tuple are nested.
+macro_rules! side_by_side {
+    ($($output:ident $index:tt),*; $observer:ty, $nested:pat, $($begin:tt)*) => {
+        impl<T: Real, S, $($output: Output<T, S>),*> Output<T, S> for ($($output,)*) {
+            type Observer = $observer;
+            type Result = ($($output::Result,)*);
 
-    fn begin() -> Self::Observer {
-        (A::begin(), B::begin())
-    }
+            #[inline]
+            fn begin(&self, start: &S) -> Self::Observer {
+                let begun = ($(self.$index.begin(start),)*);
+                ($($begin)*)(begun)
+            }
 
-    fn finish((a, b): Self::Observer, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
-        (A::finish(a, path, sphere, units), B::finish(b, path, sphere, units))
-    }
-}
-
-/// All outputs of a simulation.
-///
-/// ```
-/// use microimpact::simulation::{Collocation, Everything, Simulation};
-/// use microimpact::{NormalMotion, Sphere, Stiffness};
-///
-/// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
-/// let Everything { times, impulses, works } =
-///     scene.impact(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(1.0)?)?.outputs;
-/// assert!(times.contact.is_some() && impulses.elastic > 0.0 && works.material > 0.0);
-/// # Ok::<(), microimpact::InputError>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Everything<T> {
-    /// When the peak and the separation came.
-    pub times: ContactTimes<T>,
-    /// Impulses of the elastic force and of adhesion.
-    pub impulses: ContactImpulses<T>,
-    /// Works of the two kinds of damping.
-    pub works: ContactWorks<T>,
-}
-
-impl<T: Real> Output<T> for Everything<T> {
-    type Observer = (Times<T>, (Impulses<T>, Works<T>));
-
-    fn begin() -> Self::Observer {
-        (Times::new(), (Impulses::new(), Works::new()))
-    }
-
-    fn finish(observer: Self::Observer, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
-        let (times, (impulses, works)) = observer;
-        Self {
-            times: Output::finish(times, path, sphere, units),
-            impulses: Output::finish(impulses, path, sphere, units),
-            works: Output::finish(works, path, sphere, units),
+            #[inline]
+            #[allow(non_snake_case)] // an observer is called as its output
+            fn finish(&self, $nested: Self::Observer, end: &Ended<'_, T>) -> Self::Result {
+                ($(self.$index.finish($output, end),)*)
+            }
         }
-    }
+    };
 }
 
-/// Times of a simulated impact, s, from first touch.
+side_by_side!(A 0, B 1; (A::Observer, B::Observer), (A, B), |begun| begun);
+side_by_side!(A 0, B 1, C 2; (A::Observer, (B::Observer, C::Observer)), (A, (B, C)), |(a, b, c)| (a, (b, c)));
+side_by_side!(
+    A 0, B 1, C 2, D 3;
+    ((A::Observer, B::Observer), (C::Observer, D::Observer)), ((A, B), (C, D)), |(a, b, c, d)| ((a, b), (c, d))
+);
+
+/// Asks for [`ContactTimes`].
 ///
 /// ```
-/// use microimpact::simulation::{Collocation, Simulation};
+/// use microimpact::contact::{Collocation, Contact, Times};
 /// use microimpact::{Hertz, NormalMotion, Sphere, Stiffness};
 ///
 /// let (sphere, stiffness) = (Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
 /// let motion = NormalMotion::new(1.0)?;
-/// let times = Simulation::new(sphere, stiffness).impact(&Collocation::<9, f64>::new(1e-9)?, &motion)?.outputs.times;
+/// let (_, times) = Contact::hertz(sphere, stiffness).solve_for(&motion, &Collocation::<9, f64>::new(1e-9)?, Times)?;
 /// assert!((times.contact.unwrap() / Hertz::new(&sphere, stiffness, &motion).duration - 1.0).abs() < 1e-7);
 /// assert!((times.peak.unwrap() / times.contact.unwrap() - 0.5).abs() < 1e-7);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Times;
+
+/// Times of a simulated impact, s, from first contact.
+///
+/// ```
+/// use microimpact::contact::{Adaptive, Contact, ContactTimes, Times};
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
+///
+/// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+/// let (_, times): (_, ContactTimes<f64>) =
+///     scene.solve_for(&NormalMotion::new(1.0)?, &Adaptive::new(1e-9)?, Times)?;
+/// assert!(times.peak < times.contact);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,83 +129,106 @@ pub struct ContactTimes<T> {
     pub contact: Option<T>,
 }
 
-impl<T: Real> Output<T> for ContactTimes<T> {
-    type Observer = Times<T>;
+impl<T: Real, S> Output<T, S> for Times {
+    type Observer = integrals::Times<T>;
+    type Result = ContactTimes<T>;
 
-    fn begin() -> Times<T> {
-        Times::new()
+    #[inline]
+    fn begin(&self, _start: &S) -> Self::Observer {
+        integrals::Times::new()
     }
 
-    fn finish(times: Times<T>, path: &NormalPath<T>, _sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
-        Self::new(&times, path, units)
-    }
-}
-
-impl<T: Real> ContactTimes<T> {
-    pub(super) fn new(times: &Times<T>, path: &NormalPath<T>, units: &Scaled<T>) -> Self {
-        let unit = units.time();
-        Self {
-            peak: (path.peak > T::ZERO).then(|| times.peak * unit),
-            contact: (path.end == End::Separation).then(|| times.now * unit),
+    fn finish(&self, times: Self::Observer, end: &Ended<'_, T>) -> ContactTimes<T> {
+        let unit = end.units.time();
+        ContactTimes {
+            peak: (end.path.peak > T::ZERO).then(|| times.peak * unit),
+            contact: (end.path.end == End::Separation).then(|| times.now * unit),
         }
     }
 }
 
-/// Normal impulses of a simulated impact, N s.
+/// Asks for [`ContactImpulses`].
 ///
 /// ```
-/// use microimpact::simulation::{Collocation, Simulation};
+/// use microimpact::contact::{Collocation, Contact, Impulses};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
 /// // Without adhesion and damping the elastic force reverses the momentum.
 /// let sphere = Sphere::solid(1e-6, 1000.0)?;
-/// let scene = Simulation::new(sphere, Stiffness::new(1e10)?);
-/// let impulses = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(1.0)?)?.outputs.impulses;
+/// let scene = Contact::hertz(sphere, Stiffness::new(1e10)?);
+/// let method = Collocation::<9, f64>::new(1e-9)?;
+/// let (_, impulses) = scene.solve_for(&NormalMotion::new(1.0)?, &method, Impulses)?;
 /// assert!((impulses.elastic / (2.0 * sphere.mass()) - 1.0).abs() < 1e-8);
 /// assert_eq!(impulses.adhesion_rebound, 0.0);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Impulses;
+
+/// Normal impulses of a simulated impact, N s.
+///
+/// ```
+/// use microimpact::contact::{Adaptive, Contact, ContactImpulses, Impulses};
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
+///
+/// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+/// let (_, impulses): (_, ContactImpulses<f64>) =
+///     scene.solve_for(&NormalMotion::new(1.0)?, &Adaptive::new(1e-9)?, Impulses)?;
+/// assert!(impulses.elastic > 0.0);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactImpulses<T> {
-    /// Integral of the elastic force sqrt(r) K delta^(3/2).
+    /// Integral of the elastic force.
     pub elastic: T,
     /// Size of the impulse of adhesion on rebound, its damping included.
     pub adhesion_rebound: T,
 }
 
-impl<T: Real> Output<T> for ContactImpulses<T> {
-    type Observer = Impulses<T>;
+impl<T: Real, S> Output<T, S> for Impulses {
+    type Observer = integrals::Impulses<T>;
+    type Result = ContactImpulses<T>;
 
-    fn begin() -> Impulses<T> {
-        Impulses::new()
+    #[inline]
+    fn begin(&self, _start: &S) -> Self::Observer {
+        integrals::Impulses::new()
     }
 
-    fn finish(impulses: Impulses<T>, _path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
-        Self::new(&impulses, sphere, units)
-    }
-}
-
-impl<T: Real> ContactImpulses<T> {
-    pub(super) fn new(impulses: &Impulses<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
-        let unit = sphere.mass() * units.speed;
-        Self { elastic: impulses.elastic * unit, adhesion_rebound: impulses.adhesion_rebound * unit }
+    fn finish(&self, impulses: Self::Observer, end: &Ended<'_, T>) -> ContactImpulses<T> {
+        let unit = end.sphere.mass() * end.units.speed;
+        ContactImpulses { elastic: impulses.elastic * unit, adhesion_rebound: impulses.adhesion_rebound * unit }
     }
 }
+
+/// Asks for [`ContactWorks`].
+///
+/// ```
+/// use microimpact::contact::{Collocation, Contact, Works};
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
+///
+/// let sphere = Sphere::solid(5.06e-6, 2600.0)?;
+/// let scene = Contact::hertz(sphere, Stiffness::new(7.5e10)?).with_damping(10.5)?.with_ring(250.0, 6.25)?;
+/// let (impact, works) = scene.solve_for(&NormalMotion::new(2.8)?, &Collocation::<9, f64>::new(1e-9)?, Works)?;
+/// let e = impact.normal.overall_restitution();
+/// let lost = 0.5 * sphere.mass() * 2.8 * 2.8 * (1.0 - e * e);
+/// assert!(((works.material + works.adhesion) / lost - 1.0).abs() < 1e-8);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Works;
 
 /// Energies that the two kinds of damping take from the normal motion, J.
 ///
 /// ```
-/// use microimpact::simulation::{Collocation, Simulation};
+/// use microimpact::contact::{Adaptive, Contact, ContactWorks, Works};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
-/// let sphere = Sphere::solid(5.06e-6, 2600.0)?;
-/// let scene = Simulation::new(sphere, Stiffness::new(7.5e10)?).with_damping(10.5)?.with_ring(250.0, 6.25)?;
-/// let impact = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(2.8)?)?;
-/// let e = impact.normal.overall_restitution();
-/// let lost = 0.5 * sphere.mass() * 2.8 * 2.8 * (1.0 - e * e);
-/// assert!(((impact.outputs.works.material + impact.outputs.works.adhesion) / lost - 1.0).abs() < 1e-8);
+/// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+/// let (_, works): (_, ContactWorks<f64>) =
+///     scene.solve_for(&NormalMotion::new(1.0)?, &Adaptive::new(1e-9)?, Works)?;
+/// assert_eq!((works.material, works.adhesion), (0.0, 0.0)); // nothing damps here
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -198,22 +241,191 @@ pub struct ContactWorks<T> {
     pub adhesion: T,
 }
 
-impl<T: Real> Output<T> for ContactWorks<T> {
-    type Observer = Works<T>;
-
-    fn begin() -> Works<T> {
-        Works::new()
-    }
-
-    fn finish(works: Works<T>, _path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
-        Self::new(&works, sphere, units)
+impl<T: Real> ContactWorks<T> {
+    fn new(works: &integrals::Works<T>, end: &Ended<'_, T>) -> Self {
+        // In this order no factor leaves the range of single precision.
+        let energy = |work: T| end.sphere.mass() * end.units.speed * (end.units.speed * work);
+        Self { material: energy(works.material), adhesion: energy(works.adhesion) }
     }
 }
 
-impl<T: Real> ContactWorks<T> {
-    pub(super) fn new(works: &Works<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
-        // In this order no factor leaves the range of single precision.
-        let energy = |work: T| sphere.mass() * units.speed * (units.speed * work);
-        Self { material: energy(works.material), adhesion: energy(works.adhesion) }
+impl<T: Real, S> Output<T, S> for Works {
+    type Observer = integrals::Works<T>;
+    type Result = ContactWorks<T>;
+
+    #[inline]
+    fn begin(&self, _start: &S) -> Self::Observer {
+        integrals::Works::new()
+    }
+
+    fn finish(&self, works: Self::Observer, end: &Ended<'_, T>) -> ContactWorks<T> {
+        ContactWorks::new(&works, end)
+    }
+}
+
+/// Asks for the energy ledger of a rebound: where the kinetic energy went. The answer is `None` for a captured sphere, which
+/// has not yet come to rest, and where there is no solution.
+///
+/// The works of damping are integrals of their own, so the difference between the losses and the change of the kinetic
+/// energy shows the error of the run. The external force is conservative and gives back what it takes.
+///
+/// ```
+/// use microimpact::contact::{Collocation, Contact, Energy};
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
+///
+/// let sphere = Sphere::solid(5.06e-6, 2600.0)?;
+/// let scene = Contact::hertz(sphere, Stiffness::new(7.5e10)?)
+///     .with_damping(10.5)?
+///     .with_ring(250.0, 6.25)?
+///     .with_friction(0.1)?;
+/// let before = NormalMotion::new(2.8)?.with_tangential(0.0)?.with_spin(&sphere, 1.454e5)?;
+/// let (_, ledger) = scene.solve_for(&before, &Collocation::<12, f64>::new(1e-12)?, Energy)?;
+/// let ledger = ledger.unwrap();
+/// assert!((ledger.lost() / (ledger.before - ledger.after) - 1.0).abs() < 1e-12);
+/// assert!((ledger.adhesion - 4.828e-13).abs() < 1e-16); // the paper's work of adhesion
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Energy;
+
+impl Energy {
+    /// The ledger, from the energies along the surface over m U^2: kinetic after, and taken by friction and peeling.
+    fn ledger<T: Real>(
+        works: &integrals::Works<T>,
+        [after, friction, peeling]: [T; 3],
+        end: &Ended<'_, T>,
+    ) -> Option<EnergyLedger<T>> {
+        if end.path.end != End::Separation {
+            return None;
+        }
+        let works = ContactWorks::new(works, end);
+        let joules = |energy: T| end.sphere.mass() * end.units.speed * (end.units.speed * energy);
+        Some(EnergyLedger {
+            before: joules(end.units.energy + after + friction + peeling),
+            after: joules(end.path.energy.max(T::ZERO) + after),
+            material: works.material,
+            adhesion: works.adhesion,
+            friction: joules(friction),
+            rolling: joules(peeling),
+            external: T::ZERO,
+        })
+    }
+}
+
+impl<T: Real> Output<T, ()> for Energy {
+    type Observer = integrals::Works<T>;
+    type Result = Option<EnergyLedger<T>>;
+
+    #[inline]
+    fn begin(&self, (): &()) -> Self::Observer {
+        integrals::Works::new()
+    }
+
+    fn finish(&self, works: Self::Observer, end: &Ended<'_, T>) -> Self::Result {
+        Self::ledger(&works, [T::ZERO; 3], end)
+    }
+}
+
+impl<T: Real, const PEELS: bool> Output<T, SlipStart<T, PEELS>> for Energy {
+    type Observer = (integrals::Works<T>, TangentialMotion<T, PEELS>);
+    type Result = Option<EnergyLedger<T>>;
+
+    #[inline]
+    fn begin(&self, start: &SlipStart<T, PEELS>) -> Self::Observer {
+        (integrals::Works::new(), TangentialMotion::new(start))
+    }
+
+    fn finish(&self, (works, motion): Self::Observer, end: &Ended<'_, T>) -> Self::Result {
+        Self::ledger(&works, [motion.energy(), motion.friction_loss, motion.peeling_loss], end)
+    }
+}
+
+/// Asks for [`SlipHistory`], of scenes with friction.
+///
+/// ```
+/// use microimpact::contact::{Collocation, Contact, Slip};
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
+///
+/// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_friction(0.5)?;
+/// let straight = NormalMotion::new(1.0)?.with_tangential(0.0)?;
+/// let (_, slip) = scene.solve_for(&straight, &Collocation::<9, f64>::new(1e-9)?, Slip)?;
+/// assert_eq!(slip.rolls_from, Some(0.0));
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Slip;
+
+/// The motion along the surface during contact, to separation or, for a captured sphere, to where it was followed.
+///
+/// ```
+/// use microimpact::contact::{Collocation, Contact, Slip, SlipHistory};
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
+///
+/// // Table 1: the sphere turns by 0.12 degrees during contact.
+/// let sphere = Sphere::solid(5.06e-6, 2600.0)?;
+/// let scene = Contact::hertz(sphere, Stiffness::new(7.5e10)?)
+///     .with_damping(10.5)?
+///     .with_ring(250.0, 6.25)?
+///     .with_friction(0.1)?;
+/// let before = NormalMotion::new(2.8)?.with_tangential(0.0)?.with_spin(&sphere, 1.454e5)?;
+/// let (_, slip): (_, SlipHistory<f64>) =
+///     scene.solve_for(&before, &Collocation::<9, f64>::new(1e-9)?, Slip)?;
+/// assert!((slip.rotation_degrees() - 0.1234).abs() < 1e-4);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SlipHistory<T> {
+    /// Whether the contact point still slips there.
+    pub slides: bool,
+    /// Tangential velocity V_t there, m/s.
+    pub velocity: T,
+    /// Spin W there, rad/s.
+    pub spin: T,
+    /// Angle through which the sphere has turned, rad.
+    pub rotation: T,
+    /// Distance of the centre along the surface, m.
+    pub displacement: T,
+    /// Time at which the slip ended, s; zero if there was none, `None` if it did not end.
+    pub rolls_from: Option<T>,
+}
+
+impl<T: Real> SlipHistory<T> {
+    /// Rotation in degrees.
+    ///
+    /// ```
+    /// use core::f64::consts::PI;
+    /// use microimpact::contact::SlipHistory;
+    ///
+    /// let turned = SlipHistory {
+    ///     slides: false, velocity: 0.0, spin: 0.0, rotation: PI, displacement: 0.0, rolls_from: None,
+    /// };
+    /// assert!((turned.rotation_degrees() - 180.0).abs() < 1e-12);
+    /// ```
+    pub fn rotation_degrees(&self) -> T {
+        self.rotation * T::constant(180.0 / PI)
+    }
+}
+
+impl<T: Real, const PEELS: bool> Output<T, SlipStart<T, PEELS>> for Slip {
+    type Observer = TangentialMotion<T, PEELS>;
+    type Result = SlipHistory<T>;
+
+    #[inline]
+    fn begin(&self, start: &SlipStart<T, PEELS>) -> Self::Observer {
+        TangentialMotion::new(start)
+    }
+
+    fn finish(&self, motion: Self::Observer, end: &Ended<'_, T>) -> SlipHistory<T> {
+        let (units, radius) = (end.units, end.sphere.radius());
+        SlipHistory {
+            slides: motion.slides(),
+            velocity: motion.velocity * units.speed,
+            spin: motion.peripheral * units.speed / radius,
+            rotation: motion.rotation * (units.length / radius),
+            displacement: motion.displacement * units.length,
+            rolls_from: motion.rolls_from.map(|time| time * units.time()),
+        }
     }
 }

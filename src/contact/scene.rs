@@ -1,234 +1,101 @@
-//! The contact simulation (Appendix B): forces and time during contact, solved to a tolerance.
-//!
-//! Hertz's force with hysteretic damping, ring adhesion, Coulomb friction with spin, a peeling moment and a constant
-//! external force (B6 to B10), each a type that a scene includes or not. The normal motion is solved as kinetic energy
-//! against contact radius, where it is smooth from first touch to separation, and all else follows from integrals over it.
+//! Scenes: a sphere, the law of its contact, and what happens along the surface.
 
-mod adaptive;
-mod critical;
-mod damping;
-mod dimensionless;
-mod fixed_cost;
-mod force;
-mod integrals;
-mod law;
-mod motion;
-mod nodes;
-mod observer;
-mod outcome;
-mod outputs;
-mod paper;
-mod phase;
-mod relaxation;
-mod rest;
-mod ring;
-mod run;
-mod scaled;
-mod stretch;
-mod tangential;
-mod trajectory;
-
-pub use adaptive::{Adaptive, AdaptiveNodes};
-pub use damping::{HystereticDamping, NoDamping};
-pub use dimensionless::{DimensionlessContact, DimensionlessImpact};
-pub use fixed_cost::FixedCost;
-pub use force::{ConstantForce, NoForce};
-pub use law::{Attraction, Damping, NormalLaw};
-pub use motion::Method;
-pub use nodes::{Nodes, PhaseNodes, PhaseSamples, Share};
-pub use outcome::{NormalContact, SurfaceState, TangentialContact, TangentialVelocities};
-pub use outputs::{ContactImpulses, ContactTimes, ContactWorks, Everything, Output};
-pub use paper::RungeKuttaGill;
-pub use rest::{MotionToRest, RestCriterion, SettledImpact};
-pub use ring::Ring;
-pub use run::{RunReport, Status};
-pub use scaled::{Groups, Scale};
-pub use tangential::{NoPeeling, Peeling, Tangential, TangentialScene};
-pub use trajectory::{Sample, Trajectory};
-
+use super::along::{Peeling, Surface};
+use super::law::{AnyLaw, Attraction, ConstantForce, ContactLaw, Damping, Groups, HertzLaw, HystereticDamping, Ring, Units};
+use super::outputs::{Ended, Output};
+use super::result::{NormalContact, SettledImpact, SimulatedImpact};
+use super::solve::integrals::Times;
+use super::solve::{ErrorControl, Method, RestCriterion, RunReport, Status, critical};
+use super::{AnyScene, TangentialVelocities};
 use crate::{
-    Approach, Classification, Coulomb, CriticalSpeed, InputError, NoAdhesion, NoFriction, Parameter, Real, Sphere,
-    Stiffness,
+    Approach, Classification, ContactClass, Coulomb, CriticalSpeed, Fault, InputError, NoAdhesion, NoFriction,
+    Parameter, Real, Sphere, Stiffness,
 };
-use integrals::Times;
-use law::HertzLaw;
-use motion::{End, Follower, MOST_STRETCHES, NormalPath, follow};
-use observer::Observer;
-use scaled::Scaled;
-use stretch::Control;
 
-/// The method that solves the normal motion: collocation at `N` nodes, in as many stretches as the tolerance needs.
+/// A sphere and the physics of its contact: `L` the law of contact along the normal, `S` what happens along the surface.
+/// A term that is not named has size zero and costs nothing.
 ///
-/// Seven nodes suit a tolerance of 1e-6, nine 1e-9, twelve 1e-12; in single precision eight.
+/// Names for common scenes are [`HertzScene`](super::HertzScene), [`RingScene`](super::RingScene),
+/// [`PaperScene`](super::PaperScene) and [`AnyScene`].
 ///
 /// ```
-/// use microimpact::simulation::Collocation;
-///
-/// assert!(Collocation::<9, f64>::new(1e-9).is_ok());
-/// assert!(Collocation::<9, f64>::new(0.0).is_err());
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Collocation<const N: usize, T> {
-    tolerance: T,
-}
-
-impl<const N: usize, T: Real> Collocation<N, T> {
-    /// A method with a tolerance for e^2; a number type's rounding limits it from below.
-    ///
-    /// # Errors
-    /// A tolerance outside its range.
-    ///
-    /// ```
-    /// assert!(microimpact::simulation::Collocation::<7, f32>::new(1e-6).is_ok());
-    /// ```
-    pub fn new(tolerance: T) -> Result<Self, InputError> {
-        let tolerance = Parameter::Tolerance.check(tolerance)?;
-        Ok(Self { tolerance: tolerance.max(T::constant(8.0) * T::EPSILON) })
-    }
-
-    /// Stretches after which a run gives up, refused ones included.
-    ///
-    /// ```
-    /// assert!(microimpact::simulation::Collocation::<7, f32>::MOST_STRETCHES < 1000);
-    /// ```
-    pub const MOST_STRETCHES: u32 = MOST_STRETCHES;
-
-    fn control(&self, timed: bool) -> Control<T> {
-        let times = if timed { T::ONE } else { T::constant(0.1) };
-        // Changes of one unit in the last place never end.
-        let settled = (T::constant(0.1) * self.tolerance).max(T::constant(2.0) * T::EPSILON);
-        Control { settled, error: self.tolerance, times }
-    }
-}
-
-impl<T: Nodes<N>, O: Observer<T>, const N: usize> Method<T, O> for Collocation<N, T> {
-    fn solve<L: NormalLaw<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
-        follow::<T, N, _, _>(law, energy, self.control(O::TIMED), O::TO_TURNING_POINT, observer)
-    }
-}
-
-/// A sphere, the stiffness of its contact, and the physics of its impacts: `D` damping in the materials, `A` adhesion,
-/// `F` friction, `P` peeling moment, `X` external force. A term that is not named has size zero and costs nothing.
-///
-/// ```
-/// use microimpact::simulation::{Collocation, Simulation};
+/// use microimpact::contact::{Adaptive, Contact, Slip};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
 /// // Table 1 of the paper. Its program halves the damping of adhesion: 6.25 stands for the printed 12.5.
 /// let sphere = Sphere::solid(5.06e-6, 2600.0)?;
-/// let scene = Simulation::new(sphere, Stiffness::new(7.5e10)?)
+/// let scene = Contact::hertz(sphere, Stiffness::new(7.5e10)?)
 ///     .with_damping(10.5)?
 ///     .with_ring(250.0, 6.25)?
 ///     .with_friction(0.1)?;
 /// let before = NormalMotion::new(2.8)?.with_tangential(0.0)?.with_spin(&sphere, 1.454e5)?;
-/// let impact = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &before)?;
-/// assert!((impact.normal.overall_restitution() - 0.746193).abs() < 1e-6);
+/// let (impact, slip) = scene.solve_for(&before, &Adaptive::new(1e-9)?, Slip)?;
+/// assert!((impact.normal.overall_restitution() - 0.746193_f64).abs() < 1e-6);
 /// assert!((impact.normal.peak_indentation().unwrap() - 4.251e-8).abs() < 1e-11);
-/// assert!((impact.tangential.tangential() - 0.2102).abs() < 1e-4);
+/// assert!((impact.tangential.velocity() - 0.2102).abs() < 1e-4);
+/// assert!((slip.rotation_degrees() - 0.1234).abs() < 1e-4);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Simulation<T, D = NoDamping, A = NoAdhesion, F = NoFriction, P = NoPeeling, X = NoForce> {
+pub struct Contact<T, L, S = NoFriction> {
     sphere: Sphere<T>,
-    stiffness: Stiffness<T>,
-    damping: D,
-    adhesion: A,
-    friction: F,
-    peeling: P,
-    force: X,
+    law: L,
+    surface: S,
 }
 
-/// The result of a simulation, with `O` for the outputs asked for and `G` for the tangential side: `()`,
-/// [`TangentialContact`] or [`TangentialVelocities`].
-///
-/// ```
-/// use microimpact::simulation::{Collocation, Simulation};
-/// use microimpact::{NormalMotion, Outcome, Sphere, Stiffness};
-///
-/// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
-/// let impact = scene.impact(&Collocation::<7, f64>::new(1e-6)?, &NormalMotion::new(1.0)?)?;
-/// assert_eq!(impact.normal.outcome(), Some(Outcome::Rebound));
-/// assert!((impact.normal.overall_restitution() - 1.0).abs() < 1e-6);
-/// # Ok::<(), microimpact::InputError>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct SimulatedImpact<T, G, O = Everything<T>> {
-    /// Along the normal.
-    pub normal: NormalContact<T>,
-    /// Along the surface, where friction takes part.
-    pub tangential: G,
-    /// What else was asked for.
-    pub outputs: O,
-    /// What the run took.
-    pub run: RunReport<T>,
-}
-
-impl<T: Real> Simulation<T> {
-    /// A scene of a sphere and the stiffness of its contact, with no other physics.
+impl<T: Real, L> Contact<T, L> {
+    /// A scene of a sphere and a law of contact, without friction.
     ///
     /// ```
-    /// use microimpact::{Sphere, Stiffness, simulation::Simulation};
+    /// use microimpact::{Sphere, Stiffness, contact::{Contact, HertzLaw}};
     ///
-    /// let scene = Simulation::new(Sphere::solid(1e-6_f32, 1000.0)?, Stiffness::new(1e10)?);
+    /// let law = HertzLaw::new(Stiffness::new(1e10_f32)?);
+    /// let scene = Contact::new(Sphere::solid(1e-6, 1000.0)?, law);
     /// assert_eq!(size_of_val(&scene), size_of::<Sphere<f32>>() + size_of::<f32>());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     #[inline]
-    pub fn new(sphere: Sphere<T>, stiffness: Stiffness<T>) -> Self {
-        Self {
-            sphere,
-            stiffness,
-            damping: NoDamping,
-            adhesion: NoAdhesion,
-            friction: NoFriction,
-            peeling: NoPeeling,
-            force: NoForce,
-        }
+    pub fn new(sphere: Sphere<T>, law: L) -> Self {
+        Self { sphere, law, surface: NoFriction }
     }
 }
 
-/// Adding terms.
-impl<T: Real, D, A, F, P, X> Simulation<T, D, A, F, P, X> {
+impl<T: Real> Contact<T, HertzLaw<T>> {
+    /// A scene of a sphere and the stiffness of its elastic contact, with no other physics.
+    ///
+    /// ```
+    /// use microimpact::{Sphere, Stiffness, contact::Contact};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(1e-6_f32, 1000.0)?, Stiffness::new(1e10)?);
+    /// assert_eq!(size_of_val(&scene), size_of::<Sphere<f32>>() + size_of::<f32>());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn hertz(sphere: Sphere<T>, stiffness: Stiffness<T>) -> Self {
+        Self::new(sphere, HertzLaw::new(stiffness))
+    }
+}
+
+impl<T: Real, D, A, X, S> Contact<T, HertzLaw<T, D, A, X>, S> {
     /// The same scene with hysteretic damping of strength zeta_H >= 0 in the materials.
     ///
     /// # Errors
     /// A strength outside its range.
     ///
     /// ```
-    /// use microimpact::{Sphere, Stiffness, simulation::Simulation};
+    /// use microimpact::{Sphere, Stiffness, contact::Contact};
     ///
-    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
     /// assert!(scene.with_damping(-1.0).is_err());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn with_damping(self, zeta: T) -> Result<Simulation<T, HystereticDamping<T>, A, F, P, X>, InputError> {
-        let Self { sphere, stiffness, adhesion, friction, peeling, force, .. } = self;
-        let damping = HystereticDamping::new(zeta)?;
-        Ok(Simulation { sphere, stiffness, damping, adhesion, friction, peeling, force })
-    }
-
-    /// The same scene with Coulomb friction of `coefficient` f >= 0, which goes by the elastic force alone (B8).
-    ///
-    /// # Errors
-    /// A coefficient outside its range.
-    ///
-    /// ```
-    /// use microimpact::{Sphere, Stiffness, simulation::Simulation};
-    ///
-    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
-    /// assert!(scene.with_friction(-0.1).is_err());
-    /// # Ok::<(), microimpact::InputError>(())
-    /// ```
-    pub fn with_friction(self, coefficient: T) -> Result<Simulation<T, D, A, Coulomb<T>, P, X>, InputError> {
-        let Self { sphere, stiffness, damping, adhesion, peeling, force, .. } = self;
-        let friction = Coulomb::new(coefficient)?;
-        Ok(Simulation { sphere, stiffness, damping, adhesion, friction, peeling, force })
+    pub fn with_damping(
+        self,
+        zeta: T,
+    ) -> Result<Contact<T, HertzLaw<T, HystereticDamping<T>, A, X>, S>, InputError> {
+        Ok(Contact { sphere: self.sphere, law: self.law.with_damping(zeta)?, surface: self.surface })
     }
 
     /// The same scene with a constant external force, N, positive out of the surface.
@@ -237,313 +104,442 @@ impl<T: Real, D, A, F, P, X> Simulation<T, D, A, F, P, X> {
     /// A force outside its range.
     ///
     /// ```
-    /// use microimpact::{Sphere, Stiffness, simulation::Simulation};
+    /// use microimpact::{Sphere, Stiffness, contact::Contact};
     ///
-    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
     /// assert!(scene.with_external_force(f64::INFINITY).is_err());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn with_external_force(self, force: T) -> Result<Simulation<T, D, A, F, P, ConstantForce<T>>, InputError> {
-        let Self { sphere, stiffness, damping, adhesion, friction, peeling, .. } = self;
-        let force = ConstantForce::new(force)?;
-        Ok(Simulation { sphere, stiffness, damping, adhesion, friction, peeling, force })
+    pub fn with_external_force(
+        self,
+        force: T,
+    ) -> Result<Contact<T, HertzLaw<T, D, A, ConstantForce<T>>, S>, InputError> {
+        Ok(Contact { sphere: self.sphere, law: self.law.with_external_force(force)?, surface: self.surface })
     }
 }
 
-impl<T: Real, D, F, X> Simulation<T, D, NoAdhesion, F, NoPeeling, X> {
+impl<T: Real, D, X, S> Contact<T, HertzLaw<T, D, NoAdhesion, X>, S> {
     /// The same scene with a ring force of strength f0 >= 0 (N/m) and its damping zeta_A >= 0 on rebound.
     ///
     /// # Errors
     /// A value outside its range.
     ///
     /// ```
-    /// use microimpact::{Sphere, Stiffness, simulation::Simulation};
+    /// use microimpact::{Sphere, Stiffness, contact::Contact};
     ///
-    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
     /// assert!(scene.with_ring(-1.0, 0.0).is_err());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn with_ring(self, strength: T, zeta: T) -> Result<Simulation<T, D, Ring<T>, F, NoPeeling, X>, InputError> {
-        let Self { sphere, stiffness, damping, friction, peeling, force, .. } = self;
-        let adhesion = Ring::new(strength, zeta)?;
-        Ok(Simulation { sphere, stiffness, damping, adhesion, friction, peeling, force })
+    pub fn with_ring(
+        self,
+        strength: T,
+        zeta: T,
+    ) -> Result<Contact<T, HertzLaw<T, D, Ring<T>, X>, S>, InputError> {
+        Ok(Contact { sphere: self.sphere, law: self.law.with_ring(strength, zeta)?, surface: self.surface })
     }
 }
 
-impl<T: Real, D, X> Simulation<T, D, Ring<T>, Coulomb<T>, NoPeeling, X> {
-    /// The same scene with a peeling moment of strength lambda >= 0 (N m), which goes by the damping of the ring (B10).
+impl<T: Real, L, S> Contact<T, L, S> {
+    /// The same scene with Coulomb friction of `coefficient` f >= 0, which is proportional to the elastic force alone (B8).
     ///
     /// # Errors
-    /// A strength outside its range.
+    /// A coefficient outside its range.
     ///
     /// ```
-    /// use microimpact::{Sphere, Stiffness, simulation::Simulation};
+    /// use microimpact::{Sphere, Stiffness, contact::Contact};
     ///
-    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?)
-    ///     .with_ring(10.0, 1.0)?
-    ///     .with_friction(0.1)?;
-    /// assert!(scene.with_peeling(-1.0).is_err());
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// assert!(scene.with_friction(-0.1).is_err());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn with_peeling(self, lambda: T) -> Result<Simulation<T, D, Ring<T>, Coulomb<T>, Peeling<T>, X>, InputError> {
-        let Self { sphere, stiffness, damping, adhesion, friction, force, .. } = self;
-        let peeling = Peeling::new(lambda)?;
-        Ok(Simulation { sphere, stiffness, damping, adhesion, friction, peeling, force })
-    }
-}
-
-impl<T, D, A, F, P, X> Simulation<T, D, A, F, P, X>
-where
-    T: Real,
-    D: Scale<T, Scaled: Damping<T>>,
-    A: Scale<T, Scaled: Attraction<T>>,
-    X: Scale<T, Scaled: Attraction<T>>,
-{
-    /// The impact of a sphere that arrives with `motion`, with everything there is to know of it.
-    ///
-    /// A captured sphere is followed until it first turns back; [`observe_to_rest`](Self::observe_to_rest) goes on.
-    ///
-    /// # Errors
-    /// A ratio of the scene's forces outside its range, so that the motion cannot be represented.
-    ///
-    /// ```
-    /// use microimpact::simulation::{Collocation, Simulation};
-    /// use microimpact::{NormalMotion, Outcome, Sphere, Stiffness};
-    ///
-    /// // A sphere of 5 um diameter, as in figure 6, is captured at 5 m/s and rebounds at 8 m/s.
-    /// let scene = Simulation::new(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
-    ///     .with_damping(10.5)?
-    ///     .with_ring(250.0, 6.25)?;
-    /// let method = Collocation::<7, f64>::new(1e-6)?;
-    /// assert_eq!(scene.impact(&method, &NormalMotion::new(5.0)?)?.normal.outcome(), Some(Outcome::Capture));
-    /// assert_eq!(scene.impact(&method, &NormalMotion::new(8.0)?)?.normal.outcome(), Some(Outcome::Rebound));
-    /// # Ok::<(), microimpact::InputError>(())
-    /// ```
-    pub fn impact<M, S>(
-        &self,
-        method: &S,
-        motion: &M,
-    ) -> Result<SimulatedImpact<T, <F as Tangential<T>>::Contact>, InputError>
-    where
-        M: Approach<T>,
-        F: Tangential<T> + TangentialScene<T, M, A, P, <F as Tangential<T>>::Contact>,
-        S: Method<
-                T,
-                (
-                    <Everything<T> as Output<T>>::Observer,
-                    <F as TangentialScene<T, M, A, P, <F as Tangential<T>>::Contact>>::Observer,
-                ),
-            >,
-    {
-        self.observe(method, motion)
-    }
-
-    /// The impact of a sphere that arrives with `motion`, with what the type of the result names: outputs `O`
-    /// ([`ContactTimes`], [`ContactImpulses`], [`ContactWorks`], [`Trajectory`], pairs of them, or `()` for none) and a tangential side `G`.
-    /// What is not named is not computed.
-    ///
-    /// # Errors
-    /// As [`impact`](Self::impact).
-    ///
-    /// ```
-    /// use microimpact::simulation::{Collocation, ContactTimes, SimulatedImpact, Simulation};
-    /// use microimpact::{NormalMotion, Sphere, Stiffness};
-    ///
-    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
-    /// let motion = NormalMotion::new(1.0)?;
-    /// let method = Collocation::<9, f64>::new(1e-9)?;
-    /// let impact: SimulatedImpact<_, (), ContactTimes<f64>> = scene.observe(&method, &motion)?;
-    /// assert_eq!(impact.outputs, scene.impact(&method, &motion)?.outputs.times);
-    /// # Ok::<(), microimpact::InputError>(())
-    /// ```
-    pub fn observe<M, S, G, O>(&self, method: &S, motion: &M) -> Result<SimulatedImpact<T, G, O>, InputError>
-    where
-        M: Approach<T>,
-        F: TangentialScene<T, M, A, P, G>,
-        O: Output<T>,
-        S: Method<T, (O::Observer, F::Observer)>,
-    {
-        let approach = motion.normal().speed();
-        let units = self.units(approach)?;
-        let tangential = self.friction.start(&self.sphere, &self.adhesion, &self.peeling, motion, &units)?;
-        let mut observer = (O::begin(), tangential);
-        let path = method.solve(&self.law(&units)?, units.energy, &mut observer);
-        let (observer, tangential) = observer;
-        Ok(SimulatedImpact {
-            normal: NormalContact::new(&path, approach, &self.sphere, self.stiffness, &units),
-            tangential: F::finish(tangential, &path, &self.sphere, &units),
-            outputs: O::finish(observer, &path, &self.sphere, &units),
-            run: RunReport::new(&path),
-        })
-    }
-
-    /// The impact of a sphere that arrives with `motion`, with outputs as of [`observe`](Self::observe). A captured sphere
-    /// is followed until it rests, as the `criterion` defines it, with all that is observed.
-    ///
-    /// # Errors
-    /// As [`impact`](Self::impact).
-    ///
-    /// ```
-    /// use microimpact::simulation::{Collocation, RestCriterion, SettledImpact, Simulation, TangentialContact};
-    /// use microimpact::{NormalMotion, Sphere, Stiffness, SurfaceMotion};
-    ///
-    /// let scene = Simulation::new(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
-    ///     .with_damping(10.5)?
-    ///     .with_ring(250.0, 6.25)?
-    ///     .with_friction(0.1)?;
-    /// let (method, criterion) = (Collocation::<9, f64>::new(1e-9)?, RestCriterion::new(1e-6, 1000)?);
-    /// let motion = NormalMotion::new(1.0)?.with_tangential(70.0)?;
-    /// // It still slides where it first turns back. At rest along the normal it rolls, with 5/7 of its velocity.
-    /// assert_eq!(scene.impact(&method, &motion)?.tangential.motion(), SurfaceMotion::Sliding);
-    /// let settled: SettledImpact<_, TangentialContact<f64>> = scene.observe_to_rest(&method, &motion, &criterion)?;
-    /// assert_eq!(settled.impact.tangential.motion(), SurfaceMotion::Rolling);
-    /// assert!((settled.impact.tangential.tangential() - 50.0).abs() < 1e-9);
-    /// # Ok::<(), microimpact::InputError>(())
-    /// ```
-    pub fn observe_to_rest<const N: usize, M, G, O>(
-        &self,
-        method: &Collocation<N, T>,
-        motion: &M,
-        criterion: &RestCriterion<T>,
-    ) -> Result<SettledImpact<T, G, O>, InputError>
-    where
-        T: Nodes<N>,
-        M: Approach<T>,
-        F: TangentialScene<T, M, A, P, G, Observer: Observer<T>>,
-        O: Output<T>,
-    {
-        let approach = motion.normal().speed();
-        let units = self.units(approach)?;
-        let tangential = self.friction.start(&self.sphere, &self.adhesion, &self.peeling, motion, &units)?;
-        let mut observer = (Times::new(), (O::begin(), tangential));
-        let law = self.law(&units)?;
-        let mut follower = Follower::arriving(&law, units.energy, method.control(true), &mut observer);
-        let mut path = follower.contact::<N>(true);
-        let settling = (path.end == End::Capture).then(|| follower.settle::<N>(&mut path, criterion));
-        let (times, (observer, tangential)) = observer;
-        let mut run = RunReport::new(&path);
-        if settling.as_ref().is_some_and(|settling| !settling.at_rest) {
-            run.status = Status::BudgetSpent;
-        }
-        let impact = SimulatedImpact {
-            normal: NormalContact::new(&path, approach, &self.sphere, self.stiffness, &units),
-            tangential: F::finish(tangential, &path, &self.sphere, &units),
-            outputs: O::finish(observer, &path, &self.sphere, &units),
-            run,
-        };
-        Ok(SettledImpact { impact, motion: settling.map(|settling| settling.in_units(times.now, &units)) })
-    }
-
-    /// The normal motion alone, by any method: how it ends and how fast, without times, impulses, works or anything tangential.
-    ///
-    /// # Errors
-    /// As [`impact`](Self::impact).
-    ///
-    /// ```
-    /// use microimpact::simulation::{Collocation, Simulation};
-    /// use microimpact::{NormalMotion, Sphere, Stiffness};
-    ///
-    /// let scene = Simulation::new(Sphere::solid(4.3e-6, 2600.0)?, Stiffness::new(7.5e10)?)
-    ///     .with_damping(10.5)?
-    ///     .with_ring(250.0, 6.25)?;
-    /// let contact = scene.normal_impact(&Collocation::<7, f64>::new(1e-6)?, &NormalMotion::new(2.8)?)?;
-    /// assert!((contact.overall_restitution() - 0.62).abs() < 0.001);
-    /// # Ok::<(), microimpact::InputError>(())
-    /// ```
-    pub fn normal_impact(
-        &self,
-        method: &impl Method<T, ()>,
-        motion: &impl Approach<T>,
-    ) -> Result<NormalContact<T>, InputError> {
-        let approach = motion.normal().speed();
-        let units = self.units(approach)?;
-        let path = method.solve(&self.law(&units)?, units.energy, &mut ());
-        Ok(NormalContact::new(&path, approach, &self.sphere, self.stiffness, &units))
-    }
-
-    /// The class of the impact of a sphere that arrives with `motion`, with its margins as in the rigid-body model: approach
-    /// over [`critical_speed`](Self::critical_speed) and, with friction, what it can change of the slip over the slip. `None`
-    /// where the method has not come to a solution.
-    ///
-    /// # Errors
-    /// As [`impact`](Self::impact).
-    ///
-    /// ```
-    /// use microimpact::simulation::{Collocation, Simulation};
-    /// use microimpact::{Class, Classification, ContactClass, NormalMotion, Sphere, Stiffness};
-    ///
-    /// let scene = Simulation::new(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
-    ///     .with_damping(10.5)?
-    ///     .with_ring(250.0, 6.25)?
-    ///     .with_friction(0.1)?;
-    /// let motion = NormalMotion::new(8.0)?.with_tangential(1.0)?;
-    /// let result: Classification<f64, ContactClass<f64>> = scene.classify(&Collocation::<9, f64>::new(1e-9)?, &motion)?.unwrap();
-    /// assert_eq!(result.class(), Class::ReboundRolling);
-    /// assert!((result.speed_over_critical.unwrap() - 8.0 / 5.159_566_762).abs() < 1e-8);
-    /// assert!(result.contact.friction_over_limit.unwrap() > 1.0);
-    /// # Ok::<(), microimpact::InputError>(())
-    /// ```
-    pub fn classify<const N: usize, M, C>(
-        &self,
-        method: &Collocation<N, T>,
-        motion: &M,
-    ) -> Result<Option<Classification<T, C>>, InputError>
-    where
-        T: Nodes<N>,
-        M: Approach<T>,
-        F: TangentialScene<T, M, A, P, C, Observer: Observer<T>>,
-    {
-        let SimulatedImpact { normal, tangential, .. } = self.observe::<M, _, C, ()>(method, motion)?;
-        let speed_over_critical = match self.critical_speed(method)? {
-            CriticalSpeed::At(speed) => Some(motion.normal().speed().saturating_div(speed)),
-            CriticalSpeed::AlwaysRebounds | CriticalSpeed::NeverRebounds => None,
-        };
-        let class = |outcome| Classification { outcome, speed_over_critical, contact: tangential };
-        Ok(normal.outcome().map(class))
-    }
-
-    /// The dimensionless groups of the impact of a sphere that arrives with `motion`; the external force is not among them.
-    ///
-    /// # Errors
-    /// As [`impact`](Self::impact).
-    ///
-    /// ```
-    /// use microimpact::simulation::Simulation;
-    /// use microimpact::{NormalMotion, Sphere, Stiffness};
-    ///
-    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
-    /// assert_eq!(scene.groups(&NormalMotion::new(1.0)?)?.adhesion, 0.0);
-    /// # Ok::<(), microimpact::InputError>(())
-    /// ```
-    pub fn groups(&self, motion: &impl Approach<T>) -> Result<Groups<T>, InputError> {
-        let units = self.units(motion.normal().speed())?;
-        let material = self.damping.scale(&self.sphere, &units)?.rate();
-        let adhesion = self.adhesion.scale(&self.sphere, &units)?.damping_rate();
-        Ok(units.groups(material, adhesion))
+    pub fn with_friction(self, coefficient: T) -> Result<Contact<T, L, Coulomb<T>>, InputError> {
+        Ok(Contact { sphere: self.sphere, law: self.law, surface: Coulomb::new(coefficient)? })
     }
 
     /// The sphere of this scene.
     ///
     /// ```
-    /// use microimpact::{Sphere, Stiffness, simulation::Simulation};
+    /// use microimpact::{Sphere, Stiffness, contact::Contact};
     ///
     /// let sphere = Sphere::solid(1e-6, 1000.0)?;
-    /// assert_eq!(Simulation::new(sphere, Stiffness::new(1e10)?).sphere(), &sphere);
+    /// assert_eq!(Contact::hertz(sphere, Stiffness::new(1e10)?).sphere(), &sphere);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
+    #[inline]
     pub fn sphere(&self) -> &Sphere<T> {
         &self.sphere
     }
 
-    fn units(&self, approach: T) -> Result<Scaled<T>, InputError> {
-        Scaled::new(&self.sphere, self.stiffness, self.adhesion.equilibrium(self.stiffness), approach)
+    /// The law of contact of this scene, in SI units.
+    ///
+    /// ```
+    /// use microimpact::{Sphere, Stiffness, contact::{Contact, HertzLaw}};
+    ///
+    /// let stiffness = Stiffness::new(1e10)?;
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, stiffness);
+    /// assert_eq!(scene.law(), &HertzLaw::new(stiffness));
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn law(&self) -> &L {
+        &self.law
+    }
+}
+
+impl<T: Real, D, X> Contact<T, HertzLaw<T, D, Ring<T>, X>, Coulomb<T>> {
+    /// The same scene with a peeling moment of strength lambda >= 0 (N m), which is proportional to the damping of the ring
+    /// (B10).
+    ///
+    /// # Errors
+    /// A strength outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Sphere, Stiffness, contact::Contact};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?)
+    ///     .with_ring(10.0, 1.0)?
+    ///     .with_friction(0.1)?;
+    /// assert!(scene.with_peeling(-1.0).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_peeling(
+        self,
+        lambda: T,
+    ) -> Result<Contact<T, HertzLaw<T, D, Ring<T>, X>, Peeling<T>>, InputError> {
+        Ok(Contact { sphere: self.sphere, law: self.law, surface: Peeling::new(self.surface, lambda)? })
+    }
+}
+
+impl<T: Real> AnyScene<T> {
+    /// The same scene with a peeling moment of strength lambda >= 0 (N m).
+    ///
+    /// # Errors
+    /// A strength outside its range; any but zero where the law has no ring.
+    ///
+    /// ```
+    /// use microimpact::contact::{AnyLaw, Contact};
+    /// use microimpact::{Sphere, Stiffness};
+    ///
+    /// let (sphere, stiffness) = (Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// let with_peeling = |law| Contact::new(sphere, law).with_friction(0.1)?.with_peeling(1e-12);
+    /// assert!(with_peeling(AnyLaw::ring(stiffness, 10.0, 1.0)?).is_ok());
+    /// assert!(with_peeling(AnyLaw::hertz(stiffness)).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_peeling(self, lambda: T) -> Result<Contact<T, AnyLaw<T>, Peeling<T>>, InputError> {
+        let Self { sphere, law, surface } = self;
+        let surface = Peeling::new(surface, lambda)?;
+        if lambda > T::ZERO && !matches!(law, AnyLaw::Ring(_)) {
+            return Err(InputError { parameter: Parameter::PeelingMoment, fault: Fault::TooLarge });
+        }
+        Ok(Contact { sphere, law, surface })
+    }
+}
+
+impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
+    /// The impact of a sphere that arrives with the motion `before`: how it ends, and the velocities after.
+    ///
+    /// # Errors
+    /// A ratio of the scene's forces outside its range, so that the motion cannot be represented.
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact};
+    /// use microimpact::{NormalMotion, Outcome, Sphere, Stiffness};
+    ///
+    /// // A sphere of 5 um diameter, as in figure 6, is captured at 5 m/s and rebounds at 8 m/s.
+    /// let scene = Contact::hertz(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+    ///     .with_damping(10.5)?
+    ///     .with_ring(250.0, 6.25)?;
+    /// let method = Adaptive::new(1e-6)?;
+    /// assert_eq!(scene.solve(&NormalMotion::new(5.0)?, &method)?.normal.outcome(), Some(Outcome::Capture));
+    /// assert_eq!(scene.solve(&NormalMotion::new(8.0)?, &method)?.normal.outcome(), Some(Outcome::Rebound));
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn solve<B, M>(&self, before: &B, method: &M) -> Result<SimulatedImpact<T, S::After>, InputError>
+    where
+        B: Approach<T>,
+        S: Surface<T, B>,
+        M: Method<T>,
+    {
+        Ok(self.solve_for(before, method, ())?.0)
     }
 
-    fn law(&self, units: &Scaled<T>) -> Result<HertzLaw<D::Scaled, A::Scaled, X::Scaled>, InputError> {
-        Ok(HertzLaw {
-            damping: self.damping.scale(&self.sphere, units)?,
-            adhesion: self.adhesion.scale(&self.sphere, units)?,
-            force: self.force.scale(&self.sphere, units)?,
+    /// The impact as by [`solve`](Self::solve), and the outputs asked for: [`Times`](super::Times),
+    /// [`Impulses`](super::Impulses), [`Works`](super::Works), [`Energy`](super::Energy), [`Slip`](super::Slip),
+    /// [`Recording`](super::Recording), or a tuple of them. What is not asked for is not computed.
+    ///
+    /// With an output a captured sphere is followed until it first turns back; [`solve_to_rest`](Self::solve_to_rest) goes on.
+    ///
+    /// # Errors
+    /// As [`solve`](Self::solve).
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact, Times};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
+    /// let (impact, times) = scene.solve_for(&NormalMotion::new(1.0)?, &Adaptive::new(1e-9_f64)?, Times)?;
+    /// assert!(impact.normal.overall_restitution() < 1.0);
+    /// assert!(times.contact.unwrap() > 2.0 * times.peak.unwrap());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn solve_for<B, M, O>(
+        &self,
+        before: &B,
+        method: &M,
+        outputs: O,
+    ) -> Result<(SimulatedImpact<T, S::After>, O::Result), InputError>
+    where
+        B: Approach<T>,
+        S: Surface<T, B>,
+        M: Method<T>,
+        O: Output<T, S::Start>,
+    {
+        let approach = before.normal().speed();
+        let (law, units) = self.law.in_units(&self.sphere, approach)?;
+        let start = self.surface.start(before, &self.sphere, &law, &units)?;
+        let mut observer = (outputs.begin(&start), S::observer(&start));
+        let path = method.solve(&law, units.energy, &mut observer);
+        let (observed, surface) = observer;
+        let impact = SimulatedImpact {
+            normal: NormalContact::new(&path, approach, &law, &units),
+            tangential: S::after(&surface, &path, &self.sphere, &units),
+            run: RunReport::new(&path),
+        };
+        let end = Ended { path: &path, sphere: &self.sphere, units: &units };
+        Ok((impact, outputs.finish(observed, &end)))
+    }
+
+    /// The normal motion alone: how it ends and how fast, whatever happens along the surface.
+    ///
+    /// # Errors
+    /// As [`solve`](Self::solve).
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(4.3e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+    ///     .with_damping(10.5)?
+    ///     .with_ring(250.0, 6.25)?
+    ///     .with_friction(0.1)?;
+    /// let contact = scene.solve_normal(&NormalMotion::new(2.8)?, &Adaptive::new(1e-6)?)?;
+    /// assert!((contact.overall_restitution() - 0.62_f64).abs() < 0.001);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn solve_normal(
+        &self,
+        before: &impl Approach<T>,
+        method: &impl Method<T>,
+    ) -> Result<NormalContact<T>, InputError> {
+        let approach = before.normal().speed();
+        let (law, units) = self.law.in_units(&self.sphere, approach)?;
+        let path = method.solve(&law, units.energy, &mut ());
+        Ok(NormalContact::new(&path, approach, &law, &units))
+    }
+
+    /// The impact as by [`solve_for`](Self::solve_for). A captured sphere is followed until it rests, as the `criterion`
+    /// defines it, with all that is asked for.
+    ///
+    /// # Errors
+    /// As [`solve`](Self::solve).
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact, RestCriterion, Slip};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+    ///     .with_damping(10.5)?
+    ///     .with_ring(250.0, 6.25)?
+    ///     .with_friction(0.1)?;
+    /// let (method, criterion) = (Adaptive::new(1e-9)?, RestCriterion::new(1e-6, 1000)?);
+    /// let motion = NormalMotion::new(1.0)?.with_tangential(70.0)?;
+    /// // It still slides where it first turns back. At rest along the normal it rolls, with 5/7 of its velocity.
+    /// assert!(scene.solve_for(&motion, &method, Slip)?.1.slides);
+    /// let settled = scene.solve_to_rest(&motion, &method, &criterion, Slip)?;
+    /// assert!(!settled.outputs.slides);
+    /// assert!((settled.outputs.velocity - 50.0_f64).abs() < 1e-9);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn solve_to_rest<B, M, O>(
+        &self,
+        before: &B,
+        method: &M,
+        criterion: &RestCriterion<T>,
+        outputs: O,
+    ) -> Result<SettledImpact<T, S::After, O::Result>, InputError>
+    where
+        B: Approach<T>,
+        S: Surface<T, B>,
+        M: ErrorControl<T>,
+        O: Output<T, S::Start>,
+    {
+        let approach = before.normal().speed();
+        let (law, units) = self.law.in_units(&self.sphere, approach)?;
+        let start = self.surface.start(before, &self.sphere, &law, &units)?;
+        let mut observer = (Times::new(), (outputs.begin(&start), S::observer(&start)));
+        let (path, settling) = method.solve_to_rest(&law, units.energy, &mut observer, criterion);
+        let (times, (observed, surface)) = observer;
+        let mut run = RunReport::new(&path);
+        if settling.as_ref().is_some_and(|settling| !settling.at_rest) {
+            run.status = Status::BudgetSpent;
+        }
+        let impact = SimulatedImpact {
+            normal: NormalContact::new(&path, approach, &law, &units),
+            tangential: S::after(&surface, &path, &self.sphere, &units),
+            run,
+        };
+        let end = Ended { path: &path, sphere: &self.sphere, units: &units };
+        let outputs = outputs.finish(observed, &end);
+        let motion = settling.map(|settling| settling.in_units(times.now, &units));
+        Ok(SettledImpact { impact, motion, outputs })
+    }
+
+    /// Trial speeds that [`critical_speed`](Self::critical_speed) takes at most; each follows two paths of at most 160
+    /// intervals. Most scenes take four to eight, of some four intervals.
+    ///
+    /// ```
+    /// use microimpact::contact::{Contact, HertzLaw};
+    ///
+    /// assert_eq!(Contact::<f32, HertzLaw<f32>>::MOST_TRIALS, 88);
+    /// ```
+    pub const MOST_TRIALS: u32 = critical::MOST_TRIALS;
+
+    /// The approach speed, m/s, that separates capture from rebound (B6), with a relative error of the tolerance of
+    /// `method`, unless damping is so strong that the speed is more than ten times that with which adhesion alone pulls.
+    ///
+    /// A sphere that separates at rest must have arrived with what damping took; that grows with the damping, and the
+    /// damping falls with the speed (B4), so there is one such speed at most. A force out of the surface is a barrier to
+    /// slow spheres, which then turn back before adhesion holds them: the critical speed is the largest that attaches.
+    ///
+    /// Where nothing holds a sphere, or nothing takes energy from it, or every speed of the range of
+    /// [`Parameter::ApproachSpeed`] rebounds, the answer is [`CriticalSpeed::AlwaysRebounds`]; where the largest of them
+    /// is captured, [`CriticalSpeed::NeverRebounds`].
+    ///
+    /// # Errors
+    /// A ratio of the scene's forces outside its range at the critical speed.
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact};
+    /// use microimpact::{CriticalSpeed, Sphere, Stiffness};
+    ///
+    /// // A sphere of 5 um diameter, as in figure 6.
+    /// let scene = Contact::hertz(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?).with_damping(10.5)?;
+    /// let method = Adaptive::new(1e-9_f64)?;
+    /// assert_eq!(scene.critical_speed(&method)?, CriticalSpeed::AlwaysRebounds);
+    /// let CriticalSpeed::At(speed) = scene.with_ring(250.0, 6.25)?.critical_speed(&method)? else { panic!() };
+    /// assert!((speed - 5.159_566_762).abs() < 1e-8);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn critical_speed(&self, method: &impl ErrorControl<T>) -> Result<CriticalSpeed<T>, InputError> {
+        let first = self.law.speed_of_adhesion(&self.sphere);
+        critical::critical_speed(first, method.tolerance(), |speed| {
+            let (law, units) = self.law.in_units(&self.sphere, speed)?;
+            Ok(method.try_energy(&law, units.energy))
         })
+    }
+
+    /// The class of the impact of a sphere that arrives with the motion `before`, with its margins as in the rigid-body
+    /// model: approach over [`critical_speed`](Self::critical_speed) and, with friction, what it can change of the slip over
+    /// the slip. `None` where the method found no solution.
+    ///
+    /// # Errors
+    /// As [`solve`](Self::solve).
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact};
+    /// use microimpact::{Class, NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+    ///     .with_damping(10.5)?
+    ///     .with_ring(250.0, 6.25)?
+    ///     .with_friction(0.1)?;
+    /// let motion = NormalMotion::new(8.0)?.with_tangential(1.0)?;
+    /// let result = scene.classify(&motion, &Adaptive::new(1e-9_f64)?)?.unwrap();
+    /// assert_eq!(result.class(), Class::ReboundRolling);
+    /// assert!((result.speed_over_critical.unwrap() - 8.0 / 5.159_566_762).abs() < 1e-8);
+    /// assert!(result.contact.friction_over_limit.unwrap() > 1.0);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn classify<B, M>(
+        &self,
+        before: &B,
+        method: &M,
+    ) -> Result<Option<Classification<T, <S::After as Classified<T>>::Contact>>, InputError>
+    where
+        B: Approach<T>,
+        S: Surface<T, B, After: Classified<T>>,
+        M: ErrorControl<T>,
+    {
+        let SimulatedImpact { normal, tangential, .. } = self.solve(before, method)?;
+        let Some(outcome) = normal.outcome() else {
+            return Ok(None);
+        };
+        let speed_over_critical = match self.critical_speed(method)? {
+            CriticalSpeed::At(speed) => Some(before.normal().speed().saturating_div(speed)),
+            CriticalSpeed::AlwaysRebounds | CriticalSpeed::NeverRebounds => None,
+        };
+        Ok(Some(Classification { outcome, speed_over_critical, contact: tangential.contact() }))
+    }
+
+    /// The law in units of the impact of a sphere with an approach speed (m/s), and those units.
+    pub(super) fn in_units(&self, approach: T) -> Result<(L, Units<T>), InputError> {
+        self.law.in_units(&self.sphere, approach)
+    }
+}
+
+/// Velocities after an impact as a part of a [`Classification`].
+pub trait Classified<T> {
+    /// `()` or [`ContactClass`].
+    type Contact;
+
+    /// How the contact point moves, and its margin.
+    fn contact(&self) -> Self::Contact;
+}
+
+impl<T> Classified<T> for () {
+    type Contact = ();
+
+    #[inline]
+    fn contact(&self) {}
+}
+
+impl<T: Real> Classified<T> for TangentialVelocities<T> {
+    type Contact = ContactClass<T>;
+
+    #[inline]
+    fn contact(&self) -> ContactClass<T> {
+        self.class()
+    }
+}
+
+impl<T, D, A, X, S> Contact<T, HertzLaw<T, D, A, X>, S>
+where
+    T: Real,
+    D: Damping<T>,
+    A: Attraction<T>,
+    X: Attraction<T>,
+{
+    /// The dimensionless groups of the impact of a sphere that arrives with the motion `before`; the external force is not
+    /// among them.
+    ///
+    /// # Errors
+    /// As [`solve`](Self::solve).
+    ///
+    /// ```
+    /// use microimpact::contact::Contact;
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// assert_eq!(scene.groups(&NormalMotion::new(1.0)?)?.adhesion, 0.0);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn groups(&self, before: &impl Approach<T>) -> Result<Groups<T>, InputError> {
+        let (law, units) = self.law.in_units(&self.sphere, before.normal().speed())?;
+        Ok(law.groups(units.energy))
     }
 }

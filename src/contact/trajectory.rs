@@ -1,32 +1,30 @@
 //! The course of an impact: indentation, velocity and force against time, in a bounded number of samples.
 //!
-//! The samples are nodes of the stretches, which come in the order of time. When the room is spent, the gap that has to lie
+//! The samples are nodes of the intervals, which come in the order of time. When the room is spent, the gap that has to lie
 //! between a sample and the one before it is doubled, and what comes sooner is dropped: the largest gap stays below twice
 //! that gap, plus the largest one between nodes. First touch, peak, beginning of rolling and end are always kept.
 
 use heapless::{Vec, VecView};
 
-use super::law::NormalLaw;
-use super::motion::NormalPath;
-use super::nodes::Nodes;
-use super::observer::Observer;
-use super::outputs::Output;
-use super::scaled::Scaled;
-use super::stretch::{Stretch, dot, integrals};
-use crate::{Real, Sphere};
+use super::law::ContactLaw;
+use super::outputs::{Ended, Output};
+use super::solve::integrals::Times;
+use super::solve::interval::{Interval, dot, integrals};
+use super::solve::nodes::Nodes;
+use super::solve::observer::Observer;
+use crate::Real;
 
 /// A moment of an impact, in SI units or dimensionless.
 ///
 /// ```
-/// use microimpact::simulation::{Collocation, SimulatedImpact, Simulation, Trajectory};
+/// use microimpact::contact::{Collocation, Contact, Recording};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
-/// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
+/// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
 /// let motion = NormalMotion::new(1.0)?;
-/// let impact: SimulatedImpact<f64, _, Trajectory<f64, 32>> =
-///     scene.observe(&Collocation::<9, f64>::new(1e-9)?, &motion)?;
+/// let (_, trajectory) = scene.solve_for(&motion, &Collocation::<9, f64>::new(1e-9)?, Recording::<32>)?;
 /// // Damping opposes the motion: it adds to the elastic force on the way in and takes from it on the way out.
-/// for sample in impact.outputs.samples() {
+/// for sample in trajectory.samples() {
 ///     assert!((sample.force - sample.elastic) * sample.velocity >= 0.0);
 /// }
 /// # Ok::<(), microimpact::InputError>(())
@@ -50,7 +48,7 @@ pub struct Sample<T> {
 
 impl<T: Real> Sample<T> {
     /// The moment at which the sphere passes the contact radius `s` with speed `y`.
-    fn of(law: &impl NormalLaw<T>, time: T, s: T, y: T, rebound: bool) -> Self {
+    fn of(law: &impl ContactLaw<T>, time: T, s: T, y: T, rebound: bool) -> Self {
         let elastic = law.elastic_force(s);
         let net = elastic - law.adhesion_force(s);
         let damped = y * law.damping(s, rebound);
@@ -75,20 +73,19 @@ impl<T: Real> Sample<T> {
 /// have to be thinned, the others are spread evenly over time.
 ///
 /// ```
-/// use microimpact::simulation::{Collocation, Everything, SimulatedImpact, Simulation, Trajectory};
+/// use microimpact::contact::{Collocation, Contact, Recording, Times};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
-/// let scene = Simulation::new(Sphere::solid(5.06e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+/// let scene = Contact::hertz(Sphere::solid(5.06e-6, 2600.0)?, Stiffness::new(7.5e10)?)
 ///     .with_damping(10.5)?
 ///     .with_ring(250.0, 6.25)?;
 /// let motion = NormalMotion::new(2.8)?;
-/// let impact: SimulatedImpact<f64, _, (Everything<f64>, Trajectory<f64, 64>)> =
-///     scene.observe(&Collocation::<9, f64>::new(1e-9)?, &motion)?;
-/// let (everything, trajectory) = &impact.outputs;
+/// let (impact, (times, trajectory)) =
+///     scene.solve_for(&motion, &Collocation::<9, f64>::new(1e-9)?, (Times, Recording::<64>))?;
 /// let (first, last) = (trajectory.samples().next().unwrap(), trajectory.samples().last().unwrap());
 /// assert_eq!((first.time, first.indentation, first.force), (0.0, 0.0, 0.0));
 /// assert!((first.velocity / 2.8 - 1.0).abs() < 1e-12);
-/// assert_eq!((Some(last.time), last.indentation), (everything.times.contact, 0.0));
+/// assert_eq!((Some(last.time), last.indentation), (times.contact, 0.0));
 /// assert!((last.velocity / impact.normal.rebound_speed() + 1.0).abs() < 1e-9);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
@@ -106,13 +103,13 @@ impl<T: Real, const N: usize> Trajectory<T, N> {
     /// The samples in the order of time, in SI units.
     ///
     /// ```
-    /// use microimpact::simulation::{Collocation, SimulatedImpact, Simulation, Trajectory};
+    /// use microimpact::contact::{Collocation, Contact, Recording};
     /// use microimpact::{NormalMotion, Sphere, Stiffness};
     ///
-    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
-    /// let impact: SimulatedImpact<f64, _, Trajectory<f64, 16>> =
-    ///     scene.observe(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(1.0)?)?;
-    /// let times: Vec<f64> = impact.outputs.samples().map(|sample| sample.time).collect();
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// let (_, trajectory) =
+    ///     scene.solve_for(&NormalMotion::new(1.0)?, &Collocation::<9, f64>::new(1e-9)?, Recording::<16>)?;
+    /// let times: Vec<f64> = trajectory.samples().map(|sample| sample.time).collect();
     /// assert!(times.len() <= 16 && times.is_sorted());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
@@ -123,13 +120,13 @@ impl<T: Real, const N: usize> Trajectory<T, N> {
     /// The same in the [`units`](Self::units) of the motion.
     ///
     /// ```
-    /// use microimpact::simulation::{Collocation, SimulatedImpact, Simulation, Trajectory};
+    /// use microimpact::contact::{Collocation, Contact, Recording};
     /// use microimpact::{NormalMotion, Sphere, Stiffness};
     ///
-    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
-    /// let impact: SimulatedImpact<f64, _, Trajectory<f64, 16>> =
-    ///     scene.observe(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(1.0)?)?;
-    /// for sample in impact.outputs.dimensionless() {
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// let (_, trajectory) =
+    ///     scene.solve_for(&NormalMotion::new(1.0)?, &Collocation::<9, f64>::new(1e-9)?, Recording::<16>)?;
+    /// for sample in trajectory.dimensionless() {
     ///     assert!((sample.elastic - 1.25 * sample.indentation.powf(1.5)).abs() < 1e-12);
     /// }
     /// # Ok::<(), microimpact::InputError>(())
@@ -140,20 +137,20 @@ impl<T: Real, const N: usize> Trajectory<T, N> {
 
     /// Units of the dimensionless samples, in SI.
     ///
-    /// That of length is the peak indentation L of the motion without damping and external force, that of velocity
+    /// In Hertz's contact the unit of length is the peak indentation L of the motion without damping, that of velocity
     /// U = sqrt((4/5) sqrt(r) K L^(5/2)/m), that of time L/U, that of force m U^2/L. The elastic force is (5/4) delta^(3/2)
     /// in them.
     ///
     /// ```
-    /// use microimpact::simulation::{Collocation, SimulatedImpact, Simulation, Trajectory};
+    /// use microimpact::contact::{Collocation, Contact, Recording};
     /// use microimpact::{Hertz, NormalMotion, Sphere, Stiffness};
     ///
     /// let (sphere, stiffness) = (Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
     /// let motion = NormalMotion::new(1.0)?;
-    /// let impact: SimulatedImpact<f64, _, Trajectory<f64, 16>> =
-    ///     Simulation::new(sphere, stiffness).observe(&Collocation::<9, f64>::new(1e-9)?, &motion)?;
+    /// let method = Collocation::<9, f64>::new(1e-9)?;
+    /// let (_, trajectory) = Contact::hertz(sphere, stiffness).solve_for(&motion, &method, Recording::<16>)?;
     /// let hertz = Hertz::new(&sphere, stiffness, &motion);
-    /// assert!((impact.outputs.units().indentation / hertz.indentation - 1.0).abs() < 1e-12);
+    /// assert!((trajectory.units().indentation / hertz.indentation - 1.0).abs() < 1e-12);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn units(&self) -> Sample<T> {
@@ -163,13 +160,13 @@ impl<T: Real, const N: usize> Trajectory<T, N> {
     /// The peak, where the velocity is zero for the first time; `None` where an over-damped sphere creeps in without one.
     ///
     /// ```
-    /// use microimpact::simulation::{Collocation, SimulatedImpact, Simulation, Trajectory};
+    /// use microimpact::contact::{Collocation, Contact, Recording};
     /// use microimpact::{NormalMotion, Sphere, Stiffness};
     ///
-    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
-    /// let impact: SimulatedImpact<f64, _, Trajectory<f64, 4>> =
-    ///     scene.observe(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(1.0)?)?;
-    /// let peak = impact.outputs.peak().unwrap();
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// let (impact, trajectory) =
+    ///     scene.solve_for(&NormalMotion::new(1.0)?, &Collocation::<9, f64>::new(1e-9)?, Recording::<4>)?;
+    /// let peak = trajectory.peak().unwrap();
     /// assert_eq!((peak.velocity, Some(peak.indentation)), (0.0, impact.normal.peak_indentation()));
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
@@ -180,13 +177,13 @@ impl<T: Real, const N: usize> Trajectory<T, N> {
     /// The moment at which a sliding sphere begins to roll; `None` where it does not, or rolls from first touch.
     ///
     /// ```
-    /// use microimpact::simulation::{Collocation, SimulatedImpact, Simulation, TangentialContact, Trajectory};
+    /// use microimpact::contact::{Collocation, Contact, Recording, Slip};
     /// use microimpact::{NormalMotion, Sphere, Stiffness};
     ///
-    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_friction(0.5)?;
-    /// let impact: SimulatedImpact<f64, TangentialContact<f64>, Trajectory<f64, 4>> =
-    ///     scene.observe(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(1.0)?.with_tangential(0.7)?)?;
-    /// assert_eq!(impact.outputs.roll().map(|roll| roll.time), impact.tangential.rolls_from());
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_friction(0.5)?;
+    /// let motion = NormalMotion::new(1.0)?.with_tangential(0.7)?;
+    /// let (_, (slip, trajectory)) = scene.solve_for(&motion, &Collocation::<9, f64>::new(1e-9)?, (Slip, Recording::<4>))?;
+    /// assert_eq!(trajectory.roll().map(|roll| roll.time), slip.rolls_from);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn roll(&self) -> Option<Sample<T>> {
@@ -198,11 +195,26 @@ impl<T: Real, const N: usize> Trajectory<T, N> {
     }
 }
 
-impl<T: Real, const N: usize> Output<T> for Trajectory<T, N> {
-    type Observer = Recorder<T, N>;
+/// Asks for a [`Trajectory`] of at most `N` samples.
+///
+/// ```
+/// use microimpact::contact::{Adaptive, Contact, Recording};
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
+///
+/// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+/// let (_, trajectory) = scene.solve_for(&NormalMotion::new(1.0)?, &Adaptive::new(1e-9_f64)?, Recording::<16>)?;
+/// assert!(trajectory.samples().count() <= 16);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Recording<const N: usize>;
 
-    fn begin() -> Recorder<T, N> {
-        const { assert!(N >= 4, "first touch, peak, beginning of rolling and end make four samples") };
+impl<T: Real, S, const N: usize> Output<T, S> for Recording<N> {
+    type Observer = Recorder<T, N>;
+    type Result = Trajectory<T, N>;
+
+    fn begin(&self, _start: &S) -> Recorder<T, N> {
+        const { assert!(N >= 4, "first contact, peak, beginning of rolling and end make four samples") };
         let mut recorder = Recorder { samples: Vec::new(), thinning: Thinning::new(T::constant(2.0 / N as f64)) };
         let zero = T::ZERO;
         // The speed of arrival follows in the end: it is known to the units.
@@ -211,16 +223,17 @@ impl<T: Real, const N: usize> Output<T> for Trajectory<T, N> {
         recorder
     }
 
-    fn finish(recorder: Recorder<T, N>, _path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> Self {
+    fn finish(&self, recorder: Recorder<T, N>, end: &Ended<'_, T>) -> Trajectory<T, N> {
         let Recorder { mut samples, thinning } = recorder;
+        let units = end.units;
         thinning.end(&mut samples);
         if let Some(first) = samples.first_mut() {
             first.velocity = (units.energy + units.energy).sqrt();
         }
-        let force = sphere.mass() * (units.speed / units.time());
+        let force = end.sphere.mass() * (units.speed / units.time());
         let unit =
             Sample { time: units.time(), indentation: units.length, velocity: units.speed, force, elastic: force };
-        Self { samples, unit, peak: thinning.peak, roll: thinning.roll }
+        Trajectory { samples, unit, peak: thinning.peak, roll: thinning.roll }
     }
 }
 
@@ -234,16 +247,16 @@ pub struct Recorder<T, const N: usize> {
 impl<T: Real, const N: usize> Observer<T> for Recorder<T, N> {
     const TIMED: bool = true;
 
-    fn observe<const M: usize>(&mut self, law: &impl NormalLaw<T>, stretch: &Stretch<T, M>, rebound: bool)
+    fn observe<const M: usize>(&mut self, law: &impl ContactLaw<T>, interval: &Interval<T, M>, rebound: bool)
     where
         T: Nodes<M>,
     {
         let (samples, thinning) = (self.samples.as_mut_view(), &mut self.thinning);
-        let (begin, duration) = (thinning.now, dot(&T::WHOLE, &stretch.rate));
-        let running = integrals(&T::RUNNING, &stretch.rate);
-        let nodes = running.iter().zip(stretch.s.iter().zip(&stretch.y));
-        // The last node is the end of the stretch, or its beginning where it is written against time.
-        if stretch.forward {
+        let (begin, duration) = (thinning.now, dot(&T::WHOLE, &interval.rate));
+        let running = integrals(&T::RUNNING, &interval.rate);
+        let nodes = running.iter().zip(interval.s.iter().zip(&interval.y));
+        // The last node is the end of the interval, or its beginning where it is written against time.
+        if interval.forward {
             for (&running, (&s, &y)) in nodes.take(M - 1) {
                 thinning.add(samples, Sample::of(law, begin + running, s, y, rebound));
             }
@@ -253,20 +266,20 @@ impl<T: Real, const N: usize> Observer<T> for Recorder<T, N> {
             }
         }
         thinning.now = begin + duration;
-        let (s, y) = (stretch.end.s, stretch.end.speed_squared.max(T::ZERO).sqrt());
+        let (s, y) = (interval.end.s, interval.end.speed_squared.max(T::ZERO).sqrt());
         thinning.add(samples, Sample::of(law, thinning.now, s, y, rebound));
-        if !stretch.forward && !rebound && thinning.peak.is_none() {
+        if !interval.forward && !rebound && thinning.peak.is_none() {
             thinning.peak = thinning.mark(samples, T::ZERO);
         }
     }
 
     fn observe_rolling<const M: usize>(
         &mut self,
-        law: &impl NormalLaw<T>,
-        whole: &Stretch<T, M>,
-        before: &Stretch<T, M>,
+        law: &impl ContactLaw<T>,
+        whole: &Interval<T, M>,
+        before: &Interval<T, M>,
         late: T,
-        after: &mut dyn FnMut() -> Stretch<T, M>,
+        after: &mut dyn FnMut() -> Interval<T, M>,
         rebound: bool,
     ) where
         T: Nodes<M>,
@@ -277,6 +290,29 @@ impl<T: Real, const N: usize> Observer<T> for Recorder<T, N> {
         self.observe(law, &after(), rebound);
         self.thinning.end_at(&mut self.samples, end);
     }
+
+    type State = ();
+
+    #[inline]
+    fn state(&self) {}
+
+    #[inline]
+    fn rates(&self, (): &(), _law: &impl ContactLaw<T>, _s: T, _y: T, _rebound: bool) {}
+
+    fn rolls_from(&mut self, _time: T) {
+        self.thinning.roll = self.thinning.mark(&mut self.samples, T::ZERO);
+    }
+
+    fn stepped(&mut self, law: &impl ContactLaw<T>, time: T, s: T, y: T, rebound: bool) {
+        self.thinning.now = time;
+        self.thinning.add(&mut self.samples, Sample::of(law, time, s, y, rebound));
+        if y == T::ZERO && self.thinning.peak.is_none() {
+            self.thinning.peak = self.thinning.mark(&mut self.samples, T::ZERO);
+        }
+    }
+
+    #[inline]
+    fn ended(&mut self, (): &(), _times: &Times<T>) {}
 }
 
 /// What decides which samples are kept; all of it is compiled once, whatever the room for samples.
@@ -317,7 +353,7 @@ impl<T: Real> Thinning<T> {
         }
     }
 
-    /// Moves the latest sample to a time that is known better than by its own stretch.
+    /// Moves the latest sample to a time that is known better than by its own interval.
     fn end_at(&mut self, samples: &mut VecView<Sample<T>>, time: T) {
         self.now = time;
         if let Some(latest) = self.waiting.as_mut().or_else(|| samples.last_mut()) {

@@ -17,8 +17,8 @@ pub use rigid::InFixedPoint;
 /// quotients and roots are rounded to the nearest number, and what lies beyond the bounds is held at them, never wrapped. What
 /// does not fit is refused by an error that names the quantity; set-up may take floating point, or the host.
 ///
-/// * The simulation of the normal motion, by [`FixedCost`](crate::simulation::FixedCost), from
-///   [`DimensionlessImpact::in_fixed_point`](crate::simulation::DimensionlessImpact::in_fixed_point). It takes strengths of
+/// * The simulation of the normal motion, by [`FixedCost`](crate::contact::FixedCost), from
+///   [`DimensionlessImpact::in_fixed_point`](crate::contact::DimensionlessImpact::in_fixed_point). It takes strengths of
 ///   adhesion up to 0.999, above which hardly any energy is left to resolve, and damping up to 0.5. Four nodes and two sweeps
 ///   err by less than 1e-4 in e, and by less than 1e-5 more than in f64, where e exceeds 0.2 and the strength of adhesion is
 ///   below 0.95; rounding weighs with the inverse of e and of the energy.

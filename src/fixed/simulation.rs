@@ -4,7 +4,7 @@
 #![allow(clippy::indexing_slicing)]
 
 use super::{FRACTION, FixedPoint};
-use crate::simulation::{DimensionlessImpact, PhaseNodes, Share};
+use crate::contact::{DimensionlessImpact, Fraction, Nodes, PhaseNodes, PhaseSamples};
 use crate::{InputError, Parameter, Real};
 
 impl<T: Real + Into<f64>> DimensionlessImpact<T> {
@@ -49,7 +49,7 @@ const fn nearest_all<const M: usize>(table: [f64; M]) -> [FixedPoint; M] {
 
 impl<const M: usize> PhaseNodes<M> for FixedPoint {
     const Z: [Self; M] = nearest_all(<f64 as PhaseNodes<M>>::Z);
-    const SHARES: [Share<Self>; M] = nearest_shares(<f64 as PhaseNodes<M>>::SHARES);
+    const FRACTIONS: [Fraction<Self>; M] = nearest_shares(<f64 as PhaseNodes<M>>::FRACTIONS);
     const RUNNING: [[Self; M]; M] = nearest_rows(<f64 as PhaseNodes<M>>::RUNNING);
     const RUNNING_ENDS: [(Self, Self); M] = nearest_pairs(<f64 as PhaseNodes<M>>::RUNNING_ENDS);
     const WHOLE: [Self; M] = nearest_all(<f64 as PhaseNodes<M>>::WHOLE);
@@ -74,6 +74,21 @@ impl<const M: usize> PhaseNodes<M> for FixedPoint {
     }
 }
 
+impl<const M: usize> Nodes<M> for FixedPoint {
+    const Z: [Self; M] = nearest_all(<f64 as Nodes<M>>::Z);
+    const RUNNING: [[Self; M]; M] = nearest_rows(<f64 as Nodes<M>>::RUNNING);
+    const TURNING: [[Self; M]; M] = nearest_rows(<f64 as Nodes<M>>::TURNING);
+    const WHOLE: [Self; M] = nearest_all(<f64 as Nodes<M>>::WHOLE);
+    const WHOLE_TURNING: [Self; M] = nearest_all(<f64 as Nodes<M>>::WHOLE_TURNING);
+    const TAIL: [Self; M] = nearest_all(<f64 as Nodes<M>>::TAIL);
+    const LEGENDRE: [[Self; M]; M] = nearest_rows(<f64 as Nodes<M>>::LEGENDRE);
+}
+
+impl<const N: usize, const M: usize> PhaseSamples<N, M> for FixedPoint {
+    const FRACTIONS: [Fraction<Self>; M] = nearest_shares(<f64 as PhaseSamples<N, M>>::FRACTIONS);
+    const RUNNING: [[Self; M]; N] = nearest_rows(<f64 as PhaseSamples<N, M>>::RUNNING);
+}
+
 /// The largest sum of the sizes in a column.
 const fn heaviest_column<const N: usize, const M: usize>(rows: &[[f64; M]; N]) -> f64 {
     let (mut heaviest, mut j) = (0.0, 0);
@@ -90,10 +105,10 @@ const fn heaviest_column<const N: usize, const M: usize>(rows: &[[f64; M]; N]) -
 }
 
 /// The same for a table of rows.
-const fn nearest_rows<const M: usize>(table: [[f64; M]; M]) -> [[FixedPoint; M]; M] {
-    let mut nearest = [[FixedPoint::ZERO; M]; M];
+const fn nearest_rows<const M: usize, const L: usize>(table: [[f64; M]; L]) -> [[FixedPoint; M]; L] {
+    let mut nearest = [[FixedPoint::ZERO; M]; L];
     let mut i = 0;
-    while i < M {
+    while i < L {
         nearest[i] = nearest_all(table[i]);
         i += 1;
     }
@@ -101,14 +116,14 @@ const fn nearest_rows<const M: usize>(table: [[f64; M]; M]) -> [[FixedPoint; M];
 }
 
 /// The same for contact radii.
-const fn nearest_shares<const M: usize>(shares: [Share<f64>; M]) -> [Share<FixedPoint>; M] {
+const fn nearest_shares<const M: usize>(shares: [Fraction<f64>; M]) -> [Fraction<FixedPoint>; M] {
     let zero = FixedPoint::ZERO;
-    let mut nearest = [Share { radius: zero, square: zero, cubic: zero, quintic: zero }; M];
+    let mut nearest = [Fraction { value: zero, square: zero, cubic: zero, quintic: zero }; M];
     let mut i = 0;
     while i < M {
-        let Share { radius, square, cubic, quintic } = shares[i];
-        nearest[i] = Share {
-            radius: FixedPoint::nearest(radius),
+        let Fraction { value, square, cubic, quintic } = shares[i];
+        nearest[i] = Fraction {
+            value: FixedPoint::nearest(value),
             square: FixedPoint::nearest(square),
             cubic: FixedPoint::nearest(cubic),
             quintic: FixedPoint::nearest(quintic),

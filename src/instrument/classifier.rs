@@ -4,12 +4,9 @@ use core::fmt;
 
 use super::ClassSet;
 use crate::rigid::{MicroforceTerm, ReboundAdhesion, TangentialOutcome, TangentialTerm};
-use crate::simulation::{
-    Attraction, Damping, Method, NoPeeling, Scale, SimulatedImpact, Simulation, TangentialContact, TangentialScene,
-};
+use crate::contact::{Classified as ContactClassified, Contact, ContactLaw, Method, Surface};
 use crate::{
-    Approach, Class, Classification, ContactClass, Coulomb, InputError, NoFriction, Outcome, Real, RestitutionLaw,
-    RigidBody,
+    Approach, Class, Classification, ContactClass, InputError, Outcome, Real, RestitutionLaw, RigidBody,
 };
 
 /// Gives the class of a motion `M`, in numbers of type `T`.
@@ -34,10 +31,10 @@ pub trait Classifier<T, M> {
     ///
     /// ```
     /// use microimpact::instrument::{Classifier, Rejection, Simulated};
-    /// use microimpact::simulation::{FixedCost, Simulation};
+    /// use microimpact::contact::{Contact, FixedCost};
     /// use microimpact::{NormalMotion, Sphere, Stiffness};
     ///
-    /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1e4)?;
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1e4)?;
     /// let overdamped = Simulated { scene, method: FixedCost::<5>::new(3)? };
     /// assert_eq!(overdamped.verdict(&NormalMotion::new(1.0)?), Err(Rejection::Unsolved));
     /// # Ok::<(), microimpact::InputError>(())
@@ -169,10 +166,10 @@ where
 ///
 /// ```
 /// use microimpact::instrument::{Classifier, Simulated};
-/// use microimpact::simulation::{FixedCost, Simulation};
+/// use microimpact::contact::{Contact, FixedCost};
 /// use microimpact::{NormalMotion, Outcome, Sphere, Stiffness};
 ///
-/// let scene = Simulation::new(Sphere::solid(2.5e-6_f32, 2600.0)?, Stiffness::new(7.5e10)?)
+/// let scene = Contact::hertz(Sphere::solid(2.5e-6_f32, 2600.0)?, Stiffness::new(7.5e10)?)
 ///     .with_damping(10.5)?
 ///     .with_ring(250.0, 6.25)?;
 /// let classifier = Simulated { scene, method: FixedCost::<7>::new(4)? };
@@ -190,39 +187,22 @@ pub struct Simulated<S, N> {
     pub method: N,
 }
 
-impl<T, M, D, A, X, N> Classifier<T, M> for Simulated<Simulation<T, D, A, NoFriction, NoPeeling, X>, N>
+impl<T, B, L, S, M, C> Classifier<T, B> for Simulated<Contact<T, L, S>, M>
 where
     T: Real,
-    M: Approach<T>,
-    D: Scale<T, Scaled: Damping<T>>,
-    A: Scale<T, Scaled: Attraction<T>>,
-    X: Scale<T, Scaled: Attraction<T>>,
-    N: Method<T, ()>,
+    B: Approach<T>,
+    L: ContactLaw<T>,
+    S: Surface<T, B, After: ContactClassified<T, Contact = C>>,
+    M: Method<T>,
+    Classification<T, C>: Classified,
 {
-    type Class = Outcome;
+    type Class = <Classification<T, C> as Classified>::Class;
 
-    fn verdict(&self, motion: &M) -> Result<Verdict<T, Outcome>, Rejection> {
-        let contact = self.scene.normal_impact(&self.method, motion)?;
-        let class = contact.outcome().ok_or(Rejection::Unsolved)?;
-        Ok(Verdict { class, restitution: Some(contact.overall_restitution()) })
-    }
-}
-
-impl<T, M, D, A, P, X, N> Classifier<T, M> for Simulated<Simulation<T, D, A, Coulomb<T>, P, X>, N>
-where
-    T: Real,
-    M: Approach<T>,
-    D: Scale<T, Scaled: Damping<T>>,
-    A: Scale<T, Scaled: Attraction<T>>,
-    X: Scale<T, Scaled: Attraction<T>>,
-    Coulomb<T>: TangentialScene<T, M, A, P, TangentialContact<T>>,
-    N: Method<T, ((), <Coulomb<T> as TangentialScene<T, M, A, P, TangentialContact<T>>>::Observer)>,
-{
-    type Class = Class;
-
-    fn verdict(&self, motion: &M) -> Result<Verdict<T, Class>, Rejection> {
-        let impact: SimulatedImpact<T, TangentialContact<T>, ()> = self.scene.observe(&self.method, motion)?;
-        let class = impact.class().ok_or(Rejection::Unsolved)?;
-        Ok(Verdict { class, restitution: Some(impact.normal.overall_restitution()) })
+    fn verdict(&self, motion: &B) -> Result<Verdict<T, Self::Class>, Rejection> {
+        let impact = self.scene.solve(motion, &self.method)?;
+        let outcome = impact.normal.outcome().ok_or(Rejection::Unsolved)?;
+        let classification = Classification { outcome, speed_over_critical: None, contact: impact.tangential.contact() };
+        let restitution = Some(impact.normal.overall_restitution());
+        Ok(Verdict { class: Classified::class(&classification), restitution })
     }
 }

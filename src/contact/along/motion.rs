@@ -1,6 +1,6 @@
 //! Motion along the surface and spin during contact: sliding under Coulomb's friction, then rolling (B7 to B10).
 //!
-//! The normal motion does not depend on them, so they follow from integrals over its stretches. In units of the scene the
+//! The normal motion does not depend on them, so they follow from integrals over its intervals. In units of the scene the
 //! tangential velocity v and the peripheral velocity u = r theta' obey, with the elastic force F and the slip v - u,
 //!
 //! v' = -f F sgn(v - u),   kappa u' = f F sgn(v - u) - kappa q s u
@@ -10,149 +10,56 @@
 // Indices run over arrays of the length that their loops count to.
 #![allow(clippy::indexing_slicing, clippy::needless_range_loop)]
 
-use super::integrals::{Integrals, Quantities, observe_by_integrals};
-use super::law::NormalLaw;
-use super::motion::NormalPath;
-use super::nodes::Nodes;
-use super::observer::Observer;
-use super::outcome::TangentialContact;
+use super::SlipStart;
 use super::relaxation::{SLOW, relaxed};
-use super::scaled::{ScalePeeling, Scaled};
-use super::stretch::{Stretch, dot, integrals};
-use crate::{Coulomb, InputError, NoFriction, Oblique, Parameter, Real, Sphere};
-
-/// No peeling moment.
-///
-/// ```
-/// assert_eq!(size_of::<microimpact::simulation::NoPeeling>(), 0);
-/// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct NoPeeling;
-
-/// The peeling moment g = -lambda c_A a theta' against the spin (B10).
-///
-/// ```
-/// use microimpact::simulation::Peeling;
-///
-/// assert!(Peeling::new(2e-12).is_ok());
-/// assert!(Peeling::new(-2e-12).is_err());
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Peeling<T> {
-    pub(super) lambda: T,
-}
-
-impl<T: Real> Peeling<T> {
-    /// A moment of strength lambda >= 0, N m.
-    ///
-    /// # Errors
-    /// A value outside its range.
-    ///
-    /// ```
-    /// assert!(microimpact::simulation::Peeling::new(f64::NAN).is_err());
-    /// ```
-    #[inline]
-    pub fn new(lambda: T) -> Result<Self, InputError> {
-        Ok(Self { lambda: Parameter::PeelingMoment.check(lambda)? })
-    }
-}
-
-/// The rate at which a peeling moment slows the spin at contact radius 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ScaledPeeling<T>(pub(super) T);
-
-/// A moment that slows the spin in proportion to contact radius and spin.
-pub trait SpinDamping<T>: Copy {
-    /// Whether there is such a moment at all.
-    const PRESENT: bool;
-
-    /// Rate q of the spin's decay at contact radius 1.
-    fn rate(&self) -> T;
-}
-
-impl<T: Real> SpinDamping<T> for NoPeeling {
-    const PRESENT: bool = false;
-
-    #[inline]
-    fn rate(&self) -> T {
-        T::ZERO
-    }
-}
-
-impl<T: Real> SpinDamping<T> for ScaledPeeling<T> {
-    const PRESENT: bool = true;
-
-    #[inline]
-    fn rate(&self) -> T {
-        self.0
-    }
-}
+use super::rolling::{direction, rolling, rounding};
+use crate::Real;
+use crate::contact::law::ContactLaw;
+use crate::contact::solve::integrals::Times;
+use crate::contact::solve::interval::{Interval, dot, integrals};
+use crate::contact::solve::nodes::Nodes;
+use crate::contact::solve::observer::Observer;
 
 /// The tangential motion so far, in units of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TangentialMotion<T, P> {
-    pub(super) friction: T,
-    pub(super) gyration_ratio: T,
-    pub(super) peeling: P,
-    pub(super) tangential: T,
-    pub(super) peripheral: T,
-    pub(super) displacement: T,
+pub struct TangentialMotion<T, const PEELS: bool> {
+    pub(crate) friction: T,
+    pub(crate) gyration_ratio: T,
+    /// Rate q at which the peeling moment slows the spin at contact radius 1; zero where nothing `PEELS`.
+    peeling: T,
+    pub(crate) velocity: T,
+    pub(crate) peripheral: T,
+    pub(crate) displacement: T,
     /// Rotation angle times radius.
-    pub(super) rotation: T,
+    pub(crate) rotation: T,
     /// Energies that friction and the peeling moment have taken, over the mass.
-    pub(super) friction_loss: T,
-    pub(super) peeling_loss: T,
+    pub(crate) friction_loss: T,
+    pub(crate) peeling_loss: T,
     /// Sign of the slip, zero when rolling.
-    pub(super) direction: T,
+    pub(crate) direction: T,
     now: T,
-    pub(super) rolls_from: Option<T>,
+    pub(crate) rolls_from: Option<T>,
     /// Speed below which rolling is nothing but rounding.
-    rounding: T,
+    pub(super) rounding: T,
 }
 
-/// Direction of a slip: its sign, or zero.
-fn direction<T: Real>(slip: T) -> T {
-    if slip > T::ZERO {
-        T::ONE
-    } else if slip < T::ZERO {
-        -T::ONE
-    } else {
-        T::ZERO
-    }
-}
-
-/// Velocity of a sphere that rolls with the angular momentum about its contact point of two velocities.
-#[inline]
-fn rolling<T: Real>(tangential: T, peripheral: T, gyration_ratio: T) -> T {
-    (tangential + gyration_ratio * peripheral) / (T::ONE + gyration_ratio)
-}
-
-/// Speed that is nothing but the rounding of [`rolling`].
-fn rounding<T: Real>(tangential: T, peripheral: T, gyration_ratio: T) -> T {
-    T::constant(8.0) * T::EPSILON * rolling(tangential.abs(), peripheral.abs(), gyration_ratio)
-}
-
-/// Velocities at the nodes of a stretch and at its end in time.
+/// Velocities at the nodes of an interval and at its end in time.
 struct Slide<T, const N: usize> {
-    tangential: [T; N],
+    velocity: [T; N],
     peripheral: [T; N],
-    tangential_after: T,
+    velocity_after: T,
     peripheral_after: T,
 }
 
-impl<T: Real, P: SpinDamping<T>> SurfaceObserver<T, P> for TangentialMotion<T, P> {
-    fn new(motion: &impl Oblique<T>, unit: T, friction: T, gyration_ratio: T, peeling: P) -> Self {
-        let direction = direction(motion.slip());
-        let (tangential, peripheral) = (motion.tangential() / unit, motion.peripheral() / unit);
+impl<T: Real, const PEELS: bool> TangentialMotion<T, PEELS> {
+    pub(crate) fn new(start: &SlipStart<T, PEELS>) -> Self {
+        let SlipStart { friction, gyration_ratio, velocity, peripheral, slip, peeling } = *start;
+        let direction = direction(slip);
         Self {
             friction,
             gyration_ratio,
             peeling,
-            tangential,
+            velocity,
             peripheral,
             displacement: T::ZERO,
             rotation: T::ZERO,
@@ -161,54 +68,52 @@ impl<T: Real, P: SpinDamping<T>> SurfaceObserver<T, P> for TangentialMotion<T, P
             direction,
             now: T::ZERO,
             rolls_from: (direction == T::ZERO).then_some(T::ZERO),
-            rounding: rounding(tangential, peripheral, gyration_ratio),
+            rounding: rounding(velocity, peripheral, gyration_ratio),
         }
     }
-}
 
-impl<T: Real, P: SpinDamping<T>> TangentialMotion<T, P> {
-    /// Whether it rolls with no more than a speed of rounding.
-    pub(super) fn rests(&self) -> bool {
-        !self.slides() && self.tangential.abs() <= self.rounding
-    }
-
-    pub(super) fn slides(&self) -> bool {
+    pub(crate) fn slides(&self) -> bool {
         self.direction != T::ZERO
     }
 
     /// Kinetic energy along the surface and of the spin, over the mass.
-    pub(super) fn energy(&self) -> T {
-        let (v, u) = (self.tangential, self.peripheral);
+    pub(crate) fn energy(&self) -> T {
+        let (v, u) = (self.velocity, self.peripheral);
         T::constant(0.5) * (v * v + self.gyration_ratio * u * u)
     }
 
-    /// Energy that the peeling moment takes over a stretch, from the peripheral velocities at the nodes.
-    fn peeled<const N: usize>(&self, stretch: &Stretch<T, N>, peripheral: &[T; N]) -> T
+    /// Energy that the peeling moment takes over an interval, from the peripheral velocities at the nodes.
+    fn peeled<const N: usize>(
+        &self,
+        law: &impl ContactLaw<T>,
+        interval: &Interval<T, N>,
+        peripheral: &[T; N],
+    ) -> T
     where
         T: Nodes<N>,
     {
         let mut peeled = T::ZERO;
         for j in 0..N {
             let u = peripheral[j];
-            peeled = peeled + T::WHOLE[j] * stretch.rate[j] * stretch.s[j] * u * u;
+            peeled = peeled + T::WHOLE[j] * interval.rate[j] * law.contact_radius(interval.s[j]) * u * u;
         }
-        self.gyration_ratio * self.peeling.rate() * peeled
+        self.gyration_ratio * self.peeling * peeled
     }
 
     /// The sphere rolls from here on; it began `before` this moment.
-    pub(super) fn roll(&mut self, before: T) {
+    pub(crate) fn roll(&mut self, before: T) {
         self.direction = T::ZERO;
         self.rolls_from = Some(self.now + before);
-        self.tangential = rolling(self.tangential, self.peripheral, self.gyration_ratio);
-        self.peripheral = self.tangential;
+        self.velocity = rolling(self.velocity, self.peripheral, self.gyration_ratio);
+        self.peripheral = self.velocity;
     }
 
-    /// The way that the sphere rolls in a time, without a peeling moment.
+    /// The distance that the sphere rolls in a time, without a peeling moment.
     fn pass_rolling(&mut self, duration: T) {
-        let way = duration * self.tangential;
+        let distance = duration * self.velocity;
         self.now = self.now + duration;
-        self.displacement = self.displacement + way;
-        self.rotation = self.rotation + way;
+        self.displacement = self.displacement + distance;
+        self.rotation = self.rotation + distance;
     }
 
     /// By how much an impulse changes the slip.
@@ -217,21 +122,21 @@ impl<T: Real, P: SpinDamping<T>> TangentialMotion<T, P> {
         self.friction * (T::ONE + T::ONE / self.gyration_ratio)
     }
 
-    /// Slip after a stretch of sliding in its first direction, without a peeling moment.
-    fn slip_after<const N: usize>(&self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>) -> T
+    /// Slip after an interval of sliding in its first direction, without a peeling moment.
+    fn slip_after<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>) -> T
     where
         T: Nodes<N>,
     {
         let mut impulse = T::ZERO;
         for j in 0..N {
-            impulse = impulse + T::WHOLE[j] * law.elastic_force(stretch.s[j]) * stretch.rate[j];
+            impulse = impulse + T::WHOLE[j] * law.elastic_force(interval.s[j]) * interval.rate[j];
         }
-        self.slip() - self.closing() * impulse
+        self.slip_left() - self.closing() * impulse
     }
 
     /// Slip in its first direction.
-    fn slip(&self) -> T {
-        (self.tangential - self.peripheral) * self.direction
+    fn slip_left(&self) -> T {
+        (self.velocity - self.peripheral) * self.direction
     }
 
     /// Integrals up to each node in the order of time, and the whole.
@@ -247,166 +152,166 @@ impl<T: Real, P: SpinDamping<T>> TangentialMotion<T, P> {
         (running, whole)
     }
 
-    /// The motion over a stretch while the sphere slides.
-    fn slide<const N: usize>(&self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>) -> Slide<T, N>
+    /// The motion over an interval while the sphere slides.
+    fn slide<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>) -> Slide<T, N>
     where
         T: Nodes<N>,
     {
         let force = self.direction * self.friction;
         let mut elastic = [T::ZERO; N];
         for j in 0..N {
-            elastic[j] = law.elastic_force(stretch.s[j]) * stretch.rate[j];
+            elastic[j] = law.elastic_force(interval.s[j]) * interval.rate[j];
         }
-        let (impulse, whole) = Self::running(&elastic, stretch.forward);
+        let (impulse, whole) = Self::running(&elastic, interval.forward);
         let turn = force / self.gyration_ratio;
-        let tangential = impulse.map(|impulse| self.tangential - force * impulse);
-        let tangential_after = self.tangential - force * whole;
-        if !P::PRESENT {
+        let velocity = impulse.map(|impulse| self.velocity - force * impulse);
+        let velocity_after = self.velocity - force * whole;
+        if !PEELS {
             let peripheral = impulse.map(|impulse| self.peripheral + turn * impulse);
             return Slide {
-                tangential,
+                velocity,
                 peripheral,
-                tangential_after,
+                velocity_after,
                 peripheral_after: self.peripheral + turn * whole,
             };
         }
-        let (decay, whole_decay) = self.decay(stretch, T::ONE);
+        let (decay, whole_decay) = self.decay(law, interval, T::ONE);
         if whole_decay > T::constant(SLOW) {
             let drive = elastic.map(|elastic| turn * elastic);
             let (peripheral, peripheral_after) =
-                relaxed(self.peripheral, &drive, &self.decay_rates(stretch, T::ONE), stretch.forward);
-            return Slide { tangential, peripheral, tangential_after, peripheral_after };
+                relaxed(self.peripheral, &drive, &self.decay_rates(law, interval, T::ONE), interval.forward);
+            return Slide { velocity, peripheral, velocity_after, peripheral_after };
         }
         // Variation of constants: u = exp(-G) (u0 + turn * integral of exp(G) F).
         for j in 0..N {
             elastic[j] = elastic[j] * decay[j].exp();
         }
-        let (driven, whole_driven) = Self::running(&elastic, stretch.forward);
+        let (driven, whole_driven) = Self::running(&elastic, interval.forward);
         let mut peripheral = [T::ZERO; N];
         for j in 0..N {
             peripheral[j] = (-decay[j]).exp() * (self.peripheral + turn * driven[j]);
         }
         let peripheral_after = (-whole_decay).exp() * (self.peripheral + turn * whole_driven);
-        Slide { tangential, peripheral, tangential_after, peripheral_after }
+        Slide { velocity, peripheral, velocity_after, peripheral_after }
     }
 
-    /// A share of the peeling rate, along the stretch.
-    fn decay_rates<const N: usize>(&self, stretch: &Stretch<T, N>, share: T) -> [T; N] {
-        let rate = share * self.peeling.rate();
+    /// A fraction of the peeling rate, along the interval.
+    fn decay_rates<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, fraction: T) -> [T; N] {
+        let rate = fraction * self.peeling;
         let mut decay = [T::ZERO; N];
         for j in 0..N {
-            decay[j] = rate * stretch.s[j] * stretch.rate[j];
+            decay[j] = rate * law.contact_radius(interval.s[j]) * interval.rate[j];
         }
         decay
     }
 
-    /// Integral G of a share of the peeling rate.
-    fn decay<const N: usize>(&self, stretch: &Stretch<T, N>, share: T) -> ([T; N], T)
+    /// Integral G of a fraction of the peeling rate.
+    fn decay<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, fraction: T) -> ([T; N], T)
     where
         T: Nodes<N>,
     {
-        Self::running(&self.decay_rates(stretch, share), stretch.forward)
+        Self::running(&self.decay_rates(law, interval, fraction), interval.forward)
     }
 }
 
-impl<T: Real, P: SpinDamping<T>> Observer<T> for TangentialMotion<T, P> {
+impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
     const EVENTS: bool = true;
     const TIMED: bool = true;
 
     #[inline]
-    fn observe<const N: usize>(&mut self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>, _rebound: bool)
+    fn observe<const N: usize>(&mut self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, _rebound: bool)
     where
         T: Nodes<N>,
     {
-        let duration = dot(&T::WHOLE, &stretch.rate);
-        if !self.slides() && !P::PRESENT {
+        let duration = dot(&T::WHOLE, &interval.rate);
+        if !self.slides() && !PEELS {
             return self.pass_rolling(duration);
         }
         self.now = self.now + duration;
         if self.slides() {
-            let slide = self.slide(law, stretch);
+            let slide = self.slide(law, interval);
             for j in 0..N {
-                let moment = T::WHOLE[j] * stretch.rate[j];
-                self.displacement = self.displacement + moment * slide.tangential[j];
+                let moment = T::WHOLE[j] * interval.rate[j];
+                self.displacement = self.displacement + moment * slide.velocity[j];
                 self.rotation = self.rotation + moment * slide.peripheral[j];
             }
             let energy = self.energy();
-            let peeled = if P::PRESENT { self.peeled(stretch, &slide.peripheral) } else { T::ZERO };
-            self.tangential = slide.tangential_after;
+            let peeled = if PEELS { self.peeled(law, interval, &slide.peripheral) } else { T::ZERO };
+            self.velocity = slide.velocity_after;
             self.peripheral = slide.peripheral_after;
             self.peeling_loss = self.peeling_loss + peeled;
             self.friction_loss = self.friction_loss + (energy - self.energy() - peeled);
             return;
         }
-        let share = self.gyration_ratio / (T::ONE + self.gyration_ratio);
-        let (decay, whole_decay) = self.decay(stretch, share);
+        let fraction = self.gyration_ratio / (T::ONE + self.gyration_ratio);
+        let (decay, whole_decay) = self.decay(law, interval, fraction);
         let (velocity, after) = if whole_decay > T::constant(SLOW) {
-            let rates = self.decay_rates(stretch, share);
-            relaxed(self.tangential, &[T::ZERO; N], &rates, stretch.forward)
+            let rates = self.decay_rates(law, interval, fraction);
+            relaxed(self.velocity, &[T::ZERO; N], &rates, interval.forward)
         } else {
-            let left = |decay: T| self.tangential * (-decay).exp();
+            let left = |decay: T| self.velocity * (-decay).exp();
             (decay.map(left), left(whole_decay))
         };
-        let mut way = T::ZERO;
+        let mut distance = T::ZERO;
         for j in 0..N {
-            way = way + T::WHOLE[j] * stretch.rate[j] * velocity[j];
+            distance = distance + T::WHOLE[j] * interval.rate[j] * velocity[j];
         }
         let energy = self.energy();
-        self.tangential = after;
-        self.peripheral = self.tangential;
+        self.velocity = after;
+        self.peripheral = self.velocity;
         // Rolling, friction only passes the moment on.
         self.peeling_loss = self.peeling_loss + (energy - self.energy());
-        self.displacement = self.displacement + way;
-        self.rotation = self.rotation + way;
+        self.displacement = self.displacement + distance;
+        self.rotation = self.rotation + distance;
     }
 
-    fn rolls_at<const N: usize>(&self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>) -> Option<T>
+    fn rolls_at<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>) -> Option<T>
     where
         T: Nodes<N>,
     {
-        if !self.slides() || (!P::PRESENT && self.slip_after(law, stretch) > T::ZERO) {
+        if !self.slides() || (!PEELS && self.slip_after(law, interval) > T::ZERO) {
             return None;
         }
-        let slide = self.slide(law, stretch);
-        let slip_after = (slide.tangential_after - slide.peripheral_after) * self.direction;
+        let slide = self.slide(law, interval);
+        let slip_after = (slide.velocity_after - slide.peripheral_after) * self.direction;
         if slip_after > T::ZERO {
             return None;
         }
         let (mut slip, mut slope) = ([T::ZERO; N], [T::ZERO; N]);
-        let closing = if stretch.forward { -self.closing() } else { self.closing() };
+        let closing = if interval.forward { -self.closing() } else { self.closing() };
         for j in 0..N {
-            slip[j] = (slide.tangential[j] - slide.peripheral[j]) * self.direction;
-            slope[j] = closing * law.elastic_force(stretch.s[j]) * stretch.rate[j];
+            slip[j] = (slide.velocity[j] - slide.peripheral[j]) * self.direction;
+            slope[j] = closing * law.elastic_force(interval.s[j]) * interval.rate[j];
         }
-        let ends = if stretch.forward { (self.slip(), slip_after) } else { (slip_after, self.slip()) };
-        let z = root_between_nodes(&slip, &slope, ends, T::constant(1e-6) * self.slip());
+        let ends = if interval.forward { (self.slip_left(), slip_after) } else { (slip_after, self.slip_left()) };
+        let z = root_between_nodes(&slip, &slope, ends, T::constant(1e-6) * self.slip_left());
         let z = z.max(T::constant(1e-6)).min(T::constant(0.999_999));
-        Some(if stretch.forward { z } else { T::ONE - z })
+        Some(if interval.forward { z } else { T::ONE - z })
     }
 
-    fn lateness<const N: usize>(&self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>) -> T
+    fn residual<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>) -> T
     where
         T: Nodes<N>,
     {
-        let (s, rate) = (stretch.s[N - 1], stretch.rate[N - 1]);
+        let (s, rate) = (interval.s[N - 1], interval.rate[N - 1]);
         let closing = -(self.closing() * law.elastic_force(s) * rate);
-        if !P::PRESENT {
-            return self.slip_after(law, stretch) / closing;
+        if !PEELS {
+            return self.slip_after(law, interval) / closing;
         }
-        let slide = self.slide(law, stretch);
-        let slope = self.direction * closing + self.peeling.rate() * s * rate * slide.peripheral_after;
-        let late = (slide.tangential_after - slide.peripheral_after) / slope;
+        let slide = self.slide(law, interval);
+        let slope = self.direction * closing + self.peeling * law.contact_radius(s) * rate * slide.peripheral_after;
+        let late = (slide.velocity_after - slide.peripheral_after) / slope;
         // Where nothing but the moment ends the slip, slip and slope end together.
         if late.is_finite() { late } else { T::ZERO }
     }
 
     fn observe_rolling<const N: usize>(
         &mut self,
-        law: &impl NormalLaw<T>,
-        whole: &Stretch<T, N>,
-        before: &Stretch<T, N>,
+        law: &impl ContactLaw<T>,
+        whole: &Interval<T, N>,
+        before: &Interval<T, N>,
         late: T,
-        after: &mut dyn FnMut() -> Stretch<T, N>,
+        after: &mut dyn FnMut() -> Interval<T, N>,
         rebound: bool,
     ) where
         T: Nodes<N>,
@@ -414,183 +319,53 @@ impl<T: Real, P: SpinDamping<T>> Observer<T> for TangentialMotion<T, P> {
         let end = self.now + dot(&T::WHOLE, &whole.rate);
         self.observe(law, before, rebound);
         self.roll(-late);
-        if P::PRESENT {
+        if PEELS {
             self.observe(law, &after(), rebound);
         } else {
             self.pass_rolling(end - self.now);
         }
     }
-}
 
-/// Velocities before contact and the impulse of the elastic force, from which those after it follow without a peeling
-/// moment.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SurfaceImpulse<T> {
-    friction: T,
-    gyration_ratio: T,
-    tangential: T,
-    peripheral: T,
-    elastic: T,
-}
+    /// Velocities of centre and periphery, and the distances of both.
+    type State = ([T; 2], [T; 2]);
 
-impl<T: Real> SurfaceObserver<T, NoPeeling> for SurfaceImpulse<T> {
-    fn new(motion: &impl Oblique<T>, unit: T, friction: T, gyration_ratio: T, _peeling: NoPeeling) -> Self {
-        let (tangential, peripheral) = (motion.tangential() / unit, motion.peripheral() / unit);
-        Self { friction, gyration_ratio, tangential, peripheral, elastic: T::ZERO }
-    }
-}
-
-impl<T: Real> SurfaceImpulse<T> {
-    /// What friction can change of the slip.
     #[inline]
-    fn reach(&self) -> T {
-        self.friction * self.elastic * (T::ONE + T::ONE / self.gyration_ratio)
+    fn state(&self) -> Self::State {
+        ([self.velocity, self.peripheral], [self.displacement, self.rotation])
     }
 
-    /// The same over the slip; `None` where nothing slips.
-    pub(super) fn friction_over_limit(&self) -> Option<T> {
-        let slip = (self.tangential - self.peripheral).abs();
-        (slip > T::ZERO).then(|| self.reach().saturating_div(slip))
-    }
-
-    /// Whether the sphere still slides, and its tangential and peripheral velocities; a captured one goes on until it rolls.
-    pub(super) fn after(&self, captured: bool) -> (bool, [T; 2]) {
-        let (v, u, kappa) = (self.tangential, self.peripheral, self.gyration_ratio);
-        let slip = v - u;
-        let ends = slip.abs() <= self.reach() || (captured && self.friction > T::ZERO);
-        if ends {
-            let rolling = rolling(v, u, kappa);
-            return (false, [rolling, rolling]);
-        }
-        let impulse = direction(slip) * (self.friction * self.elastic);
-        (true, [v - impulse, u + impulse / kappa])
-    }
-
-    /// Whether it would roll with no more than a speed of rounding.
-    pub(super) fn rests(&self) -> bool {
-        let (v, u, kappa) = (self.tangential, self.peripheral, self.gyration_ratio);
-        rolling(v, u, kappa).abs() <= rounding(v, u, kappa)
-    }
-}
-
-impl<T: Real> Quantities<T> for SurfaceImpulse<T> {
+    /// B7 to B10.
     #[inline]
-    fn combine(self, other: Self, of: impl Fn(T, T) -> T + Copy) -> Self {
-        Self { elastic: of(self.elastic, other.elastic), ..self }
+    fn rates(&self, state: &Self::State, law: &impl ContactLaw<T>, s: T, _y: T, _rebound: bool) -> Self::State {
+        let ([velocity, peripheral], _) = *state;
+        let ratio = self.gyration_ratio;
+        let braking = if PEELS { self.peeling * law.contact_radius(s) * peripheral } else { T::ZERO };
+        let accelerations = if self.slides() {
+            let force = self.direction * self.friction * law.elastic_force(s);
+            [-force, force / ratio - braking]
+        } else {
+            // The friction that keeps the sphere rolling divides the moment between both.
+            let divided = -(ratio / (T::ONE + ratio) * braking);
+            [divided, divided]
+        };
+        (accelerations, [velocity, peripheral])
     }
-}
 
-impl<T: Real> Integrals<T> for SurfaceImpulse<T> {
     #[inline]
-    fn growth(&self, law: &impl NormalLaw<T>, s: T, _y: T, _rebound: bool) -> Self {
-        Self { elastic: law.elastic_force(s), ..*self }
-    }
-}
-
-observe_by_integrals!(SurfaceImpulse, timed: true);
-
-/// A tangential side of a scene, with a result `G`: `()` without friction; with it all of [`TangentialContact`], or,
-/// without a peeling moment, [`TangentialVelocities`](super::TangentialVelocities) or
-/// [`ContactClass`](crate::ContactClass) alone.
-///
-/// ```
-/// use microimpact::simulation::{NoPeeling, TangentialScene};
-/// use microimpact::{NoAdhesion, NoFriction, NormalMotion};
-///
-/// type Observer = <NoFriction as TangentialScene<f32, NormalMotion<f32>, NoAdhesion, NoPeeling, ()>>::Observer;
-/// assert_eq!(size_of::<Observer>(), 0);
-/// ```
-pub trait TangentialScene<T: Real, M, A, P, G> {
-    /// What is integrated along the motion.
-    type Observer;
-
-    /// The state before contact.
-    ///
-    /// # Errors
-    /// A ratio outside its range.
-    fn start(
-        &self,
-        sphere: &Sphere<T>,
-        adhesion: &A,
-        peeling: &P,
-        motion: &M,
-        units: &Scaled<T>,
-    ) -> Result<Self::Observer, InputError>;
-
-    /// The result in SI units.
-    fn finish(observer: Self::Observer, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> G;
-}
-
-/// All that a scene can tell of its tangential side.
-///
-/// ```
-/// use microimpact::simulation::{Tangential, TangentialContact};
-/// use microimpact::{Coulomb, NoFriction};
-///
-/// assert_eq!(size_of::<<NoFriction as Tangential<f32>>::Contact>(), 0);
-/// let _: Option<<Coulomb<f32> as Tangential<f32>>::Contact> = None::<TangentialContact<f32>>;
-/// ```
-pub trait Tangential<T> {
-    /// The result.
-    type Contact;
-}
-
-impl<T> Tangential<T> for NoFriction {
-    type Contact = ();
-}
-
-impl<T> Tangential<T> for Coulomb<T> {
-    type Contact = TangentialContact<T>;
-}
-
-impl<T: Real, M, A, P> TangentialScene<T, M, A, P, ()> for NoFriction {
-    type Observer = ();
-
-    fn start(&self, _: &Sphere<T>, _: &A, _: &P, _: &M, _: &Scaled<T>) -> Result<(), InputError> {
-        Ok(())
+    fn slip(&self, state: &Self::State) -> Option<T> {
+        let ([velocity, peripheral], _) = *state;
+        self.slides().then(|| (velocity - peripheral) * self.direction)
     }
 
-    fn finish((): (), _: &NormalPath<T>, _: &Sphere<T>, _: &Scaled<T>) {}
-}
-
-impl<T, M, A, P, G> TangentialScene<T, M, A, P, G> for Coulomb<T>
-where
-    T: Real,
-    M: Oblique<T>,
-    P: ScalePeeling<T, A, Scaled: SurfaceResult<T, G>>,
-{
-    type Observer = <P::Scaled as SurfaceResult<T, G>>::Observer;
-
-    fn start(
-        &self,
-        sphere: &Sphere<T>,
-        adhesion: &A,
-        peeling: &P,
-        motion: &M,
-        units: &Scaled<T>,
-    ) -> Result<Self::Observer, InputError> {
-        let peeling = peeling.scale(adhesion, sphere, units)?;
-        Ok(SurfaceObserver::new(motion, units.speed, self.coefficient(), sphere.gyration_ratio(), peeling))
+    #[inline]
+    fn rolls_from(&mut self, time: T) {
+        self.roll(time);
     }
 
-    fn finish(observer: Self::Observer, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> G {
-        P::Scaled::result(&observer, path, sphere, units)
+    #[inline]
+    fn ended(&mut self, state: &Self::State, _times: &Times<T>) {
+        ([self.velocity, self.peripheral], [self.displacement, self.rotation]) = *state;
     }
-}
-
-/// What is integrated along the motion of a sphere with friction, under a scaled peeling moment `P`.
-pub trait SurfaceObserver<T: Real, P> {
-    /// The state before contact, with velocities divided by `unit`.
-    fn new(motion: &impl Oblique<T>, unit: T, friction: T, gyration_ratio: T, peeling: P) -> Self;
-}
-
-/// A scaled peeling moment, or none, under which a scene with friction has the result `G`.
-pub trait SurfaceResult<T: Real, G>: Sized {
-    /// What is integrated for it.
-    type Observer: SurfaceObserver<T, Self>;
-
-    /// The result in SI units.
-    fn result(motion: &Self::Observer, path: &NormalPath<T>, sphere: &Sphere<T>, units: &Scaled<T>) -> G;
 }
 
 /// Place, value and, at a node, slope at an end of a bracket.

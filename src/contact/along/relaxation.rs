@@ -1,4 +1,4 @@
-//! Decay towards a moving balance, however fast: u' = f - g u over a stretch, for a spin that a peeling moment slows.
+//! Decay towards a moving balance, however fast: u' = f - g u over an interval, for a spin that a peeling moment slows.
 //!
 //! Where the decay is slow, variation of constants gives u from two integrals; where it is fast, its exponentials are no
 //! polynomials and overflow. Collocation at Radau's nodes in the order of time holds for any decay: what decays within less than
@@ -7,18 +7,18 @@
 // Indices run over arrays of the length that their loops count to.
 #![allow(clippy::indexing_slicing, clippy::needless_range_loop)]
 
-use super::nodes::Nodes;
-use super::stretch::{coefficients, dot, eliminate, series};
+use crate::contact::solve::nodes::Nodes;
+use crate::contact::solve::interval::{coefficients, dot, eliminate, series};
 
-/// Decay over a stretch up to which variation of constants is exact to the accuracy of the nodes.
-pub(super) const SLOW: f64 = 1.0;
+/// Decay over an interval up to which variation of constants is exact to the accuracy of the nodes.
+pub(crate) const SLOW: f64 = 1.0;
 
-/// Parts that a stretch is divided into at most; in each the decay is to be resolved by the nodes.
+/// Parts that an interval is divided into at most; in each the decay is to be resolved by the nodes.
 const MOST_PARTS: u32 = 16;
 
-/// u at the nodes of a stretch and at its end in time, from its value before, and f and g at the nodes.
+/// u at the nodes of an interval and at its end in time, from its value before, and f and g at the nodes.
 #[inline(never)]
-pub(super) fn relaxed<T: Nodes<N>, const N: usize>(
+pub(crate) fn relaxed<T: Nodes<N>, const N: usize>(
     before: T,
     drive: &[T; N],
     decay: &[T; N],

@@ -1,13 +1,13 @@
 //! A constant external force along the normal.
 
-use super::law::Attraction;
-use super::nodes::Share;
-use crate::{InputError, Parameter, Real};
+use super::hertz::HertzUnits;
+use super::{Attraction, Fraction};
+use crate::{InputError, Parameter, Real, Sphere};
 
 /// No external force.
 ///
 /// ```
-/// assert_eq!(size_of::<microimpact::simulation::NoForce>(), 0);
+/// assert_eq!(size_of::<microimpact::contact::NoForce>(), 0);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -17,7 +17,7 @@ pub struct NoForce;
 /// A constant external force, positive out of the surface.
 ///
 /// ```
-/// use microimpact::simulation::ConstantForce;
+/// use microimpact::contact::ConstantForce;
 ///
 /// assert!(ConstantForce::new(-1e-9).is_ok());
 /// ```
@@ -25,7 +25,8 @@ pub struct NoForce;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ConstantForce<T> {
-    pub(super) force: T,
+    /// The force out of the surface in N or, in units of an impact, the force into it.
+    force: T,
 }
 
 impl<T: Real> ConstantForce<T> {
@@ -35,7 +36,7 @@ impl<T: Real> ConstantForce<T> {
     /// A value outside its range.
     ///
     /// ```
-    /// assert!(microimpact::simulation::ConstantForce::new(f32::INFINITY).is_err());
+    /// assert!(microimpact::contact::ConstantForce::new(f32::INFINITY).is_err());
     /// ```
     #[inline]
     pub fn new(force: T) -> Result<Self, InputError> {
@@ -43,44 +44,53 @@ impl<T: Real> ConstantForce<T> {
     }
 }
 
-/// The force into the surface in units of the motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ScaledForce<T>(pub(super) T);
-
 impl<T: Real> Attraction<T> for NoForce {
-    const PRESENT: bool = false;
+    #[inline]
+    fn in_units(&self, _sphere: &Sphere<T>, _units: &HertzUnits<T>) -> Result<Self, InputError> {
+        Ok(Self)
+    }
+
+    #[inline]
+    fn is_present(&self) -> bool {
+        false
+    }
 }
 
-impl<T: Real> Attraction<T> for ScaledForce<T> {
-    const PRESENT: bool = true;
+impl<T: Real> Attraction<T> for ConstantForce<T> {
+    #[inline]
+    fn in_units(&self, sphere: &Sphere<T>, units: &HertzUnits<T>) -> Result<Self, InputError> {
+        let acceleration = self.force / sphere.mass();
+        let inwards = -(acceleration / units.speed * (units.length / units.speed));
+        Ok(Self { force: Parameter::ForceRatio.check(inwards)? })
+    }
 
     #[inline]
     fn energy(&self, s: T) -> T {
-        self.0 * s * s
+        self.force * s * s
     }
 
     #[inline]
     fn slope(&self, s: T) -> T {
-        T::constant(2.0) * self.0 * s
+        T::constant(2.0) * self.force * s
     }
 
     #[inline]
     fn curvature(&self, _s: T) -> T {
-        T::constant(2.0) * self.0
+        T::constant(2.0) * self.force
     }
 
     #[inline]
-    fn divided(&self, p: T, s: T) -> T {
-        self.0 * (p + s)
+    fn mean_slope(&self, p: T, s: T) -> T {
+        self.force * (p + s)
     }
 
     #[inline]
-    fn fall(&self, peak: T, share: &Share<T>) -> T {
-        self.0 * peak * peak * (T::ONE + share.radius)
+    fn energy_drop(&self, peak: T, fraction: &Fraction<T>) -> T {
+        self.force * peak * peak * (T::ONE + fraction.value)
     }
 
     #[inline]
     fn force(&self, _s: T) -> T {
-        self.0
+        self.force
     }
 }

@@ -1,13 +1,15 @@
 //! Adhesion as a ring force around the contact.
 
-use super::law::Attraction;
-use super::nodes::Share;
-use crate::{InputError, Parameter, Real};
+use core::f64::consts::PI;
+
+use super::hertz::HertzUnits;
+use super::{Attraction, Fraction};
+use crate::{InputError, Parameter, Real, Sphere};
 
 /// The ring force 2 pi f0 a of the paper, with the damping factor 1 - c_A delta' on rebound (B6), c_A = zeta_A C (B5).
 ///
 /// ```
-/// use microimpact::simulation::Ring;
+/// use microimpact::contact::Ring;
 ///
 /// assert!(Ring::new(250.0, 6.25).is_ok());
 /// assert!(Ring::new(-250.0, 6.25).is_err());
@@ -16,8 +18,10 @@ use crate::{InputError, Parameter, Real};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Ring<T> {
-    pub(super) strength: T,
-    pub(super) zeta: T,
+    /// f0 in N/m or, in units of an impact, p: the energy of the ring is (p/2) s^3.
+    pub(crate) strength: T,
+    /// zeta_A or, in units of an impact, c_A U.
+    pub(crate) damping: T,
 }
 
 impl<T: Real> Ring<T> {
@@ -27,26 +31,26 @@ impl<T: Real> Ring<T> {
     /// A value outside its range.
     ///
     /// ```
-    /// assert!(microimpact::simulation::Ring::new(250.0, -1.0).is_err());
+    /// assert!(microimpact::contact::Ring::new(250.0, -1.0).is_err());
     /// ```
     #[inline]
     pub fn new(strength: T, zeta: T) -> Result<Self, InputError> {
         let strength = Parameter::AdhesionStrength.check(strength)?;
-        Ok(Self { strength, zeta: Parameter::AdhesionDamping.check(zeta)? })
+        Ok(Self { strength, damping: Parameter::AdhesionDamping.check(zeta)? })
     }
 }
 
-/// The ring in units of the motion: its energy is (p/2) s^3.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ScaledRing<T> {
-    /// p = (5/3) of the equilibrium indentation.
-    pub(super) strength: T,
-    /// c_A in units of the inverse speed unit.
-    pub(super) damping: T,
-}
+impl<T: Real> Attraction<T> for Ring<T> {
+    #[inline]
+    fn in_units(&self, _sphere: &Sphere<T>, units: &HertzUnits<T>) -> Result<Self, InputError> {
+        Ok(Self { strength: units.adhesion, damping: Parameter::DampingRatio.check(self.damping * units.damping)? })
+    }
 
-impl<T: Real> Attraction<T> for ScaledRing<T> {
-    const PRESENT: bool = true;
+    /// delta_eq = 2 pi f0/K.
+    #[inline]
+    fn equilibrium(&self, stiffness: T) -> T {
+        T::constant(2.0 * PI) * self.strength / stiffness
+    }
 
     #[inline]
     fn energy(&self, s: T) -> T {
@@ -64,7 +68,7 @@ impl<T: Real> Attraction<T> for ScaledRing<T> {
     }
 
     #[inline]
-    fn divided(&self, p: T, s: T) -> T {
+    fn mean_slope(&self, p: T, s: T) -> T {
         T::constant(0.5) * self.strength * (p * p + p * s + s * s)
     }
 
@@ -79,12 +83,12 @@ impl<T: Real> Attraction<T> for ScaledRing<T> {
     }
 
     #[inline]
-    fn fall(&self, peak: T, share: &Share<T>) -> T {
-        T::constant(0.5) * self.strength * peak * peak * peak * share.cubic
+    fn energy_drop(&self, peak: T, fraction: &Fraction<T>) -> T {
+        T::constant(0.5) * self.strength * peak * peak * peak * fraction.cubic
     }
 
     #[inline]
-    fn loss_over_square(&self, peak: T, _share: &Share<T>) -> T {
+    fn loss_over_square(&self, peak: T, _fraction: &Fraction<T>) -> T {
         T::constant(1.5) * self.damping * self.strength * peak * peak
     }
 

@@ -1,12 +1,14 @@
-//! The method that chooses by itself: whole phases where damping is mild and the tolerance not too small, else stretches.
+//! The method that chooses by itself: whole phases where damping is mild and the tolerance not too small, else intervals.
 
-use super::Collocation;
-use super::law::NormalLaw;
-use super::motion::{Effort, End, Method, NormalPath, find_end_of_slip};
-use super::nodes::{Nodes, PhaseSamples};
+use super::collocation::{Collocation, ErrorControl, at_least_rounding};
+use super::critical::Trial;
+use super::interval::{Interval, tail_of_times};
+use super::nodes::{Nodes, PhaseSamples, WEIGHT_POWER};
 use super::observer::Observer;
+use super::path::{Effort, End, Method, NormalPath, find_end_of_slip};
 use super::phase::Phase;
-use super::stretch::{Stretch, tail_of_times};
+use super::rest::{RestCriterion, Settling};
+use crate::contact::law::ContactLaw;
 use crate::{InputError, Parameter, Real};
 
 /// Error control by whatever is fastest for a scene and a tolerance: mild damping lets each phase be one polynomial, with as
@@ -16,15 +18,15 @@ use crate::{InputError, Parameter, Real};
 /// [`FixedCost`](super::FixedCost) or one [`Collocation`].
 ///
 /// ```
-/// use microimpact::simulation::{Adaptive, Simulation};
+/// use microimpact::contact::{Adaptive, Contact};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
 /// // From no damping to so much that the sphere hardly leaves the surface: d (1 + e) = ln((1 + d)/(1 - e d)).
 /// let (sphere, stiffness) = (Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
 /// let motion = NormalMotion::new(1.0)?;
 /// for zeta in [0.1, 10.0, 1e3, 1e5] {
-///     let scene = Simulation::new(sphere, stiffness).with_damping(zeta)?;
-///     let e = scene.normal_impact(&Adaptive::new(1e-9)?, &motion)?.overall_restitution();
+///     let scene = Contact::hertz(sphere, stiffness).with_damping(zeta)?;
+///     let e = scene.solve(&motion, &Adaptive::new(1e-9)?)?.normal.overall_restitution();
 ///     let d: f64 = scene.groups(&motion)?.material_damping;
 ///     assert!((1.0 - e * d - (1.0 + d) * (-d * (1.0 + e)).exp()).abs() < 1e-6 * d.max(1.0));
 /// }
@@ -40,7 +42,7 @@ pub struct Adaptive<T> {
 /// A number type with the tables for every number of nodes that a tolerance may need.
 ///
 /// ```
-/// fn restitution<T: microimpact::simulation::AdaptiveNodes>() {}
+/// fn restitution<T: microimpact::contact::AdaptiveNodes>() {}
 ///
 /// restitution::<f32>();
 /// restitution::<f64>();
@@ -83,19 +85,57 @@ impl<T: Real> Adaptive<T> {
     /// A tolerance outside its range.
     ///
     /// ```
-    /// assert!(microimpact::simulation::Adaptive::new(1e-6).is_ok());
-    /// assert!(microimpact::simulation::Adaptive::new(0.0).is_err());
+    /// assert!(microimpact::contact::Adaptive::new(1e-6).is_ok());
+    /// assert!(microimpact::contact::Adaptive::new(0.0).is_err());
     /// ```
     pub fn new(tolerance: T) -> Result<Self, InputError> {
-        let tolerance = Parameter::Tolerance.check(tolerance)?;
-        Ok(Self { tolerance: tolerance.max(T::constant(8.0) * T::EPSILON) })
+        Ok(Self { tolerance: at_least_rounding(Parameter::Tolerance.check(tolerance)?) })
     }
 }
 
-impl<T: AdaptiveNodes, O: Observer<T>> Method<T, O> for Adaptive<T> {
-    fn solve<L: NormalLaw<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
+/// A call of [`Collocation`] with the number of nodes that suits a tolerance.
+macro_rules! by_intervals {
+    ($tolerance:expr, $method:ident($($argument:expr),*)) => {{
+        let tolerance = $tolerance;
+        if tolerance >= T::constant(3e-7) {
+            Collocation::<7, T> { tolerance }.$method($($argument),*)
+        } else if tolerance >= T::constant(3e-10) {
+            Collocation::<9, T> { tolerance }.$method($($argument),*)
+        } else if tolerance >= T::constant(1e-11) {
+            Collocation::<10, T> { tolerance }.$method($($argument),*)
+        } else if tolerance >= T::constant(3e-13) {
+            Collocation::<12, T> { tolerance }.$method($($argument),*)
+        } else {
+            Collocation::<14, T> { tolerance }.$method($($argument),*)
+        }
+    }};
+}
+
+impl<T: AdaptiveNodes> ErrorControl<T> for Adaptive<T> {
+    fn tolerance(&self) -> T {
+        self.tolerance
+    }
+
+    fn solve_to_rest<L: ContactLaw<T>, O: Observer<T>>(
+        &self,
+        law: &L,
+        energy: T,
+        observer: &mut O,
+        criterion: &RestCriterion<T>,
+    ) -> (NormalPath<T>, Option<Settling<T>>) {
+        by_intervals!(self.tolerance, solve_to_rest(law, energy, observer, criterion))
+    }
+
+    fn try_energy<L: ContactLaw<T>>(&self, law: &L, energy: T) -> Trial<T> {
+        by_intervals!(self.tolerance, try_energy(law, energy))
+    }
+}
+
+impl<T: AdaptiveNodes> Method<T> for Adaptive<T> {
+    fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
         let tolerance = self.tolerance;
-        let mut attempts = Attempts { tolerance, allowed: if L::MAY_REPEL { 0 } else { 2 } };
+        let whole_phases = law.loss_power() >= WEIGHT_POWER && !law.may_have_barrier();
+        let mut attempts = Attempts { tolerance, allowed: if whole_phases { 2 } else { 0 } };
         // Each number of nodes from the tolerance on that it mostly reaches, with times and without, to one that fewer reach
         // with ease.
         macro_rules! try_phases {
@@ -113,27 +153,12 @@ impl<T: AdaptiveNodes, O: Observer<T>> Method<T, O> for Adaptive<T> {
         try_phases!(7, 13, 5e-7, 3e-7, 1e-4);
         try_phases!(9, 16, 2e-8, 1e-8, 1e-5);
         try_phases!(10, 18, 7e-9, 2e-9, 2e-7);
-        // To divide so many nodes where the sphere begins to roll costs more than stretches do.
+        // To divide so many nodes where the sphere begins to roll costs more than intervals do.
         if !O::EVENTS {
             try_phases!(13, 24, 6e-10, 3e-11, 5e-8);
             try_phases!(14, 26, 2e-10, 8e-12, 2e-9);
         }
-        macro_rules! stretches {
-            ($nodes:literal) => {
-                Collocation::<$nodes, T> { tolerance }.solve(law, energy, observer)
-            };
-        }
-        if tolerance >= T::constant(3e-7) {
-            stretches!(7)
-        } else if tolerance >= T::constant(3e-10) {
-            stretches!(9)
-        } else if tolerance >= T::constant(1e-11) {
-            stretches!(10)
-        } else if tolerance >= T::constant(3e-13) {
-            stretches!(12)
-        } else {
-            stretches!(14)
-        }
+        by_intervals!(tolerance, solve(law, energy, observer))
     }
 }
 
@@ -146,7 +171,7 @@ const SETTLED: f64 = 0.1;
 /// Square of the change of the speeds above which their reciprocals are renewed.
 const UNSTEADY: f64 = 1e-3;
 
-/// Loss over speed at the peak beyond which sweeps take longer than stretches.
+/// Loss over speed at the peak beyond which sweeps take longer than intervals.
 const STRONGEST: f64 = 5.0;
 
 /// Both phases by `N` nodes and their outputs by `M`, unless the motion does not lend itself to it or the estimated error is
@@ -159,7 +184,7 @@ fn phases<T, L, O, const N: usize, const M: usize>(
 ) -> Result<NormalPath<T>, Failed>
 where
     T: PhaseSamples<N, M>,
-    L: NormalLaw<T>,
+    L: ContactLaw<T>,
     O: Observer<T>,
 {
     let mut phase = Phase::<T, N>::approach(law, energy);
@@ -198,9 +223,9 @@ where
         _ => Err(Failed::ByFar),
     };
     let approach = O::OBSERVES.then(|| phase.samples::<M>(law, false));
-    let timed = |stretch: &Option<Stretch<T, M>>, least: T| {
-        let Some(stretch) = stretch else { return least };
-        let share = tail_of_times::<T, M>(&stretch.rate);
+    let timed = |interval: &Option<Interval<T, M>>, least: T| {
+        let Some(interval) = interval else { return least };
+        let share = tail_of_times::<T, M>(&interval.rate);
         least.max(T::constant(0.1) * share * share)
     };
     if O::TIMED {
@@ -229,15 +254,15 @@ where
         show(law, &phase, rebound, true, tolerance, observer);
     }
     let end = if left > T::ZERO { End::Separation } else { End::Capture };
-    let effort = Effort { stretches: 2, refused: 0, sweeps, nodes: N as u32, error };
+    let effort = Effort { intervals: 2, refused: 0, sweeps, nodes: N as u32, error };
     Ok(NormalPath { end, energy: left, peak, turning: T::ZERO, effort })
 }
 
 /// Shows a phase to an observer, in two parts if the sphere begins to roll in it.
-fn show<T, O, const N: usize, const M: usize>(
-    law: &impl NormalLaw<T>,
+pub(super) fn show<T, O, const N: usize, const M: usize>(
+    law: &impl ContactLaw<T>,
     phase: &Phase<T, N>,
-    whole: &Stretch<T, M>,
+    whole: &Interval<T, M>,
     rebound: bool,
     tolerance: T,
     observer: &mut O,
@@ -281,7 +306,7 @@ impl<T: Real> Attempts<T> {
     ) -> Option<NormalPath<T>>
     where
         T: PhaseSamples<N, M>,
-        L: NormalLaw<T>,
+        L: ContactLaw<T>,
         O: Observer<T>,
     {
         if self.allowed == 0 {

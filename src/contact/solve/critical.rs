@@ -6,152 +6,90 @@
 //! however strong the damping is, and at the critical speed neither comes near the slow end where the path of a single
 //! run, with no speed and no force, is at its worst.
 
-use super::law::{Attraction, Damping, NormalLaw, well};
-use super::motion::Follower;
+use super::interval::{Control, Course, Interval, Point, pass};
 use super::nodes::Nodes;
-use super::scaled::{Scale, Scaled};
-use super::stretch::{Control, Course, Point, Stretch, pass};
-use super::{Collocation, Simulation};
+use super::path::Follower;
+use super::well::well;
+use crate::contact::law::ContactLaw;
 use crate::{CriticalSpeed, InputError, Parameter, Real};
 
-/// Trials that go by the energies of those before; later ones halve the bracket.
+/// Trials that use the energies of those before; later ones halve the bracket.
 const MOST_GUIDED_TRIALS: u32 = 24;
 
-impl<T, D, A, F, P, X> Simulation<T, D, A, F, P, X>
-where
-    T: Real,
-    D: Scale<T, Scaled: Damping<T>>,
-    A: Scale<T, Scaled: Attraction<T>>,
-    X: Scale<T, Scaled: Attraction<T>>,
-{
-    /// Trial speeds that [`critical_speed`](Self::critical_speed) takes at most; each follows two paths of at most 160
-    /// stretches. Most scenes take four to eight, of some four stretches.
-    ///
-    /// ```
-    /// assert_eq!(microimpact::simulation::Simulation::<f32>::MOST_TRIALS, 88);
-    /// ```
-    // Halving the logarithm of the range down to rounding takes 56.
-    pub const MOST_TRIALS: u32 = MOST_GUIDED_TRIALS + 64;
+/// Trials at most: halving the logarithm of the range of speeds down to rounding takes 56.
+pub(crate) const MOST_TRIALS: u32 = MOST_GUIDED_TRIALS + 64;
 
-    /// The approach speed, m/s, that separates capture from rebound (B6), with a relative error of the tolerance of
-    /// `method`, unless damping is so strong that the speed is more than ten times that with which adhesion alone pulls.
-    ///
-    /// A sphere that separates at rest must have arrived with what damping took; that grows with the damping, and the
-    /// damping falls with the speed (B4), so there is one such speed at most. A force out of the surface is a barrier to
-    /// slow spheres, which then turn back before adhesion holds them: the critical speed is the largest that attaches.
-    ///
-    /// Where nothing holds a sphere, or nothing takes energy from it, or every speed of the range of
-    /// [`Parameter::ApproachSpeed`] rebounds, the answer is [`CriticalSpeed::AlwaysRebounds`]; where the largest of them
-    /// is captured, [`CriticalSpeed::NeverRebounds`].
-    ///
-    /// # Errors
-    /// A ratio of the scene's forces outside its range at the critical speed.
-    ///
-    /// ```
-    /// use microimpact::simulation::{Collocation, Simulation};
-    /// use microimpact::{CriticalSpeed, Sphere, Stiffness};
-    ///
-    /// // A sphere of 5 um diameter, as in figure 6.
-    /// let scene = Simulation::new(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?).with_damping(10.5)?;
-    /// let method = Collocation::<9, f64>::new(1e-9)?;
-    /// assert_eq!(scene.critical_speed(&method)?, CriticalSpeed::AlwaysRebounds);
-    /// let CriticalSpeed::At(speed) = scene.with_ring(250.0, 6.25)?.critical_speed(&method)? else { panic!() };
-    /// assert!((speed - 5.159_566_762).abs() < 1e-8);
-    /// # Ok::<(), microimpact::InputError>(())
-    /// ```
-    pub fn critical_speed<const N: usize>(&self, method: &Collocation<N, T>) -> Result<CriticalSpeed<T>, InputError>
-    where
-        T: Nodes<N>,
-    {
-        let first = self.speed_of_adhesion();
-        let mut search = Search::from(first);
-        for trial in 0..Self::MOST_TRIALS {
-            let outcome = self.try_speed(method, search.speed);
-            if let Some(result) = search.note(outcome, first, trial < MOST_GUIDED_TRIALS, method.tolerance) {
-                return result;
-            }
+/// The approach speed that separates capture from rebound to a relative `tolerance`, by trials from the speed `first` on.
+pub(crate) fn critical_speed<T: Real>(
+    first: T,
+    tolerance: T,
+    mut try_speed: impl FnMut(T) -> Result<Trial<T>, InputError>,
+) -> Result<CriticalSpeed<T>, InputError> {
+    let (slowest, fastest) = speed_range();
+    let first = first.max(slowest).min(fastest);
+    let mut search = Search::from(first);
+    for trial in 0..MOST_TRIALS {
+        let outcome = try_speed(search.speed);
+        if let Some(result) = search.note(outcome, first, trial < MOST_GUIDED_TRIALS, tolerance) {
+            return result;
         }
-        search.result()
     }
-
-    /// The speed at which Hertz's peak indentation is 5/3 of the equilibrium one, or 1 m/s; within the range of speeds.
-    fn speed_of_adhesion(&self) -> T {
-        let depth = self.adhesion.equilibrium(self.stiffness) / self.sphere.radius();
-        if depth <= T::ZERO {
-            return T::ONE;
-        }
-        let (slowest, fastest) = speed_range();
-        // The units of `Scaled`, solved for the speed.
-        let depth = T::constant(1.524_345) * depth;
-        let rate = T::constant(4.188_79) * self.sphere.density() / self.stiffness.pascals();
-        (depth * depth.sqrt().sqrt() / rate.sqrt()).max(slowest).min(fastest)
-    }
-
-    /// What becomes of a sphere with this approach speed.
-    fn try_speed<const N: usize>(&self, method: &Collocation<N, T>, speed: T) -> Result<Trial<T>, InputError>
-    where
-        T: Nodes<N>,
-    {
-        let (half, two) = (T::constant(0.5), T::constant(2.0));
-        let mut units = self.units(speed)?;
-        let mut law = self.law(&units)?;
-        let settled = (T::constant(0.1) * method.tolerance).max(T::constant(4.0) * T::EPSILON);
-        let mut control = Control { settled, error: method.tolerance, times: T::ZERO };
-        let arrival = |energy: T| Point { s: T::ZERO, energy, speed_squared: energy + energy };
-        let beyond = Follower::from(&law, control, &mut (), arrival(units.energy)).undamped_peak();
-        if beyond > T::ONE {
-            // A force into the surface takes the sphere deeper; speeds stay of the order of one in the units of that.
-            units = units.enlarged(beyond);
-            law = self.law(&units)?;
-        }
-        let Some((brink, bottom)) = well(&law).filter(|(_, bottom)| law.damping(*bottom, true) > T::ZERO) else {
-            return Ok(Trial::Free);
-        };
-
-        let rest = law.potential(brink);
-        let depth = rest - law.potential(bottom);
-        // Losses count in proportion to themselves, which at the critical speed make up all of the energy of the impact;
-        // the error of a stretch is in proportion to what moves in the well, and a square.
-        let share = (units.energy / (units.energy + depth)).max(T::constant(1e-12));
-        control.error = (control.error * share * share).max(unattainable());
-        // Where the well is shallow, speeds are small in it.
-        let scale = (two * depth).sqrt().min(T::ONE);
-        let finer = Control { settled: control.settled * scale, ..control };
-        let at_rest = Point { s: brink, energy: rest, speed_squared: T::ZERO };
-        let captured = Ok(Trial::Tried { rebounds: false, excess: None });
-        let Some(departure) = Follower::from(&law, finer, &mut (), at_rest).ascend::<N>(bottom) else {
-            return captured;
-        };
-        let kinetic = half * departure.speed_squared;
-        // Where damping leaves little of the energy of the impact, errors count in proportion to what is left.
-        let left = (kinetic / units.energy).min(T::ONE);
-        control.error = (control.error * (left * left).max(T::constant(1e-4))).max(unattainable());
-        let Some(impact) = Follower::from(&law, control, &mut (), arrival(units.energy)).descend::<N>(bottom) else {
-            return captured;
-        };
-        // Of what is left of the motion, the speed knows more where that is little, and the energy where it is much.
-        let surplus = if kinetic < T::constant(0.1) * units.energy {
-            half * (impact.speed_squared - departure.speed_squared)
-        } else {
-            impact.energy - departure.energy
-        };
-        // Over the energy of the impact; what the two paths lose is the rest of it.
-        let share = surplus / units.energy;
-        // Far above the critical speed the loss may be less than can be told from none.
-        let root = (T::ONE - share).max(T::EPSILON).sqrt();
-        let excess = Some(share / (root * (T::ONE + root)) + surplus / (two * kinetic));
-        Ok(Trial::Tried { rebounds: surplus > T::ZERO, excess })
-    }
+    search.result()
 }
 
-/// Below this the estimated error of a stretch is one of rounding.
+/// What becomes of a sphere that arrives with a kinetic energy.
+pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(tolerance: T, law: &L, energy: T) -> Trial<T> {
+    let (half, two) = (T::constant(0.5), T::constant(2.0));
+    let settled = (T::constant(0.1) * tolerance).max(T::constant(4.0) * T::EPSILON);
+    let mut control = Control { settled, error: tolerance, times: T::ZERO };
+    let Some((barrier, bottom)) = well(law).filter(|(_, bottom)| law.damping(*bottom, true) > T::ZERO) else {
+        return Trial::Free;
+    };
+
+    let rest = law.potential(barrier);
+    let depth = rest - law.potential(bottom);
+    // Losses count in proportion to themselves, which at the critical speed make up all of the energy of the impact;
+    // the error of an interval is in proportion to what moves in the well, and a square.
+    let share = (energy / (energy + depth)).max(T::constant(1e-12));
+    control.error = (control.error * share * share).max(unattainable());
+    // Where the well is shallow, speeds are small in it.
+    let scale = (two * depth).sqrt().min(T::ONE);
+    let finer = Control { settled: control.settled * scale, ..control };
+    let at_rest = Point { s: barrier, energy: rest, speed_squared: T::ZERO };
+    let captured = Trial::Tried { rebounds: false, excess: None };
+    let Some(departure) = Follower::from(law, finer, &mut (), at_rest).ascend::<N>(bottom) else {
+        return captured;
+    };
+    let kinetic = half * departure.speed_squared;
+    // Where damping leaves little of the energy of the impact, errors count in proportion to what is left.
+    let left = (kinetic / energy).min(T::ONE);
+    control.error = (control.error * (left * left).max(T::constant(1e-4))).max(unattainable());
+    let arrival = Point::arriving(law, energy);
+    let Some(impact) = Follower::from(law, control, &mut (), arrival).descend::<N>(bottom) else {
+        return captured;
+    };
+    // Of what is left of the motion, the speed knows more where that is little, and the energy where it is much.
+    let surplus = if kinetic < T::constant(0.1) * energy {
+        half * (impact.speed_squared - departure.speed_squared)
+    } else {
+        impact.energy - departure.energy
+    };
+    // Over the energy of the impact; what the two paths lose is the rest of it.
+    let share = surplus / energy;
+    // Far above the critical speed the loss may be less than can be told from none.
+    let root = (T::ONE - share).max(T::EPSILON).sqrt();
+    let excess = Some(share / (root * (T::ONE + root)) + surplus / (two * kinetic));
+    Trial::Tried { rebounds: surplus > T::ZERO, excess }
+}
+
+/// Below this the estimated error of an interval is one of rounding.
 fn unattainable<T: Real>() -> T {
     T::constant(64.0) * T::EPSILON * T::EPSILON
 }
 
 /// The outcome of a trial.
 #[derive(Clone, Copy, Debug)]
-enum Trial<T> {
+pub enum Trial<T> {
     /// Nothing holds the sphere or nothing takes energy from it.
     Free,
     /// `excess` is zero at the critical speed. Where damping is weak it is v/u - 1, with u the speed whose energy is what
@@ -257,22 +195,7 @@ impl<T: Real> Search<T> {
     }
 }
 
-impl<T: Real> Scaled<T> {
-    /// The same impact in units of a contact radius that is larger by this factor.
-    fn enlarged(&self, factor: T) -> Self {
-        let area = factor * factor;
-        let growth = area * factor.sqrt();
-        Self {
-            length: self.length * area,
-            speed: self.speed * growth,
-            adhesion: self.adhesion / area,
-            energy: self.energy / growth / growth,
-            damping: self.damping * growth,
-        }
-    }
-}
-
-impl<T: Real, L: NormalLaw<T>> Follower<'_, T, L, ()> {
+impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
     /// From first touch over the peak down to the contact radius `to`; `None` where the sphere does not get there.
     fn descend<const N: usize>(mut self, to: T) -> Option<Point<T>>
     where
@@ -319,7 +242,7 @@ impl<T: Real, L: NormalLaw<T>> Follower<'_, T, L, ()> {
         Some(self.at)
     }
 
-    /// Tries a stretch of signed length `step`, `from_rest` where the speed begins as a power of it: whether it was
+    /// Tries an interval of signed length `step`, `from_rest` where the speed begins as a power of it: whether it was
     /// taken, and how long the next should be. `None` where it is of no use to go on.
     fn step<const N: usize>(&mut self, step: T, from_rest: bool, course: Course) -> Option<(bool, T)>
     where
@@ -327,9 +250,9 @@ impl<T: Real, L: NormalLaw<T>> Follower<'_, T, L, ()> {
     {
         let polynomial = if from_rest { (T::ZERO, step) } else { (step, T::ZERO) };
         let mut sweeps = 0;
-        let stretch: Stretch<T, N> = pass(self.law, &self.at, polynomial, course, &self.control, &mut sweeps);
-        let factor = self.length_factor(N, &stretch);
-        let taken = self.take(&stretch, course, None).ok()?;
+        let interval: Interval<T, N> = pass(self.law, &self.at, polynomial, course, &self.control, &mut sweeps);
+        let factor = self.length_factor(N, &interval);
+        let taken = self.take(&interval, course, None).ok()?;
         let length = step.abs() * if taken { factor } else { factor.min(T::constant(0.7)) };
         (length > T::EPSILON * T::EPSILON).then_some((taken, length))
     }

@@ -2,73 +2,80 @@
 
 #[cfg(doc)]
 use super::Collocation;
-use super::integrals::Integrals;
-use super::law::{NormalLaw, brink};
-use super::motion::{Effort, End, Method, NormalPath};
-use super::nodes::{PhaseNodes, PhaseSamples};
+use super::adaptive::show;
+use super::nodes::{PhaseNodes, PhaseSamples, WEIGHT_POWER};
+use super::observer::Observer;
+use super::path::{Effort, End, Method, NormalPath};
 use super::phase::Phase;
+use super::well::barrier;
+use crate::contact::law::ContactLaw;
 use crate::{InputError, Parameter};
 
-/// `N` nodes in a fixed number of sweeps for each phase; only the restitution and the peak come out, or, with `M` nodes for
-/// them, outputs that are integrals over the motion too.
+/// `N` nodes in a fixed number of iterations for each phase, and `M` nodes for what is integrated over the motion.
 ///
-/// Error of e over the scenes of the paper and others as mildly damped: 1e-5 with five nodes and 1e-6 with seven, both in three
-/// sweeps. Stronger damping needs more sweeps; where they do not settle to some thousandths of the energy, the status of the
-/// result is not that of a solution. Closer to the critical speed than the error, the outcome is not certain: [`Collocation`]
-/// decides there.
+/// The error of e over the scenes of the paper and others as mildly damped is 1e-5 with five nodes and 1e-6 with seven, both
+/// in three iterations. Stronger damping needs more iterations; where they do not converge to some thousandths of the
+/// energy, the status of the result is not *solved*. If the approach speed is closer to the critical speed than the error,
+/// the outcome is not certain: use [`Collocation`] for such impacts.
 ///
 /// ```
-/// use microimpact::simulation::{FixedCost, Simulation};
+/// use microimpact::contact::{Contact, FixedCost};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
-/// let scene = Simulation::new(Sphere::solid(5.06e-6_f32, 2600.0)?, Stiffness::new(7.5e10)?)
+/// let scene = Contact::hertz(Sphere::solid(5.06e-6_f32, 2600.0)?, Stiffness::new(7.5e10)?)
 ///     .with_damping(10.5)?
 ///     .with_ring(250.0, 6.25)?;
-/// let contact = scene.normal_impact(&FixedCost::<5>::new(3)?, &NormalMotion::new(2.8)?)?;
-/// assert!((contact.overall_restitution() - 0.746193).abs() < 1e-5);
+/// let impact = scene.solve(&NormalMotion::new(2.8)?, &FixedCost::<5>::new(3)?)?;
+/// assert!((impact.normal.overall_restitution() - 0.746193).abs() < 1e-5);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct FixedCost<const N: usize, const M: usize = 0> {
-    sweeps: u32,
+pub struct FixedCost<const N: usize, const M: usize = 9> {
+    iterations: u32,
 }
 
 impl<const N: usize> FixedCost<N> {
-    /// A method with a number of sweeps for each phase, 1 to 40.
+    /// A method with a number of iterations for each phase, 1 to 40, and nine nodes for outputs.
     ///
     /// # Errors
     /// A number outside its range.
     ///
     /// ```
-    /// assert!(microimpact::simulation::FixedCost::<5>::new(0).is_err());
+    /// assert!(microimpact::contact::FixedCost::<5>::new(0).is_err());
     /// ```
-    pub fn new(sweeps: u32) -> Result<Self, InputError> {
-        Parameter::Sweeps.check(f64::from(sweeps))?;
-        Ok(Self { sweeps })
+    pub fn new(iterations: u32) -> Result<Self, InputError> {
+        Parameter::Sweeps.check(f64::from(iterations))?;
+        Ok(Self { iterations })
     }
 
-    /// The same method, with outputs from `M` nodes of each phase.
+    /// The same method, with velocities along the surface and outputs from `M` nodes of each phase. What is neither has no
+    /// code for them.
     ///
     /// With two nodes more than `N` velocities along the surface are as exact as e, relative to the slip; impulses take three
-    /// more, and times near the critical speed twice as many.
+    /// more, and times near the critical speed twice as many. Outputs that look for the end of sliding
+    /// ([`Slip`](crate::contact::Slip), [`Energy`](crate::contact::Energy)) and a peeling moment need four more; with fewer
+    /// the status is [`Unsupported`](super::Status::Unsupported).
     ///
     /// ```
-    /// use microimpact::simulation::{ContactTimes, FixedCost, SimulatedImpact, Simulation};
+    /// use microimpact::contact::{Contact, FixedCost, Times};
     /// use microimpact::{Hertz, NormalMotion, Sphere, Stiffness};
     ///
     /// let (sphere, stiffness) = (Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
     /// let motion = NormalMotion::new(1.0)?;
     /// let method = FixedCost::<7>::new(3)?.with_outputs::<10>();
-    /// let impact: SimulatedImpact<_, (), ContactTimes<f64>> = Simulation::new(sphere, stiffness).observe(&method, &motion)?;
-    /// assert!((impact.outputs.contact.unwrap() / Hertz::new(&sphere, stiffness, &motion).duration - 1.0).abs() < 1e-6);
+    /// let (_, times) = Contact::hertz(sphere, stiffness).solve_for(&motion, &method, Times)?;
+    /// assert!((times.contact.unwrap() / Hertz::new(&sphere, stiffness, &motion).duration - 1.0_f64).abs() < 1e-6);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn with_outputs<const M: usize>(self) -> FixedCost<N, M> {
-        FixedCost { sweeps: self.sweeps }
+        FixedCost { iterations: self.iterations }
     }
 }
+
+/// Nodes beyond those of a phase that the end of sliding needs: the square of the speed is that much a higher polynomial.
+const NODES_OF_EVENTS: usize = 4;
 
 /// What the last sweeps may still change of the energy left, over the energy before.
 const SETTLED: f64 = 0.003;
@@ -79,21 +86,23 @@ const UNSTEADY: f64 = 0.01;
 /// Loss over speed at the peak up to which a motion can be trusted.
 const STRONGEST: f64 = 30.0;
 
-impl<T: PhaseNodes<N>, const N: usize, const M: usize> Method<T, ()> for FixedCost<N, M> {
-    #[inline]
-    fn solve<L: NormalLaw<T>>(&self, law: &L, energy: T, (): &mut ()) -> NormalPath<T> {
-        self.run(law, energy, |_, _| {})
-    }
-}
+/// Tolerance to which the end of sliding is found within a phase, for outputs that need it.
+const END_OF_SLIP: f64 = 1e-9;
 
-impl<T, O, S, const N: usize, const M: usize> Method<T, (O, S)> for FixedCost<N, M>
+impl<T, const N: usize, const M: usize> Method<T> for FixedCost<N, M>
 where
     T: PhaseSamples<N, M>,
-    (O, S): Integrals<T>,
 {
-    fn solve<L: NormalLaw<T>>(&self, law: &L, energy: T, observer: &mut (O, S)) -> NormalPath<T> {
+    #[inline]
+    fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
+        if law.loss_power() < WEIGHT_POWER || (O::EVENTS && M < N + NODES_OF_EVENTS) {
+            return NormalPath::unsupported(energy);
+        }
         self.run(law, energy, |phase: &Phase<T, N>, rebound| {
-            observer.add(law, &phase.samples::<M>(law, rebound), rebound);
+            if O::OBSERVES {
+                let tolerance = T::constant(END_OF_SLIP).max(T::EPSILON);
+                show(law, phase, &phase.samples::<M>(law, rebound), rebound, tolerance, observer);
+            }
         })
     }
 }
@@ -104,14 +113,14 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
     fn run<T, L>(&self, law: &L, energy: T, mut observe: impl FnMut(&Phase<T, N>, bool)) -> NormalPath<T>
     where
         T: PhaseNodes<N>,
-        L: NormalLaw<T>,
+        L: ContactLaw<T>,
     {
         let moves = |by: T| by.abs() > T::constant(UNSTEADY) * energy;
         let mut phase = Phase::<T, N>::approach(law, energy);
         let mut lost = phase.estimate;
         // How far the last sweep has still moved the energy lost.
         let (mut moved, mut at_peak) = (T::ZERO, energy);
-        for sweep in 0..self.sweeps {
+        for sweep in 0..self.iterations {
             if sweep > 0 {
                 phase.describe(law, false);
             }
@@ -128,7 +137,7 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         phase.turn(law);
         let mut gained = T::ZERO;
         moved = T::ZERO;
-        for _ in 0..self.sweeps {
+        for _ in 0..self.iterations {
             if moves(moved) {
                 phase.renew();
             } else {
@@ -147,14 +156,14 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         let settled =
             unsettled <= T::constant(SETTLED) * energy || (left < T::ZERO && unsettled < T::constant(-0.25) * left);
         // A sphere that comes slower than a barrier is high never meets the peak computed here.
-        let (_, escape) = brink(law);
+        let (_, escape) = barrier(law);
         let end = match mild && settled && energy > escape {
             false => End::Budget,
             true if left > escape => End::Separation,
             true => End::Capture,
         };
         let error = unsettled.saturating_div(energy);
-        let effort = Effort { stretches: 2, refused: 0, sweeps: 2 * self.sweeps, nodes: N as u32, error };
+        let effort = Effort { intervals: 2, refused: 0, sweeps: 2 * self.iterations, nodes: N as u32, error };
         NormalPath { end, energy: left, peak: phase.peak, turning: T::ZERO, effort }
     }
 }

@@ -5,25 +5,26 @@
 //! estimates the time, and the step is repeated up to it. As the forces are not smooth where x = 0, the error falls with
 //! the power 3/2 of the step with adhesion and 5/2 without, not 4.
 
-use super::integrals::{Integrals, Quantities, Times};
-use super::law::{NormalLaw, brink};
-use super::motion::{Effort, End, Method, NormalPath};
-use super::tangential::{SpinDamping, TangentialMotion};
+use super::integrals::{Quantities, Times};
+use super::observer::Observer;
+use super::path::{Effort, End, Method, NormalPath};
+use super::well::barrier;
 use crate::Real;
+use crate::contact::law::ContactLaw;
 
 /// The method of Runge, Kutta and Gill with a fixed step.
 ///
 /// ```
-/// use microimpact::simulation::{RungeKuttaGill, Simulation};
+/// use microimpact::contact::{RungeKuttaGill, Contact};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
-/// let scene = Simulation::new(Sphere::solid(5.06e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+/// let scene = Contact::hertz(Sphere::solid(5.06e-6, 2600.0)?, Stiffness::new(7.5e10)?)
 ///     .with_damping(10.5)?
 ///     .with_ring(250.0, 6.25)?;
 /// let motion = NormalMotion::new(2.8)?;
 /// let error = |steps| -> Result<f64, microimpact::InputError> {
-///     let contact = scene.normal_impact(&RungeKuttaGill::new(steps), &motion)?;
-///     Ok((contact.overall_restitution() - 0.746193_f64).abs())
+///     let contact = scene.solve(&motion, &RungeKuttaGill::new(steps))?;
+///     Ok((contact.normal.overall_restitution() - 0.746193_f64).abs())
 /// };
 /// assert!(error(100)? > 1e-5); // an error of 1e-6 takes thousands of steps
 /// assert!(error(20_000)? < 1e-6);
@@ -40,14 +41,14 @@ impl RungeKuttaGill {
     /// Steps after which a run gives up, in units of those in the duration of Hertz's impact.
     ///
     /// ```
-    /// assert!(microimpact::simulation::RungeKuttaGill::LONGEST_RUN > 1);
+    /// assert!(microimpact::contact::RungeKuttaGill::LONGEST_RUN > 1);
     /// ```
     pub const LONGEST_RUN: u32 = 64;
 
     /// A step that divides the duration of Hertz's impact by `steps`, at least four.
     ///
     /// ```
-    /// use microimpact::simulation::RungeKuttaGill;
+    /// use microimpact::contact::RungeKuttaGill;
     ///
     /// assert_eq!(RungeKuttaGill::new(0), RungeKuttaGill::new(4));
     /// ```
@@ -56,152 +57,57 @@ impl RungeKuttaGill {
     }
 }
 
-/// Duration of Hertz's impact in units of its peak indentation over its speed.
-const HERTZ_DURATION: f64 = 2.943_275_2;
-
-impl<T: Real> Method<T, ()> for RungeKuttaGill {
-    fn solve<L: NormalLaw<T>>(&self, law: &L, energy: T, (): &mut ()) -> NormalPath<T> {
-        self.solve(law, energy, &mut ((), ()))
+impl<T: Real> Method<T> for RungeKuttaGill {
+    fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
+        let step = law.duration(energy) / T::constant(f64::from(self.steps));
+        let most = self.steps.saturating_mul(Self::LONGEST_RUN);
+        integrate(law, energy, step, most, observer).unwrap_or(NormalPath::unsupported(energy))
     }
 }
 
-impl<T: Real, O: Integrals<T>, S: SteppedMotion<T>> Method<T, (O, S)> for RungeKuttaGill {
-    fn solve<L: NormalLaw<T>>(&self, law: &L, energy: T, observer: &mut (O, S)) -> NormalPath<T> {
-        let square = energy + energy;
-        let duration = T::constant(HERTZ_DURATION) * square.two_fifths_power() / square.sqrt();
-        let step = duration / T::constant(f64::from(self.steps));
-        integrate(law, energy, step, self.steps.saturating_mul(Self::LONGEST_RUN), observer)
-    }
-}
+/// Indentation and speed, and the observer's state.
+type State<T, O> = ([T; 2], O);
 
-/// The tangential side of a motion that is solved with fixed steps.
-pub trait SteppedMotion<T: Real>: Copy {
-    /// Velocities and ways.
-    type State: Quantities<T>;
-
-    /// The state before contact.
-    fn state(&self) -> Self::State;
-
-    /// Its rate of change (B7 to B10) at contact radius s under the elastic force.
-    fn rates(&self, state: &Self::State, s: T, elastic: T) -> Self::State;
-
-    /// Slip in its first direction while the sphere slides.
-    fn slip(&self, state: &Self::State) -> Option<T>;
-
-    /// The sphere rolls from this time on.
-    fn rolls_from(&mut self, time: T);
-
-    /// The motion at the end.
-    #[must_use]
-    fn ended(self, state: &Self::State) -> Self;
-}
-
-impl<T: Real> SteppedMotion<T> for () {
-    type State = ();
-
-    #[inline]
-    fn state(&self) {}
-
-    #[inline]
-    fn rates(&self, (): &(), _s: T, _elastic: T) {}
-
-    #[inline]
-    fn slip(&self, (): &()) -> Option<T> {
-        None
-    }
-
-    #[inline]
-    fn rolls_from(&mut self, _time: T) {}
-
-    #[inline]
-    fn ended(self, (): &()) {}
-}
-
-impl<T: Real, P: SpinDamping<T>> SteppedMotion<T> for TangentialMotion<T, P> {
-    /// Velocities of centre and periphery, and the ways of both.
-    type State = ([T; 2], [T; 2]);
-
-    #[inline]
-    fn state(&self) -> Self::State {
-        ([self.tangential, self.peripheral], [self.displacement, self.rotation])
-    }
-
-    #[inline]
-    fn rates(&self, state: &Self::State, s: T, elastic: T) -> Self::State {
-        let ([tangential, peripheral], _) = *state;
-        let ratio = self.gyration_ratio;
-        let braking = if P::PRESENT { self.peeling.rate() * s * peripheral } else { T::ZERO };
-        let accelerations = if self.slides() {
-            let force = self.direction * self.friction * elastic;
-            [-force, force / ratio - braking]
-        } else {
-            // The friction that keeps the sphere rolling shares the moment between both.
-            let shared = -(ratio / (T::ONE + ratio) * braking);
-            [shared, shared]
-        };
-        (accelerations, [tangential, peripheral])
-    }
-
-    #[inline]
-    fn slip(&self, state: &Self::State) -> Option<T> {
-        let ([tangential, peripheral], _) = *state;
-        self.slides().then(|| (tangential - peripheral) * self.direction)
-    }
-
-    #[inline]
-    fn rolls_from(&mut self, time: T) {
-        self.roll(time);
-    }
-
-    #[inline]
-    fn ended(mut self, state: &Self::State) -> Self {
-        ([self.tangential, self.peripheral], [self.displacement, self.rotation]) = *state;
-        self
-    }
-}
-
-/// Indentation and speed, integrals, and the tangential state.
-type State<T, O, S> = ([T; 2], (O, S));
-
-/// Follows the motion with a fixed step, `most` times at most.
-fn integrate<T, L, O, S>(law: &L, energy: T, step: T, most: u32, (outputs, tangential): &mut (O, S)) -> NormalPath<T>
+/// Follows the motion with a fixed step, `most` times at most; `None` where the indentation does not determine the coordinate.
+fn integrate<T, L, O>(law: &L, energy: T, step: T, most: u32, observer: &mut O) -> Option<NormalPath<T>>
 where
     T: Real,
-    L: NormalLaw<T>,
-    O: Integrals<T>,
-    S: SteppedMotion<T>,
+    L: ContactLaw<T>,
+    O: Observer<T>,
 {
     let half = T::constant(0.5);
-    let mut state: State<T, O, S::State> = ([T::ZERO, (energy + energy).sqrt()], (*outputs, tangential.state()));
+    let (first, last) = (law.indentation(law.start()), law.indentation(law.end()));
+    law.coordinate(first)?;
+    let mut state: State<T, O::State> = ([first, (energy + energy).sqrt()], observer.state());
     let mut times = Times::new();
-    let effort = Effort { stretches: 0, refused: 0, sweeps: 0, nodes: 4, error: T::ZERO };
+    let effort = Effort { nodes: 4, ..Effort::NONE };
     let mut path = NormalPath { end: End::Budget, energy, peak: T::ZERO, turning: T::ZERO, effort };
     // A sphere that comes slower than a barrier is high turns back in front of it and has none to pass on its way out.
-    let (brink, escape) = Some(brink(law)).filter(|(_, height)| energy > *height).unwrap_or((T::ZERO, T::ZERO));
+    let total = energy + law.potential(law.start());
+    let (place, escape) = Some(barrier(law)).filter(|(_, height)| total > *height).unwrap_or((law.end(), T::ZERO));
     let held = |depth: T, speed: T| {
-        let s = depth.max(T::ZERO).sqrt();
-        s >= brink && half * speed * speed + law.potential(s) < escape
+        law.coordinate(depth).is_some_and(|s| s >= place && half * speed * speed + law.potential(s) < escape)
     };
-    while path.effort.stretches < most {
-        path.effort.stretches += 1;
+    while path.effort.intervals < most {
+        path.effort.intervals += 1;
         let [x, y] = state.0;
         let mut duration = step;
-        let mut next = gill(law, tangential, &state, duration);
+        let mut next = gill(law, observer, &state, duration);
         // The earlier of separation and the end of sliding, by linear interpolation.
-        let separates = y < T::ZERO && next.0[0] <= T::ZERO;
-        let mut share = if separates { x / (x - next.0[0]) } else { T::ONE };
+        let separates = y < T::ZERO && next.0[0] <= last;
+        let mut fraction = if separates { (x - last) / (x - next.0[0]) } else { T::ONE };
         let mut rolls = false;
-        if let (Some(before), Some(after)) = (tangential.slip(&state.1.1), tangential.slip(&next.1.1))
+        if let (Some(before), Some(after)) = (observer.slip(&state.1), observer.slip(&next.1))
             && after <= T::ZERO
-            && before <= share * (before - after)
+            && before <= fraction * (before - after)
         {
-            share = before / (before - after);
+            fraction = before / (before - after);
             rolls = true;
         }
         if separates || rolls {
             path.effort.refused += 1;
-            duration = step * share;
-            next = gill(law, tangential, &state, duration);
+            duration = step * fraction;
+            next = gill(law, observer, &state, duration);
         }
         let [depth, speed] = next.0;
         if !(depth.is_finite() && speed.is_finite()) {
@@ -210,12 +116,14 @@ where
         if y >= T::ZERO && speed < T::ZERO {
             let rest = duration * y / (y - speed);
             times.peak = times.now + rest;
-            path.peak = (x + half * rest * y).sqrt();
+            path.peak = law.coordinate(x + half * rest * y)?;
+            observer.stepped(law, times.peak, path.peak, T::ZERO, false);
         }
         state = next;
         times.now = times.now + duration;
+        observer.stepped(law, times.now, law.coordinate(depth)?, speed.abs(), speed < T::ZERO);
         if rolls {
-            tangential.rolls_from(times.now);
+            observer.rolls_from(times.now);
         } else if separates {
             path.end = End::Separation;
             path.energy = half * speed * speed;
@@ -230,25 +138,22 @@ where
     if path.end == End::Budget && held(depth, speed) {
         path.end = End::Capture;
     }
-    path.effort.sweeps = path.effort.stretches + path.effort.refused;
-    let (integrals, motion) = state.1;
-    *outputs = integrals.timed(&times);
-    *tangential = tangential.ended(&motion);
-    path
+    path.effort.sweeps = path.effort.intervals + path.effort.refused;
+    observer.ended(&state.1, &times);
+    Some(path)
 }
 
 /// A step by Gill's coefficients.
 #[inline]
-fn gill<T, L, O, S>(law: &L, tangential: &S, from: &State<T, O, S::State>, step: T) -> State<T, O, S::State>
+fn gill<T, L, O>(law: &L, observer: &O, from: &State<T, O::State>, step: T) -> State<T, O::State>
 where
     T: Real,
-    L: NormalLaw<T>,
-    O: Integrals<T>,
-    S: SteppedMotion<T>,
+    L: ContactLaw<T>,
+    O: Observer<T>,
 {
     const ROOT: f64 = core::f64::consts::FRAC_1_SQRT_2;
-    let change = |state: &State<T, O, S::State>| {
-        let rates = rates(law, tangential, state);
+    let change = |state: &State<T, O::State>| {
+        let rates = rates(law, observer, state);
         rates.combine(rates, |rate, _| step * rate)
     };
     let first = change(from);
@@ -265,19 +170,17 @@ where
     state.combine(last, |state, d| state + d)
 }
 
-/// The rates of change: B6, the integrals, and the tangential side. Outside the contact no force acts.
+/// The rates of change: B6 and those of the observer. Outside the contact no force acts.
 #[inline]
-fn rates<T, L, O, S>(law: &L, tangential: &S, state: &State<T, O, S::State>) -> State<T, O, S::State>
+fn rates<T, L, O>(law: &L, observer: &O, state: &State<T, O::State>) -> State<T, O::State>
 where
     T: Real,
-    L: NormalLaw<T>,
-    O: Integrals<T>,
-    S: SteppedMotion<T>,
+    L: ContactLaw<T>,
+    O: Observer<T>,
 {
-    let ([x, y], (integrals, motion)) = state;
-    let (s, y) = (x.max(T::ZERO).sqrt(), *y);
+    let ([x, y], observed) = state;
+    let (s, y) = (law.coordinate(*x).unwrap_or(T::ZERO), *y);
     let rebound = y < T::ZERO;
     let acceleration = law.conservative_force(s) - law.damping(s, rebound) * y;
-    let growth = integrals.growth(law, s, y.abs(), rebound);
-    ([y, acceleration], (growth, tangential.rates(motion, s, law.elastic_force(s))))
+    ([y, acceleration], observer.rates(observed, law, s, y.abs(), rebound))
 }

@@ -3,11 +3,11 @@
 // Indices run over arrays of the length that their loops count to.
 #![allow(clippy::indexing_slicing, clippy::needless_range_loop)]
 
-use super::law::NormalLaw;
+use super::interval::{Interval, dot};
 use super::nodes::Nodes;
 use super::observer::Observer;
-use super::stretch::{Stretch, dot};
 use crate::Real;
+use crate::contact::law::ContactLaw;
 
 /// Quantities that are integrated together; none at all is `()`.
 pub trait Quantities<T: Real>: Copy {
@@ -40,74 +40,68 @@ impl<T: Real, A: Quantities<T>, B: Quantities<T>> Quantities<T> for (A, B) {
 pub trait Integrals<T: Real>: Quantities<T> {
     /// What they grow by in time at contact radius s and a speed of size y, on the way in or out.
     #[must_use]
-    fn growth(&self, law: &impl NormalLaw<T>, s: T, y: T, rebound: bool) -> Self;
+    fn growth(&self, law: &impl ContactLaw<T>, s: T, y: T, rebound: bool) -> Self;
 
-    /// The integrals where a method knows the times of the motion better than by their growth.
-    #[must_use]
+    /// Adds an interval of the motion by its nodes.
     #[inline]
-    fn timed(self, _times: &Times<T>) -> Self {
-        self
-    }
-
-    /// Adds a stretch of the motion by its nodes.
-    #[inline]
-    fn add<const N: usize>(&mut self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>, rebound: bool)
+    fn add<const N: usize>(&mut self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, rebound: bool)
     where
         T: Nodes<N>,
     {
         for j in 0..N {
-            let duration = T::WHOLE[j] * stretch.rate[j];
-            let growth = self.growth(law, stretch.s[j], stretch.y[j], rebound);
+            let duration = T::WHOLE[j] * interval.rate[j];
+            let growth = self.growth(law, interval.s[j], interval.y[j], rebound);
             *self = self.combine(growth, |sum, rate| sum + duration * rate);
         }
     }
 }
 
-impl<T: Real> Integrals<T> for () {
-    #[inline]
-    fn growth(&self, _law: &impl NormalLaw<T>, _s: T, _y: T, _rebound: bool) {}
-}
-
-impl<T: Real, A: Integrals<T>, B: Integrals<T>> Integrals<T> for (A, B) {
-    #[inline]
-    fn growth(&self, law: &impl NormalLaw<T>, s: T, y: T, rebound: bool) -> Self {
-        (self.0.growth(law, s, y, rebound), self.1.growth(law, s, y, rebound))
-    }
-
-    #[inline]
-    fn timed(self, times: &Times<T>) -> Self {
-        (self.0.timed(times), self.1.timed(times))
-    }
-}
-
 /// An observer that only integrates.
 macro_rules! observe_by_integrals {
-    ($integrals:ident, timed: $timed:literal) => {
+    ($integrals:ident, timed: $timed:literal, to_turning_point: $followed:literal) => {
         impl<T: Real> Observer<T> for $integrals<T> {
             const TIMED: bool = $timed;
+            const TO_TURNING_POINT: bool = $followed;
 
             #[inline]
-            fn observe<const N: usize>(&mut self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>, rebound: bool)
+            fn observe<const N: usize>(&mut self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, rebound: bool)
             where
                 T: Nodes<N>,
             {
-                self.add(law, stretch, rebound);
+                self.add(law, interval, rebound);
+            }
+
+            type State = Self;
+
+            #[inline]
+            fn state(&self) -> Self {
+                *self
+            }
+
+            #[inline]
+            fn rates(&self, state: &Self, law: &impl ContactLaw<T>, s: T, y: T, rebound: bool) -> Self {
+                state.growth(law, s, y, rebound)
+            }
+
+            #[inline]
+            fn ended(&mut self, state: &Self, _times: &Times<T>) {
+                *self = *state;
             }
         }
     };
 }
 
-pub(super) use observe_by_integrals;
+pub(crate) use observe_by_integrals;
 
 /// Times since first touch and up to the peak, in units of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Times<T> {
-    pub(super) now: T,
-    pub(super) peak: T,
+    pub(crate) now: T,
+    pub(crate) peak: T,
 }
 
 impl<T: Real> Times<T> {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { now: T::ZERO, peak: T::ZERO }
     }
 }
@@ -121,16 +115,12 @@ impl<T: Real> Quantities<T> for Times<T> {
 
 impl<T: Real> Integrals<T> for Times<T> {
     #[inline]
-    fn growth(&self, _law: &impl NormalLaw<T>, _s: T, _y: T, rebound: bool) -> Self {
+    fn growth(&self, _law: &impl ContactLaw<T>, _s: T, _y: T, rebound: bool) -> Self {
         // Only until the sphere turns back for the first time.
         let approaches = !rebound && self.peak == self.now;
         Self { now: T::ONE, peak: if approaches { T::ONE } else { T::ZERO } }
     }
 
-    #[inline]
-    fn timed(self, times: &Times<T>) -> Self {
-        *times
-    }
 }
 
 impl<T: Real> Observer<T> for Times<T> {
@@ -138,25 +128,38 @@ impl<T: Real> Observer<T> for Times<T> {
 
     // As all that follows a motion in time adds it up, to the last digit.
     #[inline]
-    fn observe<const N: usize>(&mut self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>, rebound: bool)
+    fn observe<const N: usize>(&mut self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, rebound: bool)
     where
         T: Nodes<N>,
     {
-        let duration = dot(&T::WHOLE, &stretch.rate);
+        let duration = dot(&T::WHOLE, &interval.rate);
         let growth = self.growth(law, T::ZERO, T::ZERO, rebound);
         *self = self.combine(growth, |sum, rate| sum + duration * rate);
+    }
+
+    type State = ();
+
+    #[inline]
+    fn state(&self) {}
+
+    #[inline]
+    fn rates(&self, (): &(), _law: &impl ContactLaw<T>, _s: T, _y: T, _rebound: bool) {}
+
+    #[inline]
+    fn ended(&mut self, (): &(), times: &Times<T>) {
+        *self = *times;
     }
 }
 
 /// Impulses of the elastic force and of adhesion on rebound, in units of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impulses<T> {
-    pub(super) elastic: T,
-    pub(super) adhesion_rebound: T,
+    pub(crate) elastic: T,
+    pub(crate) adhesion_rebound: T,
 }
 
 impl<T: Real> Impulses<T> {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { elastic: T::ZERO, adhesion_rebound: T::ZERO }
     }
 }
@@ -173,23 +176,23 @@ impl<T: Real> Quantities<T> for Impulses<T> {
 
 impl<T: Real> Integrals<T> for Impulses<T> {
     #[inline]
-    fn growth(&self, law: &impl NormalLaw<T>, s: T, y: T, rebound: bool) -> Self {
+    fn growth(&self, law: &impl ContactLaw<T>, s: T, y: T, rebound: bool) -> Self {
         let adhesion_rebound = if rebound { law.adhesion_force(s) + law.adhesion_damping(s) * y } else { T::ZERO };
         Self { elastic: law.elastic_force(s), adhesion_rebound }
     }
 }
 
-observe_by_integrals!(Impulses, timed: true);
+observe_by_integrals!(Impulses, timed: true, to_turning_point: true);
 
 /// Works of the two kinds of damping, in units of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Works<T> {
-    pub(super) material: T,
-    pub(super) adhesion: T,
+    pub(crate) material: T,
+    pub(crate) adhesion: T,
 }
 
 impl<T: Real> Works<T> {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { material: T::ZERO, adhesion: T::ZERO }
     }
 }
@@ -203,11 +206,11 @@ impl<T: Real> Quantities<T> for Works<T> {
 
 impl<T: Real> Integrals<T> for Works<T> {
     #[inline]
-    fn growth(&self, law: &impl NormalLaw<T>, s: T, y: T, rebound: bool) -> Self {
+    fn growth(&self, law: &impl ContactLaw<T>, s: T, y: T, rebound: bool) -> Self {
         let square = y * y;
         let adhesion = if rebound { law.adhesion_damping(s) * square } else { T::ZERO };
         Self { material: law.material_damping(s) * square, adhesion }
     }
 }
 
-observe_by_integrals!(Works, timed: false);
+observe_by_integrals!(Works, timed: false, to_turning_point: true);

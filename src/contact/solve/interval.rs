@@ -1,6 +1,6 @@
-//! Stretches of the path, each solved by collocation of the speed at Radau's nodes.
+//! Intervals of the path, each solved by collocation of the speed at Radau's nodes.
 //!
-//! Along a stretch s is a polynomial of z on 0..1 and y^2 = free(z) - integral of loss(z) y dz, where `free` is the square of
+//! Along an interval s is a polynomial of z on 0..1 and y^2 = free(z) - integral of loss(z) y dz, where `free` is the square of
 //! the speed without losses. Away from turning points y itself is smooth in z. Towards a turning point z = 0 it vanishes
 //! like z, so that s = peak - depth z^2 and y = z u with u smooth. Sweeps over all nodes at once converge superlinearly while
 //! the loss is a small part of the energy; Newton's method takes over where it is not.
@@ -8,69 +8,77 @@
 // Indices run over arrays of the length that their loops count to.
 #![allow(clippy::indexing_slicing, clippy::needless_range_loop)]
 
-use super::law::NormalLaw;
 use super::nodes::Nodes;
 use crate::Real;
+use crate::contact::law::ContactLaw;
 
-/// How exactly a stretch is solved.
+/// How exactly an interval is solved.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Control<T> {
+pub(crate) struct Control<T> {
     /// Change of the speeds at which the sweeps end.
-    pub(super) settled: T,
-    /// Largest error that a stretch may have.
-    pub(super) error: T,
-    /// How much of the error of the time that the stretch takes counts: one where times are asked for, a tenth where only the
+    pub(crate) settled: T,
+    /// Largest error that an interval may have.
+    pub(crate) error: T,
+    /// How much of the error of the time that the interval takes counts: one where times are asked for, a tenth where only the
     /// end of the motion is, as energies feel little of the slow end of it that makes times inexact.
-    pub(super) times: T,
+    pub(crate) times: T,
 }
 
 /// A point of the path.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Point<T> {
+pub(crate) struct Point<T> {
     /// Contact radius.
-    pub(super) s: T,
+    pub(crate) s: T,
     /// Energy E.
-    pub(super) energy: T,
+    pub(crate) energy: T,
     /// y^2, which close to a turning point is known better than E - V is.
-    pub(super) speed_squared: T,
+    pub(crate) speed_squared: T,
+}
+
+impl<T: Real> Point<T> {
+    /// First contact, with a kinetic energy.
+    pub(crate) fn arriving(law: &impl ContactLaw<T>, kinetic: T) -> Self {
+        let s = law.start();
+        Self { s, energy: kinetic + law.potential(s), speed_squared: kinetic + kinetic }
+    }
 }
 
 /// Direction of the path in time and space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Course {
+pub(crate) struct Course {
     /// Whether the sphere is on its way out, where adhesion takes energy too.
-    pub(super) rebound: bool,
+    pub(crate) rebound: bool,
     /// Whether the path is followed against time, so that losses are gains.
-    pub(super) reversed: bool,
+    pub(crate) reversed: bool,
 }
 
 impl Course {
-    pub(super) const APPROACH: Self = Self { rebound: false, reversed: false };
-    pub(super) const REBOUND: Self = Self { rebound: true, reversed: false };
+    pub(crate) const APPROACH: Self = Self { rebound: false, reversed: false };
+    pub(crate) const REBOUND: Self = Self { rebound: true, reversed: false };
 }
 
-/// A solved stretch: values at the nodes and at the end.
+/// A solved interval: values at the nodes and at the end.
 #[derive(Clone, Copy, Debug)]
-pub struct Stretch<T, const N: usize> {
+pub struct Interval<T, const N: usize> {
     /// Contact radius.
-    pub(super) s: [T; N],
+    pub(crate) s: [T; N],
     /// Size of the speed.
-    pub(super) y: [T; N],
+    pub(crate) y: [T; N],
     /// Time for each dz.
-    pub(super) rate: [T; N],
-    /// The point that the stretch leads to.
-    pub(super) end: Point<T>,
+    pub(crate) rate: [T; N],
+    /// The point that the interval leads to.
+    pub(crate) end: Point<T>,
     /// Whether it converged within the error allowed.
-    pub(super) accepted: bool,
+    pub(crate) accepted: bool,
     /// Estimated error.
-    pub(super) error: T,
-    /// Whether z runs with time; a stretch that arrives at a turning point is written from there.
-    pub(super) forward: bool,
+    pub(crate) error: T,
+    /// Whether z runs with time; an interval that arrives at a turning point is written from there.
+    pub(crate) forward: bool,
 }
 
 /// Sum of products, in four parts that do not wait for each other.
 #[inline]
-pub(super) fn dot<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
+pub(crate) fn dot<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
     let mut sums = [T::ZERO; 4];
     for k in 0..N {
         sums[k % 4] = sums[k % 4] + a[k] * b[k];
@@ -81,7 +89,7 @@ pub(super) fn dot<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
 /// Integrals from zero to each node.
 // Inlined into a loop, the whole table would be copied to the stack first.
 #[inline(never)]
-pub(super) fn integrals<T: Real, const N: usize>(table: &[[T; N]; N], f: &[T; N]) -> [T; N] {
+pub(crate) fn integrals<T: Real, const N: usize>(table: &[[T; N]; N], f: &[T; N]) -> [T; N] {
     let mut sums = [T::ZERO; N];
     for k in 0..N {
         for j in 0..N {
@@ -93,7 +101,7 @@ pub(super) fn integrals<T: Real, const N: usize>(table: &[[T; N]; N], f: &[T; N]
 
 /// Coefficients of the first shifted Legendre polynomials, from values at the nodes; the others are zero.
 #[inline]
-pub(super) fn coefficients<T: Nodes<N>, const N: usize>(values: &[T; N], terms: usize) -> [T; N] {
+pub(crate) fn coefficients<T: Nodes<N>, const N: usize>(values: &[T; N], terms: usize) -> [T; N] {
     let mut coefficients = [T::ZERO; N];
     for i in 0..terms.min(N) {
         coefficients[i] = dot(&T::LEGENDRE[i], values);
@@ -103,7 +111,7 @@ pub(super) fn coefficients<T: Nodes<N>, const N: usize>(values: &[T; N], terms: 
 
 /// Sum of the first shifted Legendre polynomials at places between 0 and 1, by Clenshaw's recurrence.
 #[inline]
-pub(super) fn series<T: Real, const N: usize, const M: usize>(
+pub(crate) fn series<T: Real, const N: usize, const M: usize>(
     coefficients: &[T; N],
     terms: usize,
     places: &[T; M],
@@ -122,7 +130,7 @@ pub(super) fn series<T: Real, const N: usize, const M: usize>(
     now
 }
 
-/// The unknowns of a stretch while they are iterated.
+/// The unknowns of an interval while they are iterated.
 struct Sweeps<T, const N: usize> {
     /// Speeds, or speeds over z.
     speed: [T; N],
@@ -138,7 +146,7 @@ struct Sweeps<T, const N: usize> {
 /// By how much, squared, the next change may be larger than the last two let expect.
 const SURPRISE: f64 = 100.0;
 
-/// Sweeps that a stretch may take.
+/// Sweeps that an interval may take.
 const MOST_SWEEPS: u32 = 20;
 
 impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
@@ -258,7 +266,7 @@ impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
 
 /// What the nodes cannot represent of the times for each dz, as a share of them.
 #[inline]
-pub(super) fn tail_of_times<T: Nodes<N>, const N: usize>(rate: &[T; N]) -> T {
+pub(crate) fn tail_of_times<T: Nodes<N>, const N: usize>(rate: &[T; N]) -> T {
     // The highest share alone may vanish by chance.
     let before = T::constant(0.3) * dot(&T::LEGENDRE[N - 2], rate).abs();
     dot(&T::TAIL, rate).abs().max(before) / (dot(&T::WHOLE, rate).abs() + T::SMALLEST)
@@ -272,14 +280,14 @@ enum Progress {
 
 /// Away from turning points: from a point along s + first z + second z^2.
 #[inline]
-pub(super) fn pass<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
+pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     law: &L,
     from: &Point<T>,
     (first, second): (T, T),
     course: Course,
     control: &Control<T>,
     sweeps: &mut u32,
-) -> Stretch<T, N> {
+) -> Interval<T, N> {
     let (two, half) = (T::constant(2.0), T::constant(0.5));
     let (mut s, mut free, mut loss, mut length) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
     let slow = from.speed_squared < from.energy.abs();
@@ -290,7 +298,7 @@ pub(super) fn pass<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
         length[j] = (first + two * second * T::Z[j]).abs();
         // From the speed where that is small, else from the energy: the form that does not cancel.
         free[j] = if slow {
-            from.speed_squared - two * law.divided(s[j], from.s) * step
+            from.speed_squared - two * law.mean_slope(s[j], from.s) * step
         } else {
             two * (from.energy - law.potential(s[j]))
         };
@@ -331,12 +339,12 @@ pub(super) fn pass<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
         from.energy - half * lost
     };
     let end = Point { s: s[N - 1], energy, speed_squared };
-    Stretch { s, y: state.speed, rate, end, accepted: accepted && error <= control.error, error, forward: true }
+    Interval { s, y: state.speed, rate, end, accepted: accepted && error <= control.error, error, forward: true }
 }
 
 /// From a turning point `peak`, where the sphere rests, down to `peak` - `depth`.
 #[inline]
-pub(super) fn leave<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
+pub(crate) fn leave<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     law: &L,
     peak: T,
     depth: T,
@@ -344,13 +352,13 @@ pub(super) fn leave<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
     course: Course,
     control: &Control<T>,
     sweeps: &mut u32,
-) -> Stretch<T, N> {
+) -> Interval<T, N> {
     let (two, half) = (T::constant(2.0), T::constant(0.5));
     let (mut s, mut free, mut loss) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
     let (mut possible, mut strongest) = (true, T::ZERO);
     for j in 0..N {
         s[j] = peak - depth * T::Z[j] * T::Z[j];
-        free[j] = two * depth * law.divided(peak, s[j]);
+        free[j] = two * depth * law.mean_slope(peak, s[j]);
         loss[j] = T::constant(4.0) * depth.abs() * law.loss(s[j], course.rebound);
         possible &= free[j] > T::ZERO;
         strongest = strongest.max(loss[j]);
@@ -366,26 +374,26 @@ pub(super) fn leave<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
     let lost = half * dot(&T::WHOLE_TURNING, &state.power);
     let (rate, y) = from_turning_point(law, &s, &state, depth.abs(), &mut accepted);
     let error = state.error(free[N - 1], &rate, control);
-    let speed_squared = two * (depth * law.divided(peak, s[N - 1]) - lost);
+    let speed_squared = two * (depth * law.mean_slope(peak, s[N - 1]) - lost);
     let end = Point { s: s[N - 1], energy: energy - lost, speed_squared };
-    Stretch { s, y, rate, end, accepted: accepted && error <= control.error, error, forward: true }
+    Interval { s, y, rate, end, accepted: accepted && error <= control.error, error, forward: true }
 }
 
 /// To a turning point ahead, which is found on the way; `guess` is a first value of it. z runs from there, against time.
 #[inline]
-pub(super) fn arrive<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
+pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     law: &L,
     from: &Point<T>,
     guess: T,
     course: Course,
     control: &Control<T>,
     sweeps: &mut u32,
-) -> Stretch<T, N> {
+) -> Interval<T, N> {
     let (two, half) = (T::constant(2.0), T::constant(0.5));
     let inwards = guess > from.s;
     let mut depth = undamped_distance(law, from, guess);
     let mut turning = from.s + depth;
-    let refused = |turning: T, possible: bool| Stretch {
+    let refused = |turning: T, possible: bool| Interval {
         s: [turning; N],
         y: [T::ZERO; N],
         rate: [T::ZERO; N],
@@ -400,7 +408,7 @@ pub(super) fn arrive<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
     // What a sweep leaves of an error is known beforehand, so a strongly damped arrival costs nothing.
     let reach =
         T::constant(0.68) * depth.abs() * law.loss(if course.rebound { from.s } else { turning }, course.rebound);
-    let stopping = two * depth * law.divided(turning, from.s);
+    let stopping = two * depth * law.mean_slope(turning, from.s);
     if !(stopping > T::ZERO && reach * reach < T::constant(0.3) * stopping) {
         return refused(turning, true);
     }
@@ -410,7 +418,7 @@ pub(super) fn arrive<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
         let factor = if course.reversed { -factor } else { factor };
         for j in 0..N {
             s[j] = turning - depth * T::Z[j] * T::Z[j];
-            free[j] = two * depth * law.divided(turning, s[j]);
+            free[j] = two * depth * law.mean_slope(turning, s[j]);
             loss[j] = factor * law.loss(s[j], course.rebound);
         }
     };
@@ -431,13 +439,13 @@ pub(super) fn arrive<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
         estimated = false;
         lost = half * dot(&T::WHOLE_TURNING, &state.power);
         let excess = if by_speed {
-            law.divided(turning, from.s) * depth + lost - half * from.speed_squared
+            law.mean_slope(turning, from.s) * depth + lost - half * from.speed_squared
         } else {
             law.potential(turning) + lost - from.energy
         };
         let slope = law.slope(turning);
-        // Losses grow with the way to the power 1.5 and with the fourth power of the contact radius.
-        let power = T::constant(1.5) + T::constant(4.0) * depth.max(T::ZERO) / turning;
+        // Losses grow with the distance to the power 1.5, and with the coordinate one power less than the elastic energy.
+        let power = T::constant(1.5) + T::constant(law.energy_power() - 1.0) * depth.max(T::ZERO) / turning;
         let step = excess / (slope + power * lost / depth);
         // As the speed at the far end changes with the turning point, so do those on the way.
         let share = -(step * slope / from.speed_squared);
@@ -467,11 +475,11 @@ pub(super) fn arrive<T: Nodes<N>, const N: usize, L: NormalLaw<T>>(
     let error = state.error(last * last, &rate, control);
     let energy = if slow { law.potential(turning) } else { from.energy - lost };
     let end = Point { s: turning, energy, speed_squared: T::ZERO };
-    Stretch { s, y, rate, end, accepted: accepted && error <= control.error, error, forward: false }
+    Interval { s, y, rate, end, accepted: accepted && error <= control.error, error, forward: false }
 }
 
 /// Distance from a point to where its kinetic energy would be spent without losses: Newton's method from beyond.
-fn undamped_distance<T: Real>(law: &impl NormalLaw<T>, from: &Point<T>, guess: T) -> T {
+fn undamped_distance<T: Real>(law: &impl ContactLaw<T>, from: &Point<T>, guess: T) -> T {
     let half = T::constant(0.5);
     let mut distance = guess - from.s;
     let slope = law.slope(from.s);
@@ -479,7 +487,7 @@ fn undamped_distance<T: Real>(law: &impl NormalLaw<T>, from: &Point<T>, guess: T
         distance = half * from.speed_squared / slope;
     }
     for _ in 0..8 {
-        let excess = law.divided(from.s + distance, from.s) * distance - half * from.speed_squared;
+        let excess = law.mean_slope(from.s + distance, from.s) * distance - half * from.speed_squared;
         let step = excess / law.slope(from.s + distance);
         distance = distance - step;
         if step.abs() < T::constant(0.02) * distance.abs() {
@@ -499,10 +507,10 @@ fn taken_from_turning_point<T: Nodes<N>, const N: usize>(loss: &[T; N]) -> [T; N
     taken
 }
 
-/// Times and speeds of a stretch that begins at a turning point.
+/// Times and speeds of an interval that begins at a turning point.
 #[inline]
 fn from_turning_point<T: Nodes<N>, const N: usize>(
-    law: &impl NormalLaw<T>,
+    law: &impl ContactLaw<T>,
     s: &[T; N],
     state: &Sweeps<T, N>,
     depth: T,
@@ -517,7 +525,7 @@ fn from_turning_point<T: Nodes<N>, const N: usize>(
     (rate, y)
 }
 
-/// Newton's method with the dense Jacobian, for stretches that lose most of their energy.
+/// Newton's method with the dense Jacobian, for intervals that lose most of their energy.
 #[inline(never)]
 fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
     free: &[T; N],
@@ -575,7 +583,7 @@ fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
 }
 
 /// Solves a system of linear equations in place, with row pivoting; `false` where it is singular.
-pub(super) fn eliminate<T: Real, const N: usize>(matrix: &mut [[T; N]; N], right: &mut [T; N]) -> bool {
+pub(crate) fn eliminate<T: Real, const N: usize>(matrix: &mut [[T; N]; N], right: &mut [T; N]) -> bool {
     for p in 0..N {
         // Exchanged on the way rather than in the end: every index is one of a loop, so none has to be checked.
         for i in p + 1..N {

@@ -1,4 +1,4 @@
-//! Nodes on 0..1 and the integrals that collocation needs, computed by the compiler: Radau's for a stretch and Gauss's for a
+//! Nodes on 0..1 and the integrals that collocation needs, computed by the compiler: Radau's for an interval and Gauss's for a
 //! whole phase of the motion, for any number of nodes.
 
 // Indices run over arrays of the length that their loops count to.
@@ -7,11 +7,12 @@
 use core::f64::consts::PI;
 
 use crate::Real;
+use crate::contact::law::Fraction;
 
 /// A number type with the tables for `N` nodes: a function f on 0..1 is given by its values at the nodes.
 ///
 /// ```
-/// use microimpact::simulation::Nodes;
+/// use microimpact::contact::Nodes;
 ///
 /// // Radau's quadrature with three nodes is exact for z^4.
 /// let integral: f64 = <f64 as Nodes<3>>::Z.iter().zip(<f64 as Nodes<3>>::WHOLE).map(|(z, weight)| weight * z.powi(4)).sum();
@@ -230,49 +231,13 @@ const fn tail<const N: usize>(z: &[f64; N]) -> [f64; N] {
     tail
 }
 
-/// A contact radius as a share m of its peak, with what the powers of m add up to.
-///
-/// ```
-/// use microimpact::simulation::Share;
-///
-/// let share = Share::new(0.5);
-/// assert_eq!((share.square, share.cubic, share.quintic), (0.25, 1.75, 1.9375));
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Share<T> {
-    /// m.
-    pub radius: T,
-    /// m^2.
-    pub square: T,
-    /// (1 - m^3)/(1 - m).
-    pub cubic: T,
-    /// (1 - m^5)/(1 - m).
-    pub quintic: T,
-}
-
-impl<T: Real> Share<T> {
-    /// A share m of 0 to 1.
-    ///
-    /// ```
-    /// assert_eq!(microimpact::simulation::Share::new(1.0_f32).quintic, 5.0);
-    /// ```
-    #[inline]
-    pub fn new(radius: T) -> Self {
-        let square = radius * radius;
-        let cubic = T::ONE + radius + square;
-        Self { radius, square, cubic, quintic: T::ONE + radius + square * cubic }
-    }
-}
-
 /// A number type with the tables for `N` nodes over a whole phase, from the peak z = 0 to the contact radius zero, z = 1.
 ///
-/// They are those of Gauss for the weight z^2 (1 - z^2)^2 of losses that grow at least with the square of the contact radius
-/// s = a (1 - z^2). The weight is part of the integrals.
+/// They are those of Gauss for the weight z^2 (1 - z^2)^2 of losses that grow at least with the power [`WEIGHT_POWER`] of the
+/// coordinate s = a (1 - z^2). The weight is part of the integrals.
 ///
 /// ```
-/// use microimpact::simulation::PhaseNodes;
+/// use microimpact::contact::PhaseNodes;
 ///
 /// let weight: f64 = <f64 as PhaseNodes<5>>::WHOLE.iter().sum();
 /// assert!((weight - 8.0 / 105.0).abs() < 1e-15);
@@ -281,7 +246,7 @@ pub trait PhaseNodes<const N: usize>: Real {
     /// The nodes, in rising order.
     const Z: [Self; N];
     /// The contact radii.
-    const SHARES: [Share<Self>; N];
+    const FRACTIONS: [Fraction<Self>; N];
     /// Integral of the weighted f from 0 to node j, over the square of that node: sum over k of `RUNNING[k][j]` f(k).
     const RUNNING: [[Self; N]; N];
     /// The same for two f linear in m^2: one at the first node and zero at the last, and the reverse.
@@ -290,7 +255,7 @@ pub trait PhaseNodes<const N: usize>: Real {
     const WHOLE: [Self; N];
     /// The same for two f linear in m^2, as in [`RUNNING_ENDS`](Self::RUNNING_ENDS).
     const WHOLE_ENDS: (Self, Self);
-    /// Share in f of the highest polynomial orthogonal under the weight, in units of the weighted integral of f.
+    /// Fraction in f of the highest polynomial orthogonal under the weight, in units of the weighted integral of f.
     ///
     /// Up to a common factor these are the weights of barycentric interpolation too.
     const TAIL: [Self; N];
@@ -302,7 +267,7 @@ pub trait PhaseNodes<const N: usize>: Real {
     /// A type of few digits rounds each sum once.
     ///
     /// ```
-    /// use microimpact::simulation::PhaseNodes;
+    /// use microimpact::contact::PhaseNodes;
     ///
     /// let mut sums = [0.0_f64; 5];
     /// PhaseNodes::add_running(&mut sums, &[2.0; 5], &[0.5; 5]);
@@ -324,7 +289,7 @@ pub trait PhaseNodes<const N: usize>: Real {
 /// A number type that can pass from the `N` nodes of a phase to `M` of Radau's.
 ///
 /// ```
-/// use microimpact::simulation::{Nodes, PhaseNodes, PhaseSamples};
+/// use microimpact::contact::{Nodes, PhaseNodes, PhaseSamples};
 ///
 /// // At z = 1 the integral is that of the whole phase.
 /// let table = <f64 as PhaseSamples<5, 8>>::RUNNING;
@@ -334,7 +299,7 @@ pub trait PhaseNodes<const N: usize>: Real {
 /// ```
 pub trait PhaseSamples<const N: usize, const M: usize>: PhaseNodes<N> + Nodes<M> {
     /// The contact radii at Radau's nodes.
-    const SHARES: [Share<Self>; M];
+    const FRACTIONS: [Fraction<Self>; M];
     /// Integral of the weighted f from 0 to Radau's node q, over the square of that node: sum over k of `RUNNING[k][q]` f(k).
     const RUNNING: [[Self; M]; N];
 }
@@ -343,7 +308,7 @@ macro_rules! impl_phase_nodes {
     ($float:ident) => {
         impl<const N: usize> PhaseNodes<N> for $float {
             const Z: [Self; N] = narrowed!($float, Phase::<N>::Z);
-            const SHARES: [Share<Self>; N] = shares!($float, N, Phase::<N>::Z);
+            const FRACTIONS: [Fraction<Self>; N] = shares!($float, N, Phase::<N>::Z);
             const RUNNING: [[Self; N]; N] = narrowed_square!($float, Phase::<N>::RUNNING);
             const RUNNING_ENDS: [(Self, Self); N] = {
                 let wide = Phase::<N>::RUNNING_ENDS;
@@ -365,7 +330,7 @@ macro_rules! impl_phase_nodes {
         }
 
         impl<const N: usize, const M: usize> PhaseSamples<N, M> for $float {
-            const SHARES: [Share<Self>; M] = shares!($float, M, Table::<M>::Z);
+            const FRACTIONS: [Fraction<Self>; M] = shares!($float, M, Table::<M>::Z);
             const RUNNING: [[Self; M]; N] = {
                 let wide = Phase::<N>::integrals(&Table::<M>::Z);
                 let mut narrow = [[0.0; M]; N];
@@ -387,14 +352,14 @@ macro_rules! impl_phase_nodes {
 macro_rules! shares {
     ($float:ident, $n:ident, $z:expr) => {{
         let z = $z;
-        let mut shares = [Share { radius: 0.0, square: 0.0, cubic: 0.0, quintic: 0.0 }; $n];
+        let mut shares = [Fraction { value: 0.0, square: 0.0, cubic: 0.0, quintic: 0.0 }; $n];
         let mut j = 0;
         while j < $n {
             let m = 1.0 - z[j] * z[j];
             let square = m * m;
             let cubic = 1.0 + m + square;
-            shares[j] = Share {
-                radius: m as $float,
+            shares[j] = Fraction {
+                value: m as $float,
                 square: square as $float,
                 cubic: cubic as $float,
                 quintic: (1.0 + m + square * cubic) as $float,
@@ -498,6 +463,9 @@ impl<const N: usize> Phase<N> {
         table
     }
 }
+
+/// Power of the coordinate in the weight of the nodes of a phase: losses of a lower power are not carried by them.
+pub(crate) const WEIGHT_POWER: u32 = 2;
 
 const fn phase_weight(z: f64) -> f64 {
     z * z * square(z)

@@ -1,11 +1,15 @@
 //! What a scene wants to know of a motion besides how it ends: each a type that costs nothing where it is not named.
+//!
+//! Methods that divide the motion into intervals show them in the order of time. The method with a fixed time step carries
+//! the observer's own state along with the motion.
 
-use super::law::NormalLaw;
+use super::integrals::{Quantities, Times};
+use super::interval::Interval;
 use super::nodes::Nodes;
-use super::stretch::Stretch;
 use crate::Real;
+use crate::contact::law::ContactLaw;
 
-/// Something that is integrated along the motion, one stretch after the other in the order of time.
+/// Something that is integrated along the motion, one interval after the other in the order of time.
 pub trait Observer<T: Real> {
     /// Whether it looks for the end of sliding.
     const EVENTS: bool = false;
@@ -13,51 +17,77 @@ pub trait Observer<T: Real> {
     /// Whether it wants to see the motion at all.
     const OBSERVES: bool = true;
 
-    /// Whether the time that a stretch takes has to meet the tolerance too.
+    /// Whether the time that an interval takes has to meet the tolerance too.
     const TIMED: bool = false;
 
     /// Whether a captured sphere is to be followed until it first turns back, and not only until it cannot escape.
     const TO_TURNING_POINT: bool = true;
 
-    /// Adds a stretch.
-    fn observe<const N: usize>(&mut self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>, rebound: bool)
+    /// Adds an interval.
+    fn observe<const N: usize>(&mut self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, rebound: bool)
     where
         T: Nodes<N>;
 
-    /// Share of a stretch, in the order of time, after which the sphere rolls, if it begins to.
+    /// Fraction of an interval, in the order of time, after which the sphere rolls, if it begins to.
     #[inline]
-    fn rolls_at<const N: usize>(&self, _law: &impl NormalLaw<T>, _stretch: &Stretch<T, N>) -> Option<T>
+    fn rolls_at<const N: usize>(&self, _law: &impl ContactLaw<T>, _interval: &Interval<T, N>) -> Option<T>
     where
         T: Nodes<N>,
     {
         None
     }
 
-    /// By how much of its length a stretch ends after the sphere has begun to roll.
+    /// By how much of its length an interval ends after the sphere has begun to roll.
     #[inline]
-    fn lateness<const N: usize>(&self, _law: &impl NormalLaw<T>, _stretch: &Stretch<T, N>) -> T
+    fn residual<const N: usize>(&self, _law: &impl ContactLaw<T>, _interval: &Interval<T, N>) -> T
     where
         T: Nodes<N>,
     {
         T::ZERO
     }
 
-    /// Adds a stretch in which the sphere begins to roll: `before` is its part up to there, but for a time `late` by which that
+    /// Adds an interval in which the sphere begins to roll: `before` is its part up to there, but for a time `late` by which that
     /// part ends too late, and `after` makes the rest.
     #[inline]
     fn observe_rolling<const N: usize>(
         &mut self,
-        law: &impl NormalLaw<T>,
-        whole: &Stretch<T, N>,
-        _before: &Stretch<T, N>,
+        law: &impl ContactLaw<T>,
+        whole: &Interval<T, N>,
+        _before: &Interval<T, N>,
         _late: T,
-        _after: &mut dyn FnMut() -> Stretch<T, N>,
+        _after: &mut dyn FnMut() -> Interval<T, N>,
         rebound: bool,
     ) where
         T: Nodes<N>,
     {
         self.observe(law, whole, rebound);
     }
+
+    /// What a method with a time step integrates along with the motion.
+    type State: Quantities<T>;
+
+    /// The state before contact.
+    fn state(&self) -> Self::State;
+
+    /// Its rate of change in time at the coordinate s and a speed of size y, on the way in or out.
+    fn rates(&self, state: &Self::State, law: &impl ContactLaw<T>, s: T, y: T, rebound: bool) -> Self::State;
+
+    /// Slip in its first direction while the sphere slides.
+    #[inline]
+    fn slip(&self, _state: &Self::State) -> Option<T> {
+        None
+    }
+
+    /// The sphere rolls from this time on.
+    #[inline]
+    fn rolls_from(&mut self, _time: T) {}
+
+    /// A time step, or the peak, has brought the sphere here.
+    #[inline]
+    fn stepped(&mut self, _law: &impl ContactLaw<T>, _time: T, _s: T, _y: T, _rebound: bool) {}
+
+    /// Takes in the state at the end.
+    fn ended(&mut self, state: &Self::State, times: &Times<T>);
 }
 
 /// Nothing besides the end.
@@ -66,11 +96,22 @@ impl<T: Real> Observer<T> for () {
     const TO_TURNING_POINT: bool = false;
 
     #[inline]
-    fn observe<const N: usize>(&mut self, _law: &impl NormalLaw<T>, _stretch: &Stretch<T, N>, _rebound: bool)
+    fn observe<const N: usize>(&mut self, _law: &impl ContactLaw<T>, _interval: &Interval<T, N>, _rebound: bool)
     where
         T: Nodes<N>,
     {
     }
+
+    type State = ();
+
+    #[inline]
+    fn state(&self) {}
+
+    #[inline]
+    fn rates(&self, (): &(), _law: &impl ContactLaw<T>, _s: T, _y: T, _rebound: bool) {}
+
+    #[inline]
+    fn ended(&mut self, (): &(), _times: &Times<T>) {}
 }
 
 impl<T: Real, A: Observer<T>, B: Observer<T>> Observer<T> for (A, B) {
@@ -80,43 +121,78 @@ impl<T: Real, A: Observer<T>, B: Observer<T>> Observer<T> for (A, B) {
     const TO_TURNING_POINT: bool = A::TO_TURNING_POINT || B::TO_TURNING_POINT;
 
     #[inline]
-    fn observe<const N: usize>(&mut self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>, rebound: bool)
+    fn observe<const N: usize>(&mut self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, rebound: bool)
     where
         T: Nodes<N>,
     {
-        self.0.observe(law, stretch, rebound);
-        self.1.observe(law, stretch, rebound);
+        self.0.observe(law, interval, rebound);
+        self.1.observe(law, interval, rebound);
     }
 
     #[inline]
-    fn rolls_at<const N: usize>(&self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>) -> Option<T>
+    fn rolls_at<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>) -> Option<T>
     where
         T: Nodes<N>,
     {
-        if A::EVENTS { self.0.rolls_at(law, stretch) } else { self.1.rolls_at(law, stretch) }
+        if A::EVENTS { self.0.rolls_at(law, interval) } else { self.1.rolls_at(law, interval) }
     }
 
     #[inline]
-    fn lateness<const N: usize>(&self, law: &impl NormalLaw<T>, stretch: &Stretch<T, N>) -> T
+    fn residual<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>) -> T
     where
         T: Nodes<N>,
     {
-        if A::EVENTS { self.0.lateness(law, stretch) } else { self.1.lateness(law, stretch) }
+        if A::EVENTS { self.0.residual(law, interval) } else { self.1.residual(law, interval) }
     }
 
     #[inline]
     fn observe_rolling<const N: usize>(
         &mut self,
-        law: &impl NormalLaw<T>,
-        whole: &Stretch<T, N>,
-        before: &Stretch<T, N>,
+        law: &impl ContactLaw<T>,
+        whole: &Interval<T, N>,
+        before: &Interval<T, N>,
         late: T,
-        after: &mut dyn FnMut() -> Stretch<T, N>,
+        after: &mut dyn FnMut() -> Interval<T, N>,
         rebound: bool,
     ) where
         T: Nodes<N>,
     {
         self.0.observe_rolling(law, whole, before, late, after, rebound);
         self.1.observe_rolling(law, whole, before, late, after, rebound);
+    }
+
+    type State = (A::State, B::State);
+
+    #[inline]
+    fn state(&self) -> Self::State {
+        (self.0.state(), self.1.state())
+    }
+
+    #[inline]
+    fn rates(&self, state: &Self::State, law: &impl ContactLaw<T>, s: T, y: T, rebound: bool) -> Self::State {
+        (self.0.rates(&state.0, law, s, y, rebound), self.1.rates(&state.1, law, s, y, rebound))
+    }
+
+    #[inline]
+    fn slip(&self, state: &Self::State) -> Option<T> {
+        if A::EVENTS { self.0.slip(&state.0) } else { self.1.slip(&state.1) }
+    }
+
+    #[inline]
+    fn rolls_from(&mut self, time: T) {
+        self.0.rolls_from(time);
+        self.1.rolls_from(time);
+    }
+
+    #[inline]
+    fn stepped(&mut self, law: &impl ContactLaw<T>, time: T, s: T, y: T, rebound: bool) {
+        self.0.stepped(law, time, s, y, rebound);
+        self.1.stepped(law, time, s, y, rebound);
+    }
+
+    #[inline]
+    fn ended(&mut self, state: &Self::State, times: &Times<T>) {
+        self.0.ended(&state.0, times);
+        self.1.ended(&state.1, times);
     }
 }

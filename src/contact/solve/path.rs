@@ -1,128 +1,121 @@
 //! The whole normal motion: approach, peak, rebound, and separation or capture.
 
-use super::law::{NormalLaw, brink};
+use super::interval::{Control, Course, Interval, Point, arrive, leave, pass};
 use super::nodes::Nodes;
 use super::observer::Observer;
-use super::stretch::{Control, Course, Point, Stretch, arrive, leave, pass};
+use super::well;
 use crate::Real;
+use crate::contact::law::ContactLaw;
 
 /// How the normal motion ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum End {
+pub(crate) enum End {
     /// The sphere separates.
     Separation,
     /// The energy is below that of a sphere that separates at rest.
     Capture,
-    /// The number of stretches is spent.
+    /// The number of intervals is spent.
     Budget,
+    /// The method cannot represent the law.
+    Unsupported,
 }
 
 /// The normal motion, in units of the scene.
 #[derive(Clone, Copy, Debug)]
 pub struct NormalPath<T> {
-    pub(super) end: End,
+    pub(crate) end: End,
     /// Energy at separation, or where the motion was left.
-    pub(super) energy: T,
+    pub(crate) energy: T,
     /// Contact radius at the peak; zero where an over-damped sphere has none.
-    pub(super) peak: T,
+    pub(crate) peak: T,
     /// Contact radius where a captured sphere first turns back; zero where it has not been followed so far, or creeps, or comes
     /// to its equilibrium within the error allowed before it turns.
-    pub(super) turning: T,
-    pub(super) effort: Effort<T>,
+    pub(crate) turning: T,
+    pub(crate) effort: Effort<T>,
 }
 
-/// A method that follows the motion to its end, for what `O` observes of it: `()` for nothing, or outputs with a tangential
-/// side.
+/// A method that follows the normal motion to its end.
 ///
 /// ```
-/// use microimpact::simulation::{Collocation, FixedCost, Method, Simulation};
+/// use microimpact::contact::{Adaptive, Contact, FixedCost, Method};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
-/// fn restitution(method: &impl Method<f64, ()>) -> Result<f64, microimpact::InputError> {
-///     let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
-///     Ok(scene.normal_impact(method, &NormalMotion::new(1.0)?)?.overall_restitution())
+/// fn restitution(method: &impl Method<f64>) -> Result<f64, microimpact::InputError> {
+///     let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
+///     Ok(scene.solve(&NormalMotion::new(1.0)?, method)?.normal.overall_restitution())
 /// }
-/// let (exact, quick) = (restitution(&Collocation::<9, f64>::new(1e-9)?)?, restitution(&FixedCost::<6>::new(4)?)?);
+/// let (exact, quick) = (restitution(&Adaptive::new(1e-9)?)?, restitution(&FixedCost::<6>::new(4)?)?);
 /// assert!((exact - quick).abs() < 1e-6);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
-pub trait Method<T: Real, O> {
-    /// The motion under a law of a sphere that arrives with a kinetic energy.
-    fn solve<L: NormalLaw<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T>;
+pub trait Method<T: Real> {
+    /// The motion under a law, in units of the impact, of a sphere that arrives with a kinetic energy.
+    fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T>;
 }
 
 /// What a motion took.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Effort<T> {
-    pub(super) stretches: u32,
-    pub(super) refused: u32,
-    pub(super) sweeps: u32,
+pub(crate) struct Effort<T> {
+    pub(crate) intervals: u32,
+    pub(crate) refused: u32,
+    pub(crate) sweeps: u32,
     /// Evaluations in each sweep.
-    pub(super) nodes: u32,
-    /// Largest estimated error of a stretch.
-    pub(super) error: T,
+    pub(crate) nodes: u32,
+    /// Largest estimated error of an interval.
+    pub(crate) error: T,
+}
+
+impl<T: Real> NormalPath<T> {
+    /// That of a law that the method cannot represent.
+    pub(crate) fn unsupported(energy: T) -> Self {
+        Self { end: End::Unsupported, energy, peak: T::ZERO, turning: T::ZERO, effort: Effort::NONE }
+    }
 }
 
 impl<T: Real> Effort<T> {
-    pub(super) fn add(&mut self, other: &Self) {
-        self.stretches += other.stretches;
+    pub(crate) const NONE: Self = Self { intervals: 0, refused: 0, sweeps: 0, nodes: 0, error: T::ZERO };
+
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.intervals += other.intervals;
         self.refused += other.refused;
         self.sweeps += other.sweeps;
         self.error = self.error.max(other.error);
     }
 }
 
-/// Times that a stretch may be solved anew to find where the sphere begins to roll.
+/// Times that an interval may be solved anew to find where the sphere begins to roll.
 const MOST_SPLITS: u32 = 40;
 
-/// Stretches that a motion may take, refused ones included.
-pub(super) const MOST_STRETCHES: u32 = 160;
+/// Intervals that a motion may take, refused ones included.
+pub(crate) const MOST_INTERVALS: u32 = 160;
 
 /// A motion in progress.
-pub(super) struct Follower<'a, T, L, O> {
-    pub(super) law: &'a L,
-    pub(super) control: Control<T>,
+pub(crate) struct Follower<'a, T, L, O> {
+    pub(crate) law: &'a L,
+    pub(crate) control: Control<T>,
     observer: &'a mut O,
-    pub(super) at: Point<T>,
+    pub(crate) at: Point<T>,
     /// Where the barrier stands that holds the sphere, and the energy to pass it; zero without an external force.
-    pub(super) brink: (T, T),
-    pub(super) effort: Effort<T>,
+    pub(crate) barrier: (T, T),
+    pub(crate) effort: Effort<T>,
 }
 
-/// Follows the normal motion of a sphere that arrives with a kinetic energy of `energy`.
-///
-/// Where `to_turning_point`, a captured sphere is followed until it first turns back; else only until it cannot escape.
-pub(super) fn follow<T: Nodes<N>, const N: usize, L: NormalLaw<T>, O: Observer<T>>(
-    law: &L,
-    energy: T,
-    control: Control<T>,
-    to_turning_point: bool,
-    observer: &mut O,
-) -> NormalPath<T> {
-    let mut path = Follower::arriving(law, energy, control, observer).contact::<N>(to_turning_point);
-    if path.effort.stretches + path.effort.refused >= MOST_STRETCHES {
-        // Of a capture, peak or turning point are still out of sight.
-        path.end = End::Budget;
-    }
-    path
-}
-
-/// Share of a stretch at which the sphere begins to roll, the part up to there, and what is left of the error, as a share of
-/// the stretch; from a first value of the share.
-pub(super) fn find_end_of_slip<T: Nodes<N>, const N: usize>(
-    law: &impl NormalLaw<T>,
+/// Fraction of an interval at which the sphere begins to roll, the part up to there, and what is left of the error, as a share of
+/// the interval; from a first value of the share.
+pub(crate) fn find_end_of_slip<T: Nodes<N>, const N: usize>(
+    law: &impl ContactLaw<T>,
     observer: &impl Observer<T>,
     share: T,
     tolerance: T,
-    mut part: impl FnMut(T) -> Stretch<T, N>,
-) -> (T, Stretch<T, N>, T) {
+    mut part: impl FnMut(T) -> Interval<T, N>,
+) -> (T, Interval<T, N>, T) {
     let close = T::constant(0.03) * tolerance.sqrt();
     let (mut z, mut before, mut after) = (share, T::ZERO, T::ONE);
     let mut tries = 0;
     loop {
         let first = part(z);
         // Newton's step, held between the places known to come before and after.
-        let late = observer.lateness(law, &first) * z;
+        let late = observer.residual(law, &first) * z;
         tries += 1;
         if late.abs() <= close * z {
             return (z, first, late);
@@ -142,26 +135,25 @@ pub(super) fn find_end_of_slip<T: Nodes<N>, const N: usize>(
     }
 }
 
-impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
-    pub(super) fn from(law: &'a L, control: Control<T>, observer: &'a mut O, at: Point<T>) -> Self {
-        let effort = Effort { stretches: 0, refused: 0, sweeps: 0, nodes: 0, error: T::ZERO };
-        Self { law, control, observer, at, brink: (T::ZERO, T::ZERO), effort }
+impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
+    pub(crate) fn from(law: &'a L, control: Control<T>, observer: &'a mut O, at: Point<T>) -> Self {
+        Self { law, control, observer, at, barrier: (law.end(), T::ZERO), effort: Effort::NONE }
     }
 
     /// At first touch, with a kinetic energy.
-    pub(super) fn arriving(law: &'a L, energy: T, control: Control<T>, observer: &'a mut O) -> Self {
-        let at = Point { s: T::ZERO, energy, speed_squared: energy + energy };
+    pub(crate) fn arriving(law: &'a L, energy: T, control: Control<T>, observer: &'a mut O) -> Self {
+        let at = Point::arriving(law, energy);
         let mut follower = Self::from(law, control, observer, at);
         // A sphere that comes slower than a barrier is high turns back in front of it and has none to pass on its way out.
-        let barrier = brink(law);
-        if energy > barrier.1 {
-            follower.brink = barrier;
+        let barrier = well::barrier(law);
+        if at.energy > barrier.1 {
+            follower.barrier = barrier;
         }
         follower
     }
 
     /// From first touch to separation or capture.
-    pub(super) fn contact<const N: usize>(&mut self, to_turning_point: bool) -> NormalPath<T>
+    pub(crate) fn contact<const N: usize>(&mut self, to_turning_point: bool) -> NormalPath<T>
     where
         T: Nodes<N>,
     {
@@ -189,22 +181,22 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     /// Whether the sphere cannot escape any more.
     #[inline]
     fn is_held(&self) -> bool {
-        self.at.energy < self.brink.1 && self.at.s >= self.brink.0
+        self.at.energy < self.barrier.1 && self.at.s >= self.barrier.0
     }
 
     /// From first touch to the peak; `Err` where the motion ends without one.
-    pub(super) fn approach<const N: usize>(&mut self) -> Result<(), End>
+    pub(crate) fn approach<const N: usize>(&mut self) -> Result<(), End>
     where
         T: Nodes<N>,
     {
         let half = T::constant(0.5);
         let beyond = self.undamped_peak();
         // Without an external force no peak lies beyond one.
-        let farthest = if L::MAY_REPEL { beyond } else { T::ONE };
+        let farthest = if self.law.may_have_barrier() { beyond } else { T::ONE };
         let mut length = half;
         loop {
-            if self.at.s > T::ZERO {
-                let arrival: Stretch<T, N> =
+            if self.at.s > self.law.start() {
+                let arrival: Interval<T, N> =
                     arrive(self.law, &self.at, beyond, Course::APPROACH, &self.control, &mut self.effort.sweeps);
                 if self.take(&arrival, Course::APPROACH, Some(arrival.end.s))? {
                     return Ok(());
@@ -217,7 +209,7 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 length = self.first_length();
             }
             loop {
-                let stretch: Stretch<T, N> = pass(
+                let interval: Interval<T, N> = pass(
                     self.law,
                     &self.at,
                     (length, T::ZERO),
@@ -225,8 +217,8 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                     &self.control,
                     &mut self.effort.sweeps,
                 );
-                let factor = self.length_factor(N, &stretch);
-                if self.take(&stretch, Course::APPROACH, None)? {
+                let factor = self.length_factor(N, &interval);
+                if self.take(&interval, Course::APPROACH, None)? {
                     length = (length * factor).min(farthest - self.at.s * half);
                     break;
                 }
@@ -239,7 +231,7 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     }
 
     /// A contact radius that the energy does not reach.
-    pub(super) fn undamped_peak(&self) -> T {
+    pub(crate) fn undamped_peak(&self) -> T {
         let mut beyond = T::ONE;
         for _ in 0..60 {
             if self.law.potential(beyond) >= self.at.energy * T::constant(0.999) {
@@ -250,19 +242,20 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         beyond
     }
 
-    /// The first stretch is short if the pull of adhesion outgrows the initial energy, or if damping takes it at once.
+    /// The first interval is short if the pull of adhesion outgrows the initial energy, or if damping takes it at once.
     fn first_length(&self) -> T {
         let half = T::constant(0.5);
-        let (energy, speed) = (self.at.energy, self.at.speed_squared.sqrt());
+        let (start, energy, speed) = (self.at.s, half * self.at.speed_squared, self.at.speed_squared.sqrt());
         let mut length = half;
         for _ in 0..60 {
-            if energy >= half * self.law.potential(half * length).abs() {
+            let rise = self.law.potential(start + half * length) - self.law.potential(start);
+            if energy >= half * rise.abs() {
                 break;
             }
             length = length * T::constant(0.4);
         }
         for _ in 0..60 {
-            if self.law.loss(length, false) * length <= T::constant(4.0) * speed {
+            if self.law.loss(start + length, false) * length <= T::constant(4.0) * speed {
                 break;
             }
             length = length * T::constant(0.7);
@@ -270,7 +263,7 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         length
     }
 
-    /// No stretch goes beyond the undamped turning point, nor more than half way to where drag alone stops the sphere.
+    /// No interval goes beyond the undamped turning point, nor more than half way to where drag alone stops the sphere.
     fn braked_length(&self, length: T, undamped_turning_point: T) -> T {
         let (speed, loss) = (self.at.speed_squared.sqrt(), self.law.loss(self.at.s, false));
         let mut length = length;
@@ -290,20 +283,22 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         T: Nodes<N>,
     {
         let half = T::constant(0.5);
-        let peak = self.at.s;
+        let (peak, outermost) = (self.at.s, self.law.end());
         let captured = self.is_held();
         if (captured && !to_turning_point) || self.creeps(peak, T::ZERO, Course::REBOUND) {
             return Ok(T::ZERO);
         }
-        let depth = self.leave_peak::<N>(half * peak)?;
-        let mut length = if depth < T::constant(0.4) * peak { T::constant(4.0) * depth } else { self.at.s };
-        while self.at.s > T::ZERO {
+        let distance = peak - outermost;
+        let depth = self.leave_peak::<N>(half * distance)?;
+        let mut length =
+            if depth < T::constant(0.4) * distance { T::constant(4.0) * depth } else { self.at.s - outermost };
+        while self.at.s > outermost {
             if self.is_held() {
                 if !to_turning_point || self.creeps(self.at.s, self.at.speed_squared.sqrt(), Course::REBOUND) {
                     return Ok(T::ZERO);
                 }
                 let guess = self.outer_turning_point();
-                let arrival: Stretch<T, N> =
+                let arrival: Interval<T, N> =
                     arrive(self.law, &self.at, guess, Course::REBOUND, &self.control, &mut self.effort.sweeps);
                 if self.take(&arrival, Course::REBOUND, Some(arrival.end.s))? {
                     return Ok(self.at.s);
@@ -321,15 +316,15 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 length = self.departing_length(length);
             }
             loop {
-                let to_zero = length >= self.at.s;
-                let step = if to_zero { -self.at.s } else { -length };
-                let stretch: Stretch<T, N> =
+                let to_the_end = length >= self.at.s - outermost;
+                let step = if to_the_end { outermost - self.at.s } else { -length };
+                let interval: Interval<T, N> =
                     pass(self.law, &self.at, (step, T::ZERO), Course::REBOUND, &self.control, &mut self.effort.sweeps);
-                let factor = self.length_factor(N, &stretch);
-                if self.take(&stretch, Course::REBOUND, None)? {
+                let factor = self.length_factor(N, &interval);
+                if self.take(&interval, Course::REBOUND, None)? {
                     length = length * factor;
-                    if to_zero {
-                        self.at.s = T::ZERO;
+                    if to_the_end {
+                        self.at.s = outermost;
                     }
                     break;
                 }
@@ -338,7 +333,7 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                     return if self.is_held() { Ok(T::ZERO) } else { Err(End::Budget) };
                 }
                 // Where the forces left are hardly more than their rounding, errors are, squared, what that makes of them: no
-                // stretch is short enough.
+                // interval is short enough.
                 let roundings = (T::constant(2e-4) / self.control.error).sqrt();
                 if self.is_held() && self.is_at_equilibrium(roundings) {
                     return Ok(T::ZERO);
@@ -348,17 +343,17 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         if self.is_held() { Ok(T::ZERO) } else { Err(End::Separation) }
     }
 
-    /// The first stretch of the rebound, no deeper than `deepest`; its depth.
+    /// The first interval of the rebound, no deeper than `deepest`; its depth.
     #[inline]
-    pub(super) fn leave_peak<const N: usize>(&mut self, deepest: T) -> Result<T, End>
+    pub(crate) fn leave_peak<const N: usize>(&mut self, deepest: T) -> Result<T, End>
     where
         T: Nodes<N>,
     {
         self.leave_turning_point::<N>(deepest, Course::REBOUND)
     }
 
-    /// The first stretch from a turning point, no longer than `longest`; its length.
-    pub(super) fn leave_turning_point<const N: usize>(&mut self, longest: T, course: Course) -> Result<T, End>
+    /// The first interval from a turning point, no longer than `longest`; its length.
+    pub(crate) fn leave_turning_point<const N: usize>(&mut self, longest: T, course: Course) -> Result<T, End>
     where
         T: Nodes<N>,
     {
@@ -373,9 +368,9 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         }
         loop {
             let (energy, sweeps) = (self.at.energy, &mut self.effort.sweeps);
-            let stretch: Stretch<T, N> = leave(self.law, from, signed(depth), energy, course, &self.control, sweeps);
-            let factor = self.length_factor(N, &stretch);
-            if self.take(&stretch, course, Some(from))? {
+            let interval: Interval<T, N> = leave(self.law, from, signed(depth), energy, course, &self.control, sweeps);
+            let factor = self.length_factor(N, &interval);
+            if self.take(&interval, course, Some(from))? {
                 return Ok(depth);
             }
             depth = depth * factor.min(T::constant(0.7));
@@ -389,19 +384,21 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     fn departing_length(&self, length: T) -> T {
         let half = T::constant(0.5);
         let s = self.at.s;
-        if s > self.brink.0 && self.brink.0 > T::ZERO {
+        if s > self.barrier.0 && self.barrier.0 > self.law.end() {
             // Nothing may be jumped: whether the barrier is passed is seen on it.
-            return length.min(s - self.brink.0);
+            return length.min(s - self.barrier.0);
         }
-        let length = length.min(s);
-        if length >= T::constant(0.67) * s && self.at.energy < half * self.law.potential(half * s).abs() {
-            return T::constant(0.6) * s;
+        let distance = s - self.law.end();
+        let length = length.min(distance);
+        let half_way = s - half * distance;
+        if length >= T::constant(0.67) * distance && self.at.energy < half * self.law.potential(half_way).abs() {
+            return T::constant(0.6) * distance;
         }
         length
     }
 
     /// Where the potential equals the energy of a captured sphere, at its outermost point.
-    pub(super) fn outer_turning_point(&self) -> T {
+    pub(crate) fn outer_turning_point(&self) -> T {
         let (s, energy) = (self.at.s, self.at.energy);
         let (slope, curvature) = (self.law.slope(s), self.law.curvature(s).max(T::SMALLEST));
         let distance = slope / curvature;
@@ -410,7 +407,7 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             // So close to the bottom energies hardly differ, but forces do: a little beyond the turning point of a linear swing.
             return s - distance - T::constant(1.01) * swing;
         }
-        let (mut below, mut above) = (T::ZERO, s);
+        let (mut below, mut above) = (self.law.end(), s);
         for _ in 0..12 {
             let middle = (below + above) * T::constant(0.5);
             if self.law.potential(middle) > energy {
@@ -429,7 +426,7 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             let slope = self.law.slope(turning);
             if slope < T::ZERO {
                 let next = turning - (self.law.potential(turning) - energy) / slope;
-                if next > T::ZERO && next < s {
+                if next > self.law.end() && next < s {
                     turning = next;
                 }
             }
@@ -437,41 +434,41 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         turning
     }
 
-    /// Goes on to the end of a stretch if it is accepted; `turning_point` is that of a stretch that has one.
+    /// Goes on to the end of an interval if it is accepted; `turning_point` is that of an interval that has one.
     #[inline]
-    pub(super) fn take<const N: usize>(
+    pub(crate) fn take<const N: usize>(
         &mut self,
-        stretch: &Stretch<T, N>,
+        interval: &Interval<T, N>,
         course: Course,
         turning_point: Option<T>,
     ) -> Result<bool, End>
     where
         T: Nodes<N>,
     {
-        if !stretch.accepted {
-            // An arrival that is refused beforehand costs nothing; there is one at most for each stretch taken.
-            let tried = stretch.forward || stretch.error < T::ONE;
+        if !interval.accepted {
+            // An arrival that is refused beforehand costs nothing; there is one at most for each interval taken.
+            let tried = interval.forward || interval.error < T::ONE;
             self.effort.refused += u32::from(tried);
         } else {
-            self.effort.stretches += 1;
-            self.effort.error = self.effort.error.max(stretch.error);
-            let roll = if O::EVENTS { self.observer.rolls_at(self.law, stretch) } else { None };
+            self.effort.intervals += 1;
+            self.effort.error = self.effort.error.max(interval.error);
+            let roll = if O::EVENTS { self.observer.rolls_at(self.law, interval) } else { None };
             match roll {
-                Some(z) => self.split(stretch, course, turning_point, z),
-                None => self.observer.observe(self.law, stretch, course.rebound),
+                Some(z) => self.split(interval, course, turning_point, z),
+                None => self.observer.observe(self.law, interval, course.rebound),
             }
-            self.at = stretch.end;
+            self.at = interval.end;
         }
-        if self.effort.stretches + self.effort.refused >= MOST_STRETCHES {
+        if self.effort.intervals + self.effort.refused >= MOST_INTERVALS {
             return Err(if self.is_held() { End::Capture } else { End::Budget });
         }
-        Ok(stretch.accepted)
+        Ok(interval.accepted)
     }
 
-    /// Solves a stretch in two parts, before and after the sphere begins to roll at z, so that what is observed keeps
+    /// Solves an interval in two parts, before and after the sphere begins to roll at z, so that what is observed keeps
     /// the full order.
     #[inline(never)]
-    fn split<const N: usize>(&mut self, whole: &Stretch<T, N>, course: Course, turning_point: Option<T>, z: T)
+    fn split<const N: usize>(&mut self, whole: &Interval<T, N>, course: Course, turning_point: Option<T>, z: T)
     where
         T: Nodes<N>,
     {
@@ -503,16 +500,16 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             Some(peak) => {
                 let back = Course { reversed: true, ..course };
                 let back = leave(law, peak, peak - middle.s, whole.end.energy, back, &control, sweeps);
-                Stretch { forward: false, end: whole.end, ..back }
+                Interval { forward: false, end: whole.end, ..back }
             }
             None => pass(law, &middle, (to - middle.s, T::ZERO), course, &control, sweeps),
         };
         self.observer.observe_rolling(law, whole, &first, late, &mut after, course.rebound);
     }
 
-    /// By how much the next stretch may be longer, from 0.3 to 3: (allowed error/error)^(1/2N).
-    pub(super) fn length_factor<const N: usize>(&self, nodes: usize, stretch: &Stretch<T, N>) -> T {
-        let (error, allowed) = (stretch.error, self.control.error);
+    /// By how much the next interval may be longer, from 0.3 to 3: (allowed error/error)^(1/2N).
+    pub(crate) fn length_factor<const N: usize>(&self, nodes: usize, interval: &Interval<T, N>) -> T {
+        let (error, allowed) = (interval.error, self.control.error);
         if error >= T::ONE {
             return T::constant(0.4);
         }
@@ -545,12 +542,13 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     /// The line y = (d/2) |x_eq - x| with d^2 >= 4 k, d the least damping and k the greatest stiffness on the way, can be
     /// crossed towards the equilibrium only.
     #[inline(never)]
-    pub(super) fn creeps(&self, s: T, y: T, course: Course) -> bool {
+    pub(crate) fn creeps(&self, s: T, y: T, course: Course) -> bool {
         let law = self.law;
         // On the way out the equilibrium lies nearer than first touch, so the secant below is at least this steep.
         let strength = law.damping(s, course.rebound);
         let steepest = T::constant(4.0) * law.slope(s);
-        if course.rebound && strength * strength * law.indentation(s) * law.indentation_slope(s) <= steepest {
+        let farthest = law.indentation(s) - law.indentation(law.end());
+        if course.rebound && strength * strength * farthest * law.indentation_slope(s) <= steepest {
             return false;
         }
         let Some(equilibrium) = self.equilibrium() else {
@@ -579,9 +577,9 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     }
 
     /// Contact radius at which the forces balance: the minimum of the potential, by Newton's method from above.
-    pub(super) fn equilibrium(&self) -> Option<T> {
+    pub(crate) fn equilibrium(&self) -> Option<T> {
         let mut s = T::constant(2.0);
-        if L::MAY_REPEL {
+        if self.law.may_have_barrier() {
             // An external force may also hold the sphere beyond.
             for _ in 0..60 {
                 if self.law.slope(s) > T::ZERO {
@@ -597,7 +595,7 @@ impl<'a, T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             }
             let step = self.law.slope(s) / curvature;
             s = s - step;
-            if s <= T::EPSILON {
+            if s - self.law.end() <= T::EPSILON {
                 return None;
             }
             if step.abs() <= T::EPSILON * s {

@@ -7,46 +7,46 @@
 // Indices run over arrays of the length that their loops count to.
 #![allow(clippy::indexing_slicing, clippy::needless_range_loop)]
 
-use super::law::NormalLaw;
-use super::nodes::{Nodes, PhaseNodes, PhaseSamples, Share};
-use super::stretch::{Point, Stretch, coefficients, series};
+use super::interval::{Interval, Point, coefficients, series};
+use super::nodes::{Nodes, PhaseNodes, PhaseSamples};
 use crate::Real;
+use crate::contact::law::{ContactLaw, Fraction};
 
 /// Speeds over z at the nodes, and what they follow from.
 #[derive(Clone)]
-pub(super) struct Phase<T, const N: usize> {
+pub(crate) struct Phase<T, const N: usize> {
     /// Peak contact radius.
-    pub(super) peak: T,
+    pub(crate) peak: T,
     /// Squares without losses.
-    pub(super) free: [T; N],
+    pub(crate) free: [T; N],
     /// Loss for each dz, over the weight of the nodes; negative on rebound.
-    pub(super) loss: [T; N],
-    pub(super) speed: [T; N],
+    pub(crate) loss: [T; N],
+    pub(crate) speed: [T; N],
     /// Half the reciprocals of the speeds, or of earlier ones.
     half_inverse: [T; N],
     /// Energy that the losses are estimated to give over the whole approach.
-    pub(super) estimate: T,
+    pub(crate) estimate: T,
 }
 
 /// What a phase loses over an energy, and what its nodes cannot represent.
-pub(super) struct Tails<T> {
-    pub(super) lost: T,
+pub(crate) struct Tails<T> {
+    pub(crate) lost: T,
     /// Of the losses, over the energy.
-    pub(super) power: T,
+    pub(crate) power: T,
     /// Of the reciprocal speed, over itself.
-    pub(super) slowness: T,
+    pub(crate) slowness: T,
 }
 
 impl<T: Real> Tails<T> {
     /// Estimated error of e^2; quadrature is exact to twice the degree of the polynomial, so that it goes with squares.
-    pub(super) fn error_of_energy(&self) -> T {
+    pub(crate) fn error_of_energy(&self) -> T {
         let power = self.power * self.power / (self.lost + T::SMALLEST);
         let slowness = T::constant(0.03) * self.lost * self.slowness * self.slowness;
         T::constant(0.5) * power.max(slowness)
     }
 
     /// Estimated error of integrals over time, in proportion to themselves, where the quadrature itself is exact.
-    pub(super) fn error_of_times(&self) -> T {
+    pub(crate) fn error_of_times(&self) -> T {
         let square = self.slowness * self.slowness;
         (T::constant(2e-3) * self.power).max(T::constant(0.06) * square * square)
     }
@@ -54,18 +54,18 @@ impl<T: Real> Tails<T> {
 
 impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     /// The approach to the peak that an energy reaches, and what damping is estimated to take on the way.
-    pub(super) fn approach<L: NormalLaw<T>>(law: &L, energy: T) -> Self {
+    pub(crate) fn approach<L: ContactLaw<T>>(law: &L, energy: T) -> Self {
         let zeros = [T::ZERO; N];
         let mut phase =
             Self { peak: T::ONE, free: zeros, loss: zeros, speed: zeros, half_inverse: zeros, estimate: T::ZERO };
-        if L::MAY_REPEL {
+        if law.may_have_barrier() {
             phase.peak = phase.peak - (law.potential(phase.peak) - energy) / law.slope(phase.peak);
         }
-        let half_loss = |share| T::constant(2.0) * phase.peak * law.loss_over_square(phase.peak, share, false);
-        let ends = (half_loss(&T::SHARES[0]), half_loss(&T::SHARES[N - 1]));
+        let half_loss = |fraction| T::constant(2.0) * phase.peak * law.loss_over_square(phase.peak, fraction, false);
+        let ends = (half_loss(&T::FRACTIONS[0]), half_loss(&T::FRACTIONS[N - 1]));
         for j in 0..N {
-            let free = Self::free_square(law, phase.peak, &T::SHARES[j]);
-            let root = if L::MAY_REPEL { free.max(T::SMALLEST).sqrt() } else { free.sqrt() };
+            let free = Self::free_square(law, phase.peak, &T::FRACTIONS[j]);
+            let root = if law.may_have_barrier() { free.max(T::SMALLEST).sqrt() } else { free.sqrt() };
             phase.speed[j] = root + Self::gain(ends, j);
         }
         // The speed half-way stands for all.
@@ -73,9 +73,9 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         phase.estimate = (first * ends.0 + last * ends.1) * (phase.speed[(N - 1) / 2] + phase.speed[N / 2]);
         let before = phase.peak;
         phase.correct_peak(law, energy, phase.estimate);
-        // Elastic energy goes with the fifth power of the peak, the speed with its root.
-        let growth = (phase.peak - before) / before;
-        let factor = T::ONE + growth * (T::constant(2.5) + T::constant(1.875) * growth);
+        // The speed goes with the root of the elastic energy, a power of the peak: two terms of its binomial series.
+        let (growth, power) = ((phase.peak - before) / before, law.energy_power() / 2.0);
+        let factor = T::ONE + growth * (T::constant(power) + T::constant(power * (power - 1.0) / 2.0) * growth);
         phase.describe(law, false);
         phase.speed = phase.speed.map(|speed| speed * factor);
         phase.renew();
@@ -83,7 +83,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     }
 
     /// From the approach to the rebound from the same peak, with what damping takes estimated.
-    pub(super) fn turn(&mut self, law: &impl NormalLaw<T>) {
+    pub(crate) fn turn(&mut self, law: &impl ContactLaw<T>) {
         let before = self.ends();
         self.describe(law, true);
         let after = self.ends();
@@ -98,33 +98,33 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
 
     /// Takes the reciprocal at the slow end, where the speed changes most.
     #[inline]
-    pub(super) fn renew_slowest(&mut self) {
+    pub(crate) fn renew_slowest(&mut self) {
         self.half_inverse[N - 1] = T::constant(0.5) / self.speed[N - 1];
     }
 
     /// Takes the reciprocals of the present speeds.
     #[inline]
-    pub(super) fn renew(&mut self) {
+    pub(crate) fn renew(&mut self) {
         for j in 0..N {
             self.half_inverse[j] = T::constant(0.5) / self.speed[j];
         }
     }
 
     /// Free squares and losses for the present peak.
-    pub(super) fn describe(&mut self, law: &impl NormalLaw<T>, rebound: bool) {
+    pub(crate) fn describe(&mut self, law: &impl ContactLaw<T>, rebound: bool) {
         // A copy, which the compiler knows to stay the same from node to node.
         let (peak, four) = (self.peak, T::constant(if rebound { -4.0 } else { 4.0 }));
         for j in 0..N {
-            let share = &T::SHARES[j];
-            self.free[j] = Self::free_square(law, peak, share);
-            self.loss[j] = four * peak * law.loss_over_square(peak, share, rebound);
+            let fraction = &T::FRACTIONS[j];
+            self.free[j] = Self::free_square(law, peak, fraction);
+            self.loss[j] = four * peak * law.loss_over_square(peak, fraction, rebound);
         }
     }
 
     #[inline]
-    fn free_square(law: &impl NormalLaw<T>, peak: T, share: &Share<T>) -> T {
-        let fall = law.fall(peak, share);
-        fall + fall
+    fn free_square(law: &impl ContactLaw<T>, peak: T, fraction: &Fraction<T>) -> T {
+        let drop = law.potential_drop(peak, fraction);
+        drop + drop
     }
 
     /// One sweep, with a step of Newton's method for the root at every node: the energy that the losses then give and, where
@@ -132,7 +132,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     ///
     /// It multiplies by reciprocals of earlier speeds, which is as good as to divide while the speeds change little.
     #[inline(never)]
-    pub(super) fn sweep<const MEASURED: bool>(&mut self) -> (T, T) {
+    pub(crate) fn sweep<const MEASURED: bool>(&mut self) -> (T, T) {
         let half = T::constant(0.5);
         let mut square = self.free;
         T::add_running(&mut square, &self.loss, &self.speed);
@@ -155,10 +155,10 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
 
     /// One of Newton's steps for the peak whose potential, with what was lost on the way, is the energy; the energy there.
     #[inline]
-    pub(super) fn correct_peak(&mut self, law: &impl NormalLaw<T>, energy: T, lost: T) -> T {
+    pub(crate) fn correct_peak(&mut self, law: &impl ContactLaw<T>, energy: T, lost: T) -> T {
         let excess = law.potential(self.peak) + lost - energy;
-        // Losses grow with the fifth power of the peak.
-        let growth = T::constant(5.0) * lost / self.peak;
+        // Losses are about proportional to the elastic energy.
+        let growth = T::constant(law.energy_power()) * lost / self.peak;
         let step = excess / (law.slope(self.peak) + growth);
         self.peak = self.peak - step;
         energy - (lost - growth * step)
@@ -166,7 +166,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
 
     /// What the nodes cannot represent of the losses, as a share of the energy, and of the reciprocal speed, which is smooth
     /// except near the slow end of a phase.
-    pub(super) fn tails(&self, energy: T) -> Tails<T> {
+    pub(crate) fn tails(&self, energy: T) -> Tails<T> {
         let (mut power_tail, mut lost, mut slowness_tail, mut slowness) = (T::ZERO, T::ZERO, T::ZERO, T::ZERO);
         for k in 0..N {
             let (power, inverse) = (self.loss[k] * self.speed[k], T::ONE / self.speed[k]);
@@ -195,27 +195,27 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     }
 
     /// The whole phase at Radau's nodes, for what is integrated along it; z runs against time on approach.
-    pub(super) fn samples<const M: usize>(&self, law: &impl NormalLaw<T>, rebound: bool) -> Stretch<T, M>
+    pub(crate) fn samples<const M: usize>(&self, law: &impl ContactLaw<T>, rebound: bool) -> Interval<T, M>
     where
         T: PhaseSamples<N, M>,
     {
         let two = T::constant(2.0);
-        let shares = &<T as PhaseSamples<N, M>>::SHARES;
+        let fractions = &<T as PhaseSamples<N, M>>::FRACTIONS;
         let mut square = [T::ZERO; M];
         for q in 0..M {
-            square[q] = two * law.fall(self.peak, &shares[q]);
+            square[q] = two * law.potential_drop(self.peak, &fractions[q]);
         }
         self.add_gains(&mut square);
         let (mut s, mut y, mut rate) = ([T::ZERO; M], [T::ZERO; M], [T::ZERO; M]);
         for q in 0..M {
             let speed = square[q].max(T::SLOWEST * T::SLOWEST).sqrt();
-            s[q] = self.peak * shares[q].radius;
+            s[q] = self.peak * fractions[q].value;
             y[q] = speed * <T as Nodes<M>>::Z[q];
             rate[q] = two * self.peak * law.indentation_slope(s[q]) / speed;
         }
         let (place, speed) = if rebound { (T::ZERO, y[M - 1]) } else { (self.peak, T::ZERO) };
         let end = Point { s: place, energy: T::ZERO, speed_squared: speed * speed };
-        Stretch { s, y, rate, end, accepted: true, error: T::ZERO, forward: rebound }
+        Interval { s, y, rate, end, accepted: true, error: T::ZERO, forward: rebound }
     }
 
     /// Adds what the losses give to the squares at Radau's nodes.
@@ -233,7 +233,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     }
 
     /// Gains over z as a polynomial, in those of Legendre, from which [`part`](Self::part) reads the phase anywhere.
-    pub(super) fn gains<const M: usize>(&self) -> [T; M]
+    pub(crate) fn gains<const M: usize>(&self) -> [T; M]
     where
         T: PhaseSamples<N, M>,
     {
@@ -247,7 +247,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     }
 
     /// The phase between two places z, in the order of time.
-    pub(super) fn part<const M: usize>(&self, law: &impl NormalLaw<T>, gains: &[T; M], from: T, to: T) -> Stretch<T, M>
+    pub(crate) fn part<const M: usize>(&self, law: &impl ContactLaw<T>, gains: &[T; M], from: T, to: T) -> Interval<T, M>
     where
         T: PhaseSamples<N, M>,
     {
@@ -260,14 +260,14 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         let length = (to - from).abs();
         let (mut s, mut y, mut rate) = ([T::ZERO; M], [T::ZERO; M], [T::ZERO; M]);
         for q in 0..M {
-            let share = Share::new(T::ONE - z[q] * z[q]);
-            let square = two * law.fall(self.peak, &share) + z[q] * gained[q];
+            let fraction = Fraction::new(T::ONE - z[q] * z[q]);
+            let square = two * law.potential_drop(self.peak, &fraction) + z[q] * gained[q];
             let speed = square.max(T::SLOWEST * T::SLOWEST).sqrt();
-            s[q] = self.peak * share.radius;
+            s[q] = self.peak * fraction.value;
             y[q] = speed * z[q];
             rate[q] = two * length * self.peak * law.indentation_slope(s[q]) / speed;
         }
         let end = Point { s: s[M - 1], energy: T::ZERO, speed_squared: y[M - 1] * y[M - 1] };
-        Stretch { s, y, rate, end, accepted: true, error: T::ZERO, forward: true }
+        Interval { s, y, rate, end, accepted: true, error: T::ZERO, forward: true }
     }
 }

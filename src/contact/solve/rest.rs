@@ -3,19 +3,17 @@
 //! Energies are counted from the bottom of the well, as (V(s) - V(b))/(s - b) (s - b): close to rest nothing cancels, so
 //! that the decay is as exact after hundreds of swings as in the first.
 
-use super::law::NormalLaw;
-use super::motion::{Effort, End, Follower, NormalPath};
+use super::interval::{Course, Interval, arrive, pass};
 use super::nodes::Nodes;
 use super::observer::Observer;
-use super::scaled::Scaled;
-use super::stretch::{Course, Stretch, arrive, pass};
-use super::{Everything, SimulatedImpact};
+use super::path::{Effort, End, Follower, NormalPath};
+use crate::contact::law::{ContactLaw, Units};
 use crate::{InputError, Parameter, Real};
 
 /// When a captured sphere counts as at rest, and how long it is followed until then.
 ///
 /// ```
-/// use microimpact::simulation::{Collocation, Everything, RestCriterion, Simulation};
+/// use microimpact::contact::{Collocation, Everything, RestCriterion, Simulation};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
 /// let scene = Simulation::new(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
@@ -49,7 +47,7 @@ impl<T: Real> RestCriterion<T> {
     /// A value outside its range.
     ///
     /// ```
-    /// use microimpact::simulation::RestCriterion;
+    /// use microimpact::contact::RestCriterion;
     ///
     /// assert!(RestCriterion::new(1e-6, 1000).is_ok());
     /// assert!(RestCriterion::new(1e-6, 0).is_err());
@@ -63,40 +61,11 @@ impl<T: Real> RestCriterion<T> {
     }
 }
 
-/// The result of a simulation that follows a captured sphere to rest.
-///
-/// ```
-/// use microimpact::simulation::{Collocation, RestCriterion, SettledImpact, Simulation, Status};
-/// use microimpact::{NormalMotion, Sphere, Stiffness};
-///
-/// let scene = Simulation::new(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
-///     .with_damping(10.5)?
-///     .with_ring(250.0, 6.25)?;
-/// let (method, criterion) = (Collocation::<9, f64>::new(1e-9)?, RestCriterion::new(1e-6, 1000)?);
-/// let captured: SettledImpact<f64, _> = scene.observe_to_rest(&method, &NormalMotion::new(1.0)?, &criterion)?;
-/// assert_eq!(captured.impact.run.status, Status::Solved);
-/// assert!(captured.motion.is_some());
-/// let rebound: SettledImpact<f64, _> = scene.observe_to_rest(&method, &NormalMotion::new(8.0)?, &criterion)?;
-/// assert!(rebound.motion.is_none());
-/// # Ok::<(), microimpact::InputError>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct SettledImpact<T, G, O = Everything<T>> {
-    /// The impact; of a captured sphere, its outputs and the motion along the surface are those until it rests. Where it
-    /// does not come to rest over as many turning points as were allowed, or damping takes less in a swing than rounding,
-    /// the status of the run says that they are spent.
-    pub impact: SimulatedImpact<T, G, O>,
-    /// How a captured sphere came to where it was left; `None` for a rebound.
-    pub motion: Option<MotionToRest<T>>,
-}
-
 /// How a captured sphere came to rest along the normal.
 ///
 /// ```
 /// use core::f64::consts::PI;
-/// use microimpact::simulation::{Collocation, RestCriterion, SettledImpact, Simulation};
+/// use microimpact::contact::{Collocation, RestCriterion, SettledImpact, Simulation};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
 /// let scene = Simulation::new(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
@@ -127,17 +96,17 @@ pub struct MotionToRest<T> {
 }
 
 /// The motion after capture, in units of the scene.
-pub(super) struct Settling<T> {
+pub struct Settling<T> {
     turning_points: u32,
     creeps: bool,
-    contact_radius: T,
-    pub(super) at_rest: bool,
+    indentation: T,
+    pub(crate) at_rest: bool,
 }
 
 impl<T: Real> Settling<T> {
-    pub(super) fn in_units(&self, time: T, units: &Scaled<T>) -> MotionToRest<T> {
-        let Self { turning_points, creeps, contact_radius: s, .. } = *self;
-        MotionToRest { time: time * units.time(), turning_points, creeps, indentation: units.length * s * s }
+    pub(crate) fn in_units(&self, time: T, units: &Units<T>) -> MotionToRest<T> {
+        let Self { turning_points, creeps, indentation, .. } = *self;
+        MotionToRest { time: time * units.time(), turning_points, creeps, indentation: units.length * indentation }
     }
 }
 
@@ -150,9 +119,9 @@ struct Well<T> {
     rest: T,
 }
 
-impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
+impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
     /// Follows a captured sphere from where its `path` ends to rest; what it takes is added to the path.
-    pub(super) fn settle<const N: usize>(
+    pub(crate) fn settle<const N: usize>(
         &mut self,
         path: &mut NormalPath<T>,
         criterion: &RestCriterion<T>,
@@ -160,12 +129,13 @@ impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
     where
         T: Nodes<N>,
     {
-        let mut settling = Settling { turning_points: 0, creeps: false, contact_radius: self.at.s, at_rest: false };
+        let indentation = self.law.indentation(self.at.s);
+        let mut settling = Settling { turning_points: 0, creeps: false, indentation, at_rest: false };
         let Some(bottom) = self.equilibrium() else {
             return settling;
         };
-        let brink = self.brink.0;
-        let depth = self.law.divided(brink, bottom) * (brink - bottom);
+        let barrier = self.barrier.0;
+        let depth = self.law.mean_slope(barrier, bottom) * (barrier - bottom);
         let well = Well { bottom, rest: criterion.share * depth };
         // Where the sphere would turn back without losses, ahead and behind; it never comes as far again.
         let mut course = if path.peak > T::ZERO { Course::REBOUND } else { Course::APPROACH };
@@ -185,7 +155,7 @@ impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
                 course = if course.rebound { Course::APPROACH } else { Course::REBOUND };
                 (ahead, behind) = (behind, self.at.s);
             }
-            self.effort = Effort { stretches: 0, refused: 0, sweeps: 0, nodes: N as u32, error: T::ZERO };
+            self.effort = Effort { intervals: 0, refused: 0, sweeps: 0, nodes: N as u32, error: T::ZERO };
             let swing = self.swing::<N>(&well, ahead, course, &mut settling.creeps);
             path.effort.add(&self.effort);
             turned = swing == Ok(true);
@@ -203,7 +173,7 @@ impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
                 break;
             }
         }
-        settling.contact_radius = self.at.s;
+        settling.indentation = self.law.indentation(self.at.s);
         path.energy = self.at.energy;
         settling
     }
@@ -215,7 +185,7 @@ impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
     /// Energy above the bottom of the well.
     fn excess(&self, well: &Well<T>) -> T {
         let (s, bottom) = (self.at.s, well.bottom);
-        T::constant(0.5) * self.at.speed_squared + self.law.divided(s, bottom) * (s - bottom)
+        T::constant(0.5) * self.at.speed_squared + self.law.mean_slope(s, bottom) * (s - bottom)
     }
 
     /// To the next turning point (`true`), which does not lie as far as `beyond`, or creeping to rest.
@@ -237,7 +207,7 @@ impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
         let mut length = T::ONE;
         loop {
             if !*creeps {
-                let arrival: Stretch<T, N> =
+                let arrival: Interval<T, N> =
                     arrive(self.law, &self.at, beyond, course, &self.control, &mut self.effort.sweeps);
                 if self.take(&arrival, course, Some(arrival.end.s))? {
                     return Ok(true);
@@ -250,10 +220,10 @@ impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
             loop {
                 let step = if *creeps { length.min(self.creeping_length(well)) } else { length };
                 let polynomial = (along(step), T::ZERO);
-                let stretch: Stretch<T, N> =
+                let interval: Interval<T, N> =
                     pass(self.law, &self.at, polynomial, course, &self.control, &mut self.effort.sweeps);
-                let factor = self.length_factor(N, &stretch);
-                if self.take(&stretch, course, None)? {
+                let factor = self.length_factor(N, &interval);
+                if self.take(&interval, course, None)? {
                     length = step * factor.max(T::ONE);
                     break;
                 }
@@ -281,28 +251,26 @@ impl<T: Real, L: NormalLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::force::NoForce;
-    use super::super::law::HertzLaw;
-    use super::super::ring::ScaledRing;
-    use super::super::stretch::{Control, Point};
-    use super::super::{Collocation, NoDamping};
+    use super::super::interval::Point;
     use super::*;
+    use crate::contact::{Collocation, HertzLaw};
+    use crate::{NormalMotion, Sphere, Stiffness};
 
     /// Nothing takes energy, so that the sphere turns at the same places for ever.
     #[test]
     fn undamped_swings_do_not_drift() -> Result<(), InputError> {
-        let law = HertzLaw { damping: NoDamping, adhesion: ScaledRing { strength: 0.5, damping: 0.0 }, force: NoForce };
-        let control: Control<f64> = Collocation::<12, f64>::new(1e-12)?.control(true);
-        for turning in [0.05, 0.3, 0.5, 0.547] {
+        let law = HertzLaw { adhesion: Ring { strength: 0.5, damping: 0.0 }, ..HertzLaw::new(Stiffness::new(1e10)?) };
+        let control = Collocation::<12, f64>::new(1e-12)?.control(true);
+        for turning in [0.05_f64, 0.3, 0.5, 0.547] {
             let energy = law.potential(turning);
             let at = Point { s: turning, energy, speed_squared: 0.0 };
-            let effort = Effort { stretches: 0, refused: 0, sweeps: 0, nodes: 0, error: 0.0 };
-            let mut path = NormalPath { end: End::Capture, energy, peak: 1.0, turning, effort };
+            let mut path = NormalPath { end: End::Capture, energy, peak: 1.0, turning, effort: Effort::NONE };
             let mut observer = ();
             let mut follower = Follower::from(&law, control, &mut observer, at);
             let settling = follower.settle::<12>(&mut path, &RestCriterion::new(1e-12, 1001)?);
             assert_eq!((settling.turning_points, settling.at_rest, settling.creeps), (1001, false, false));
-            assert!((settling.contact_radius - turning).abs() < 1e-11, "{turning}: {}", settling.contact_radius);
+            let drift = settling.indentation.sqrt() - turning;
+            assert!(drift.abs() < 1e-11, "{turning}: {drift}");
         }
         Ok(())
     }

@@ -1,12 +1,12 @@
 //! What a run took, and whether it came to its end.
 
-use super::motion::{End, NormalPath};
+use super::path::{End, NormalPath};
 use crate::Real;
 
 /// Whether a run came to its end.
 ///
 /// ```
-/// use microimpact::simulation::{Collocation, Simulation, Status};
+/// use microimpact::contact::{Collocation, Simulation, Status};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
 /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
@@ -20,25 +20,31 @@ use crate::Real;
 pub enum Status {
     /// The motion was followed to its end within the tolerance.
     Solved,
-    /// The number of stretches was spent; the result is not to be relied on.
+    /// The number of intervals was spent; the result is not to be relied on.
     BudgetSpent,
+    /// The method cannot represent the law of contact; there is no result.
+    Unsupported,
 }
 
 impl Status {
-    pub(super) fn of<T>(path: &NormalPath<T>) -> Self {
-        if path.end == End::Budget { Self::BudgetSpent } else { Self::Solved }
+    pub(crate) fn of<T>(path: &NormalPath<T>) -> Self {
+        match path.end {
+            End::Separation | End::Capture => Self::Solved,
+            End::Budget => Self::BudgetSpent,
+            End::Unsupported => Self::Unsupported,
+        }
     }
 }
 
 /// What a run took.
 ///
 /// ```
-/// use microimpact::simulation::{Collocation, RunReport, Simulation};
+/// use microimpact::contact::{Collocation, RunReport, Simulation};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
 /// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(10.0)?;
 /// let run: RunReport<f64> = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(1.0)?)?.run;
-/// assert!(run.steps + run.refused <= Collocation::<9, f64>::MOST_STRETCHES);
+/// assert!(run.steps + run.refused <= Collocation::<9, f64>::MOST_INTERVALS);
 /// assert!(run.evaluations >= 9 * run.steps);
 /// assert!(run.estimated_error <= 1e-9);
 /// # Ok::<(), microimpact::InputError>(())
@@ -49,22 +55,22 @@ impl Status {
 pub struct RunReport<T> {
     /// Whether the run came to its end.
     pub status: Status,
-    /// Stretches, phases or steps in time that the motion was divided into.
+    /// Intervals, phases or steps in time that the motion was divided into.
     pub steps: u32,
     /// Those that were tried and refused.
     pub refused: u32,
     /// Evaluations of a speed from the forces, or of the forces in time.
     pub evaluations: u32,
-    /// Largest estimated error of a stretch or phase, over the energy there; zero where a method has no estimate.
+    /// Largest estimated error of an interval or phase, over the energy there; zero where a method has no estimate.
     pub estimated_error: T,
 }
 
 impl<T: Real> RunReport<T> {
-    pub(super) fn new(path: &NormalPath<T>) -> Self {
+    pub(crate) fn new(path: &NormalPath<T>) -> Self {
         let effort = &path.effort;
         Self {
             status: Status::of(path),
-            steps: effort.stretches,
+            steps: effort.intervals,
             refused: effort.refused,
             evaluations: effort.sweeps.saturating_mul(effort.nodes),
             estimated_error: effort.error,

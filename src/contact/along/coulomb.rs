@@ -1,0 +1,242 @@
+//! Coulomb's friction: sliding, then rolling. Without a peeling moment the velocities after the impact follow from the impulse
+//! of the elastic force alone.
+
+use super::rolling::{direction, rolling, rounding};
+use super::{SlipStart, Surface};
+use crate::contact::law::{ContactLaw, Units};
+use crate::contact::solve::integrals::{Integrals, Quantities, Times, observe_by_integrals};
+use crate::contact::solve::interval::Interval;
+use crate::contact::solve::nodes::Nodes;
+use crate::contact::solve::observer::Observer;
+use crate::contact::solve::path::{End, NormalPath};
+use crate::{ContactClass, Coulomb, InputError, Oblique, Real, Sphere, SurfaceMotion};
+
+/// Velocities before contact and the impulse of the elastic force, from which those after it follow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceImpulse<T> {
+    friction: T,
+    gyration_ratio: T,
+    velocity: T,
+    peripheral: T,
+    elastic: T,
+}
+
+impl<T: Real> SurfaceImpulse<T> {
+    /// What friction can change of the slip.
+    #[inline]
+    fn reach(&self) -> T {
+        self.friction * self.elastic * (T::ONE + T::ONE / self.gyration_ratio)
+    }
+
+    /// Whether the sphere still slides, and its tangential and peripheral velocities; a captured one goes on until it rolls.
+    #[inline]
+    fn after(&self, captured: bool) -> (bool, [T; 2]) {
+        let (v, u, kappa) = (self.velocity, self.peripheral, self.gyration_ratio);
+        let slip = v - u;
+        let ends = slip.abs() <= self.reach() || (captured && self.friction > T::ZERO);
+        if ends {
+            let rolling = rolling(v, u, kappa);
+            return (false, [rolling, rolling]);
+        }
+        let impulse = direction(slip) * (self.friction * self.elastic);
+        (true, [v - impulse, u + impulse / kappa])
+    }
+
+    /// Whether it would roll with no more than a speed of rounding.
+    #[inline]
+    fn rests(&self) -> bool {
+        let (v, u, kappa) = (self.velocity, self.peripheral, self.gyration_ratio);
+        rolling(v, u, kappa).abs() <= rounding(v, u, kappa)
+    }
+}
+
+impl<T: Real> Quantities<T> for SurfaceImpulse<T> {
+    #[inline]
+    fn combine(self, other: Self, of: impl Fn(T, T) -> T + Copy) -> Self {
+        Self { elastic: of(self.elastic, other.elastic), ..self }
+    }
+}
+
+impl<T: Real> Integrals<T> for SurfaceImpulse<T> {
+    #[inline]
+    fn growth(&self, law: &impl ContactLaw<T>, s: T, _y: T, _rebound: bool) -> Self {
+        Self { elastic: law.elastic_force(s), ..*self }
+    }
+}
+
+// A captured sphere goes on until it rolls, wherever it turns.
+observe_by_integrals!(SurfaceImpulse, timed: true, to_turning_point: false);
+
+impl<T: Real, B: Oblique<T>> Surface<T, B> for Coulomb<T> {
+    type Start = SlipStart<T, false>;
+    type Observer = SurfaceImpulse<T>;
+    type After = TangentialVelocities<T>;
+
+    #[inline]
+    fn start<L: ContactLaw<T>>(
+        &self,
+        before: &B,
+        sphere: &Sphere<T>,
+        _law: &L,
+        units: &Units<T>,
+    ) -> Result<Self::Start, InputError> {
+        Ok(SlipStart::new(self, before, sphere, units, T::ZERO))
+    }
+
+    #[inline]
+    fn observer(start: &Self::Start) -> SurfaceImpulse<T> {
+        let SlipStart { friction, gyration_ratio, velocity, peripheral, .. } = *start;
+        SurfaceImpulse { friction, gyration_ratio, velocity, peripheral, elastic: T::ZERO }
+    }
+
+    #[inline]
+    fn after(
+        observer: &SurfaceImpulse<T>,
+        path: &NormalPath<T>,
+        sphere: &Sphere<T>,
+        units: &Units<T>,
+    ) -> TangentialVelocities<T> {
+        let captured = path.end == End::Capture;
+        let (sliding, [velocity, peripheral]) = observer.after(captured);
+        TangentialVelocities {
+            motion: surface_motion(sliding, captured && observer.rests()),
+            velocity: velocity * units.speed,
+            spin: peripheral * units.speed / sphere.radius(),
+            slip: (observer.velocity - observer.peripheral).abs(),
+            reach: observer.reach(),
+        }
+    }
+}
+
+impl<T: Real, const PEELS: bool> SlipStart<T, PEELS> {
+    #[inline]
+    pub(super) fn new(
+        friction: &Coulomb<T>,
+        before: &impl Oblique<T>,
+        sphere: &Sphere<T>,
+        units: &Units<T>,
+        peeling: T,
+    ) -> Self {
+        Self {
+            friction: friction.coefficient(),
+            gyration_ratio: sphere.gyration_ratio(),
+            velocity: before.tangential() / units.speed,
+            peripheral: before.peripheral() / units.speed,
+            slip: before.slip(),
+            peeling,
+        }
+    }
+}
+
+/// How the contact point moves.
+#[inline]
+pub(super) fn surface_motion(sliding: bool, resting: bool) -> SurfaceMotion {
+    match (sliding, resting) {
+        (true, _) => SurfaceMotion::Sliding,
+        (false, true) => SurfaceMotion::Resting,
+        (false, false) => SurfaceMotion::Rolling,
+    }
+}
+
+/// Velocities along the surface at separation; of a captured sphere when its slip has ended, as the surface goes on to press
+/// on it.
+///
+/// ```
+/// use microimpact::contact::{Contact, FixedCost};
+/// use microimpact::{NormalMotion, Sphere, Stiffness, SurfaceMotion};
+///
+/// // Sliding throughout: friction takes f times the normal impulse from the velocity.
+/// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_friction(0.1)?;
+/// let motion = NormalMotion::new(1.0)?.with_tangential(5.0)?;
+/// let after = scene.solve(&motion, &FixedCost::<7>::new(3)?)?.tangential;
+/// assert_eq!(after.motion(), SurfaceMotion::Sliding);
+/// assert!((after.velocity() - 4.8_f64).abs() < 1e-5);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct TangentialVelocities<T> {
+    pub(super) motion: SurfaceMotion,
+    pub(super) velocity: T,
+    pub(super) spin: T,
+    /// Size of the slip before contact, in units of the impact.
+    pub(super) slip: T,
+    /// What friction can change of it, or zero where that is not known.
+    pub(super) reach: T,
+}
+
+impl<T: Real> TangentialVelocities<T> {
+    /// Whether the contact point slips, the sphere rolls or, captured, rests.
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness, SurfaceMotion};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_friction(0.5)?;
+    /// let motion = NormalMotion::new(1.0)?.with_tangential(0.7)?;
+    /// assert_eq!(scene.solve(&motion, &Adaptive::new(1e-9)?)?.tangential.motion(), SurfaceMotion::Rolling);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn motion(&self) -> SurfaceMotion {
+        self.motion
+    }
+
+    /// Tangential velocity V_t, m/s.
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// // Rolling at separation: V_t = 5 v_t/7 for a solid sphere, whatever the law of contact.
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_friction(0.5)?;
+    /// let motion = NormalMotion::new(1.0)?.with_tangential(0.7)?;
+    /// assert!((scene.solve(&motion, &Adaptive::new(1e-9)?)?.tangential.velocity() - 0.5_f64).abs() < 1e-12);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn velocity(&self) -> T {
+        self.velocity
+    }
+
+    /// Spin W, rad/s.
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_friction(0.1)?;
+    /// let motion = NormalMotion::new(1.0)?.with_tangential(5.0)?;
+    /// assert!((scene.solve(&motion, &Adaptive::new(1e-9)?)?.tangential.spin() / 0.5e6 - 1.0_f64).abs() < 1e-8);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn spin(&self) -> T {
+        self.spin
+    }
+
+    /// What friction can change of the slip, over the slip: one or more rolls, less slides. `None` where nothing slips, and
+    /// with a peeling moment, which ends a slip as well.
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_friction(0.1)?;
+    /// let motion = NormalMotion::new(1.0)?.with_tangential(1.4)?;
+    /// let after = scene.solve(&motion, &Adaptive::new(1e-9)?)?.tangential;
+    /// assert!(after.friction_over_limit().is_some_and(|margin| (margin - 0.5_f64).abs() < 1e-8));
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn friction_over_limit(&self) -> Option<T> {
+        (self.slip > T::ZERO && self.reach >= T::ZERO).then(|| self.reach.saturating_div(self.slip))
+    }
+
+    /// The same as a part of a [`Classification`](crate::Classification).
+    #[inline]
+    pub(crate) fn class(&self) -> ContactClass<T> {
+        ContactClass { motion: self.motion, friction_over_limit: self.friction_over_limit() }
+    }
+}

@@ -1,0 +1,234 @@
+//! Laws of contact: the normal force as a function of one coordinate, one law a file.
+
+mod chosen;
+mod damping;
+mod force;
+mod fraction;
+mod hertz;
+mod ring;
+
+pub use chosen::{AnyDamping, AnyForce, AnyLaw};
+pub use damping::{Damping, HystereticDamping, NoDamping};
+pub use force::{ConstantForce, NoForce};
+pub use fraction::Fraction;
+pub use hertz::{Attraction, Groups, HertzLaw};
+pub use ring::Ring;
+
+pub use crate::contact::units::Units;
+use crate::{InputError, Real, Sphere};
+
+/// A law of contact: the forces between sphere and surface along the normal, and what they take from the motion.
+///
+/// A scene holds a law in SI units. For each impact, [`in_units`](Self::in_units) gives the same law with its numbers in
+/// units of that impact, and the solver calls all other functions on the result. In those units the mass is one, the
+/// undamped motion turns at or near s = 1, and speeds are at most about one: no product leaves the range of `f32`.
+///
+/// The *coordinate* s is the contact radius or a root of it. It is chosen such that indentation, potential and losses are
+/// smooth functions of it, polynomials in most cases, even where contact begins and ends. The normal motion is then the
+/// path y^2/2 = E - V(s), along which only the losses change the energy E (y is the size of the normal velocity).
+///
+/// To write a law of your own, implement the functions without a default. If its indentation is not x = s^2, give
+/// [`indentation`](Self::indentation) and [`indentation_slope`](Self::indentation_slope) too.
+///
+/// ```
+/// use microimpact::contact::{Adaptive, Contact, ContactLaw, Times, Units};
+/// use microimpact::{InputError, NormalMotion, Sphere};
+///
+/// /// A linear spring (N/m) with a dashpot (N s/m). The coordinate is the root of the indentation, so that x = s^2.
+/// #[derive(Clone, Copy)]
+/// struct SpringAndDashpot {
+///     spring: f64,
+///     dashpot: f64,
+/// }
+///
+/// impl ContactLaw<f64> for SpringAndDashpot {
+///     fn in_units(&self, sphere: &Sphere<f64>, approach: f64) -> Result<(Self, Units<f64>), InputError> {
+///         // Without damping the sphere turns at v sqrt(m/k). With that as the unit of length and v as the unit of speed
+///         // the spring is one, and the kinetic energy before the impact one half.
+///         let frequency = (self.spring / sphere.mass()).sqrt();
+///         let dashpot = self.dashpot / sphere.mass() / frequency;
+///         let units = Units { length: approach / frequency, speed: approach, energy: 0.5 };
+///         Ok((Self { spring: 1.0, dashpot }, units))
+///     }
+///     fn loss_power(&self) -> u32 {
+///         1 // c dx/ds = 2 c s
+///     }
+///     fn potential(&self, s: f64) -> f64 {
+///         self.spring * s.powi(4) / 2.0
+///     }
+///     fn slope(&self, s: f64) -> f64 {
+///         2.0 * self.spring * s.powi(3)
+///     }
+///     fn curvature(&self, s: f64) -> f64 {
+///         6.0 * self.spring * s * s
+///     }
+///     fn mean_slope(&self, p: f64, s: f64) -> f64 {
+///         self.spring * (p + s) * (p * p + s * s) / 2.0
+///     }
+///     fn elastic_force(&self, s: f64) -> f64 {
+///         self.spring * s * s
+///     }
+///     fn material_damping(&self, _s: f64) -> f64 {
+///         self.dashpot
+///     }
+/// }
+///
+/// // A dashpot of half the critical strength 2 sqrt(k m). At zero indentation e = exp(-pi/sqrt(3)).
+/// let sphere = Sphere::solid(1e-3, 1000.0)?;
+/// let spring = 1e3;
+/// let law = SpringAndDashpot { spring, dashpot: (spring * sphere.mass()).sqrt() };
+/// let scene = Contact::new(sphere, law);
+/// let (impact, times) = scene.solve_for(&NormalMotion::new(1.0)?, &Adaptive::new(1e-9)?, Times)?;
+/// let e = (-core::f64::consts::PI / 3f64.sqrt()).exp();
+/// assert!((impact.normal.overall_restitution() - e).abs() < 1e-8);
+/// let period = core::f64::consts::PI * (sphere.mass() / spring / 0.75).sqrt();
+/// assert!((times.contact.unwrap() / period - 1.0).abs() < 1e-7);
+/// # Ok::<(), InputError>(())
+/// ```
+pub trait ContactLaw<T: Real>: Copy {
+    /// The law with its numbers in units of the impact of `sphere` at the speed `approach` (m/s), and those units.
+    ///
+    /// # Errors
+    /// A ratio of forces that cannot be represented.
+    fn in_units(&self, sphere: &Sphere<T>, approach: T) -> Result<(Self, Units<T>), InputError>;
+
+    /// The lowest power of s in the losses c(s) dx/ds, over all that damps on the way in or out.
+    ///
+    /// Methods that solve a whole phase as one polynomial take losses from the power two on, of contacts that begin and end
+    /// at s = 0. They refuse others with a status, so a law whose contact begins or ends elsewhere returns zero.
+    fn loss_power(&self) -> u32;
+
+    /// Potential energy V, zero where contact ends.
+    fn potential(&self, s: T) -> T;
+
+    /// dV/ds.
+    fn slope(&self, s: T) -> T;
+
+    /// d^2V/ds^2.
+    fn curvature(&self, s: T) -> T;
+
+    /// The mean slope (V(p) - V(s))/(p - s), in a form that does not cancel where p and s are close.
+    fn mean_slope(&self, p: T, s: T) -> T;
+
+    /// The elastic force, to which Coulomb's friction is proportional (B8).
+    fn elastic_force(&self, s: T) -> T;
+
+    /// Damping force of the materials for each unit of speed, on the way in and out; none unless given.
+    #[inline]
+    fn material_damping(&self, _s: T) -> T {
+        T::ZERO
+    }
+
+    /// Force of adhesion without its damping; none unless given.
+    #[inline]
+    fn adhesion_force(&self, _s: T) -> T {
+        T::ZERO
+    }
+
+    /// Damping force of adhesion for each unit of speed, on the way out; none unless given.
+    #[inline]
+    fn adhesion_damping(&self, _s: T) -> T {
+        T::ZERO
+    }
+
+    /// Fraction of the force of adhesion that its damping adds for each unit of speed, to which the peeling moment is
+    /// proportional (B10).
+    #[inline]
+    fn adhesion_damping_rate(&self) -> T {
+        T::ZERO
+    }
+
+    /// Indentation x; s^2 unless given.
+    #[inline]
+    fn indentation(&self, s: T) -> T {
+        s * s
+    }
+
+    /// dx/ds; 2 s unless given.
+    #[inline]
+    fn indentation_slope(&self, s: T) -> T {
+        s + s
+    }
+
+    /// The coordinate of an indentation, `None` where the indentation does not determine it.
+    ///
+    /// Only [`RungeKuttaGill`](crate::contact::RungeKuttaGill) needs it, which integrates in time.
+    #[inline]
+    fn coordinate(&self, indentation: T) -> Option<T> {
+        Some(indentation.max(T::ZERO).sqrt())
+    }
+
+    /// Contact radius in units of sqrt(r L), with the sphere's radius r and the unit of length L.
+    #[inline]
+    fn contact_radius(&self, s: T) -> T {
+        s
+    }
+
+    /// Coordinate of first contact.
+    #[inline]
+    fn start(&self) -> T {
+        T::ZERO
+    }
+
+    /// Coordinate at which contact ends on the way out.
+    #[inline]
+    fn end(&self) -> T {
+        T::ZERO
+    }
+
+    /// Whether a maximum of the potential may lie between the end of contact and the peak, as under a force out of the
+    /// surface.
+    #[inline]
+    fn may_have_barrier(&self) -> bool {
+        true
+    }
+
+    /// The power of s with which the elastic energy grows: the solver's first estimates use it.
+    #[inline]
+    fn energy_power(&self) -> f64 {
+        5.0
+    }
+
+    /// A speed (m/s) at which adhesion matters, from which the search for the critical speed starts; of the law in SI units.
+    #[inline]
+    fn speed_of_adhesion(&self, _sphere: &Sphere<T>) -> T {
+        T::ONE
+    }
+
+    /// Duration of a contact without damping and adhesion for a kinetic energy before the impact, about; the step of
+    /// [`RungeKuttaGill`](crate::contact::RungeKuttaGill) is a fraction of it.
+    #[inline]
+    fn duration(&self, energy: T) -> T {
+        T::constant(hertz::HERTZ_DURATION) / (energy + energy).sqrt()
+    }
+
+    /// Force of the potential, -dV/dx. A law whose indentation has no slope where contact begins gives it there.
+    #[inline]
+    fn conservative_force(&self, s: T) -> T {
+        -(self.slope(s) / self.indentation_slope(s))
+    }
+
+    /// Damping force of both kinds for each unit of speed, on the way in or out.
+    #[inline]
+    fn damping(&self, s: T, rebound: bool) -> T {
+        if rebound { self.material_damping(s) + self.adhesion_damping(s) } else { self.material_damping(s) }
+    }
+
+    /// Energy that damping takes for each ds and unit of speed.
+    #[inline]
+    fn loss(&self, s: T, rebound: bool) -> T {
+        self.indentation_slope(s) * self.damping(s, rebound)
+    }
+
+    /// The potential drop from the peak to a fraction m of its coordinate, over 1 - m.
+    #[inline]
+    fn potential_drop(&self, peak: T, fraction: &Fraction<T>) -> T {
+        peak * self.mean_slope(peak, peak * fraction.value)
+    }
+
+    /// [`loss`](Self::loss) at a fraction m > 0 of the peak, over m^2.
+    #[inline]
+    fn loss_over_square(&self, peak: T, fraction: &Fraction<T>, rebound: bool) -> T {
+        self.loss(peak * fraction.value, rebound) / fraction.square
+    }
+}

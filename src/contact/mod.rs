@@ -1,0 +1,94 @@
+//! The contact simulation (Appendix B): forces and time during contact, solved to a tolerance.
+//!
+//! A scene has a law of contact along the normal (Hertz's force with hysteretic damping, ring adhesion and a constant
+//! external force, B6, or a law of your own) and, if it needs one, a law along the surface (Coulomb friction with spin,
+//! and a peeling moment, B7 to B10). Each term is a type that a scene includes or not. The normal motion is solved as kinetic
+//! energy against a coordinate in which it is smooth from first contact to separation, and all else follows from integrals
+//! over it.
+
+mod along;
+mod dimensionless;
+mod law;
+mod outputs;
+mod result;
+mod scene;
+mod solve;
+mod trajectory;
+mod units;
+
+pub use along::{Peeling, Surface, TangentialVelocities};
+pub use dimensionless::{DimensionlessContact, DimensionlessImpact};
+pub use law::{
+    AnyDamping, AnyForce, AnyLaw, Attraction, ConstantForce, ContactLaw, Damping, Fraction, Groups, HertzLaw,
+    HystereticDamping, NoDamping, NoForce, Ring, Units,
+};
+pub use outputs::{
+    ContactImpulses, ContactTimes, ContactWorks, Energy, Impulses, Output, Slip, SlipHistory, Times, Works,
+};
+pub use result::{NormalContact, SettledImpact, SimulatedImpact};
+pub use scene::{Classified, Contact};
+pub use solve::{
+    Adaptive, AdaptiveNodes, Collocation, ErrorControl, FixedCost, Method, MotionToRest, Nodes, PhaseNodes,
+    PhaseSamples, RestCriterion, RungeKuttaGill, RunReport, Status,
+};
+pub use trajectory::{Recording, Sample, Trajectory};
+
+use crate::{Coulomb, NoFriction};
+
+/// An elastic contact with damping, without adhesion and friction.
+///
+/// ```
+/// use microimpact::contact::{Contact, HertzScene};
+/// use microimpact::{Sphere, Stiffness};
+///
+/// struct Detector {
+///     scene: HertzScene<f32>,
+/// }
+/// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
+/// assert_eq!(Detector { scene }.scene.sphere().radius(), 1e-6);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+pub type HertzScene<T, S = NoFriction> = Contact<T, HertzLaw<T, HystereticDamping<T>>, S>;
+
+/// A contact with damping and the paper's ring of adhesion, without friction.
+///
+/// ```
+/// use microimpact::contact::{Contact, RingScene};
+/// use microimpact::{Sphere, Stiffness};
+///
+/// let scene: RingScene<f32> = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?)
+///     .with_damping(10.5)?
+///     .with_ring(250.0, 6.25)?;
+/// assert_eq!(size_of_val(&scene), 7 * size_of::<f32>());
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+pub type RingScene<T, S = NoFriction> = Contact<T, HertzLaw<T, HystereticDamping<T>, Ring<T>>, S>;
+
+/// The scene of the paper: damping, a ring of adhesion, and Coulomb friction.
+///
+/// ```
+/// use microimpact::contact::{Contact, PaperScene};
+/// use microimpact::{InputError, Sphere, Stiffness};
+///
+/// fn glass_on_steel(radius: f32) -> Result<PaperScene<f32>, InputError> {
+///     Contact::hertz(Sphere::solid(radius, 2600.0)?, Stiffness::new(7.5e10)?)
+///         .with_damping(10.5)?
+///         .with_ring(250.0, 6.25)?
+///         .with_friction(0.1)
+/// }
+/// assert!(glass_on_steel(5.06e-6).is_ok());
+/// ```
+pub type PaperScene<T> = RingScene<T, Coulomb<T>>;
+
+/// A scene whose law of contact is chosen at run time, with Coulomb friction.
+///
+/// ```
+/// use microimpact::contact::{AnyLaw, AnyScene, Contact};
+/// use microimpact::{Sphere, Stiffness};
+///
+/// let law = AnyLaw::hertz(Stiffness::new(1e10)?);
+/// let scene: AnyScene<f64> = Contact::new(Sphere::solid(1e-6, 1000.0)?, law).with_friction(0.1)?;
+/// assert!(matches!(scene.law(), AnyLaw::Hertz(_)));
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+pub type AnyScene<T> = Contact<T, AnyLaw<T>, Coulomb<T>>;

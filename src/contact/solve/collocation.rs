@@ -1,0 +1,131 @@
+//! Collocation of the motion in intervals, as many as a tolerance needs.
+
+use super::critical::Trial;
+use super::interval::Control;
+use super::nodes::Nodes;
+use super::observer::Observer;
+use super::path::{End, Follower, MOST_INTERVALS, Method, NormalPath};
+use super::rest::{RestCriterion, Settling};
+use crate::contact::law::ContactLaw;
+use crate::{InputError, Parameter, Real};
+
+/// The method that solves the normal motion by collocation at `N` nodes, in as many intervals as the tolerance needs.
+///
+/// Seven nodes suit a tolerance of 1e-6, nine 1e-9, twelve 1e-12; in single precision eight.
+///
+/// ```
+/// use microimpact::contact::Collocation;
+///
+/// assert!(Collocation::<9, f64>::new(1e-9).is_ok());
+/// assert!(Collocation::<9, f64>::new(0.0).is_err());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Collocation<const N: usize, T> {
+    pub(super) tolerance: T,
+}
+
+/// Change at which iterations have converged, over the tolerance: errors of the iteration are small beside the others.
+const CONVERGED: f64 = 0.1;
+
+/// Weight of the error of times where only the end of the motion is asked for.
+const UNTIMED: f64 = 0.1;
+
+impl<const N: usize, T: Real> Collocation<N, T> {
+    /// A method with a tolerance for e^2; a number type's rounding limits it from below.
+    ///
+    /// # Errors
+    /// A tolerance outside its range.
+    ///
+    /// ```
+    /// assert!(microimpact::contact::Collocation::<7, f32>::new(1e-6).is_ok());
+    /// ```
+    pub fn new(tolerance: T) -> Result<Self, InputError> {
+        Ok(Self { tolerance: at_least_rounding(Parameter::Tolerance.check(tolerance)?) })
+    }
+
+    /// Intervals after which a run gives up, refused ones included.
+    ///
+    /// ```
+    /// assert!(microimpact::contact::Collocation::<7, f32>::MOST_INTERVALS < 1000);
+    /// ```
+    pub const MOST_INTERVALS: u32 = MOST_INTERVALS;
+
+    pub(super) fn control(&self, timed: bool) -> Control<T> {
+        let times = if timed { T::ONE } else { T::constant(UNTIMED) };
+        // Changes of one unit in the last place never end.
+        let settled = (T::constant(CONVERGED) * self.tolerance).max(T::constant(2.0) * T::EPSILON);
+        Control { settled, error: self.tolerance, times }
+    }
+}
+
+/// A tolerance, or the least that the rounding of a number type allows.
+pub(super) fn at_least_rounding<T: Real>(tolerance: T) -> T {
+    tolerance.max(T::constant(8.0) * T::EPSILON)
+}
+
+impl<T: Nodes<N>, const N: usize> Method<T> for Collocation<N, T> {
+    fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
+        let mut follower = Follower::arriving(law, energy, self.control(O::TIMED), observer);
+        let mut path = follower.contact::<N>(O::TO_TURNING_POINT);
+        if path.effort.intervals + path.effort.refused >= MOST_INTERVALS {
+            // Of a capture, peak or turning point are still out of sight.
+            path.end = End::Budget;
+        }
+        path
+    }
+}
+
+/// A method that controls its error: [`Adaptive`](super::Adaptive) or [`Collocation`]. Only these follow a captured sphere to
+/// rest and find critical speeds.
+///
+/// ```
+/// use microimpact::contact::{Collocation, ErrorControl};
+///
+/// assert_eq!(Collocation::<9, f64>::new(1e-9)?.tolerance(), 1e-9);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not control its error",
+    label = "give `Adaptive` or `Collocation` here"
+)]
+pub trait ErrorControl<T: Real>: Method<T> {
+    /// The tolerance for e^2.
+    fn tolerance(&self) -> T;
+
+    /// The motion as by [`Method::solve`]; a captured sphere is followed until it rests.
+    fn solve_to_rest<L: ContactLaw<T>, O: Observer<T>>(
+        &self,
+        law: &L,
+        energy: T,
+        observer: &mut O,
+        criterion: &RestCriterion<T>,
+    ) -> (NormalPath<T>, Option<Settling<T>>);
+
+    /// Whether a sphere that arrives with a kinetic energy rebounds, and by how much.
+    fn try_energy<L: ContactLaw<T>>(&self, law: &L, energy: T) -> Trial<T>;
+}
+
+impl<T: Nodes<N>, const N: usize> ErrorControl<T> for Collocation<N, T> {
+    fn tolerance(&self) -> T {
+        self.tolerance
+    }
+
+    fn solve_to_rest<L: ContactLaw<T>, O: Observer<T>>(
+        &self,
+        law: &L,
+        energy: T,
+        observer: &mut O,
+        criterion: &RestCriterion<T>,
+    ) -> (NormalPath<T>, Option<Settling<T>>) {
+        let mut follower = Follower::arriving(law, energy, self.control(true), observer);
+        let mut path = follower.contact::<N>(true);
+        let settling = (path.end == End::Capture).then(|| follower.settle::<N>(&mut path, criterion));
+        (path, settling)
+    }
+
+    fn try_energy<L: ContactLaw<T>>(&self, law: &L, energy: T) -> Trial<T> {
+        super::critical::try_energy::<N, T, L>(self.tolerance, law, energy)
+    }
+}

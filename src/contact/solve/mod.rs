@@ -1,0 +1,25 @@
+//! Methods that solve the normal motion. They know a law of contact by its functions alone.
+
+mod adaptive;
+mod collocation;
+pub(super) mod critical;
+mod fixed_cost;
+mod gill;
+pub(super) mod integrals;
+pub(super) mod interval;
+pub(super) mod nodes;
+pub(super) mod observer;
+pub(super) mod path;
+mod phase;
+mod rest;
+mod run;
+mod well;
+
+pub use adaptive::{Adaptive, AdaptiveNodes};
+pub use collocation::{Collocation, ErrorControl};
+pub use fixed_cost::FixedCost;
+pub use gill::RungeKuttaGill;
+pub use nodes::{Nodes, PhaseNodes, PhaseSamples};
+pub use path::Method;
+pub use rest::{MotionToRest, RestCriterion};
+pub use run::{RunReport, Status};
