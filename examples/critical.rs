@@ -1,134 +1,28 @@
-//! Finds the speeds below which spheres are captured, by the contact simulation.
+//! Finds the speed below which a surface captures spheres, for several radii, by both models.
 //!
-//! `cargo run --release --example critical` shows spheres of the paper;
-//! `cargo run --release --example critical -- FILE.csv --format csv` adds the speed to each row of a table.
+//! `cargo run --example critical`. The command line does the same for tables: `cargo microimpact critical`.
 
-mod sheet;
+use microimpact::simulation::{Collocation, Simulation};
+use microimpact::{CriticalSpeed, InputError, RigidBody, SpeedRestitution, Sphere, Stiffness};
 
-use std::process::ExitCode;
-
-use clap::Parser;
-use comfy_table::Cell;
-use microimpact::simulation::{Collocation, Nodes, Simulation};
-use microimpact::{CriticalSpeed, InputError, Sphere, Stiffness};
-use sheet::command::{BadRows, TableOptions, Work};
-use sheet::{Row, Scalar, reason};
-
-/// Spheres of the paper's figure 6 and Table 1; its program halves the damping of adhesion.
-const BUNDLED: &str = "\
-name,radius_m,density_kg_m3,stiffness_pa,adhesion_n_m,zeta_h,zeta_a
-Figure 6: 5 um,2.5e-6,2600,7.5e10,250,10.5,6.25
-Mean of figure 6: 8.6 um,4.3e-6,2600,7.5e10,250,10.5,6.25
-Table 1: 10.12 um,5.06e-6,2600,7.5e10,250,10.5,6.25
-Figure 6: 13 um,6.5e-6,2600,7.5e10,250,10.5,6.25
-20 um,1e-5,2600,7.5e10,250,10.5,6.25
-50 um,2.5e-5,2600,7.5e10,250,10.5,6.25
-\"50 um, damping doubled\",2.5e-5,2600,7.5e10,250,21,12.5
-\"50 um, no adhesion\",2.5e-5,2600,7.5e10,0,10.5,0
-";
-
-/// Find the approach speeds that separate capture from rebound, by the contact simulation; without a table, those of
-/// spheres of the paper.
-///
-/// Columns read, in SI units; an empty cell means what stands in brackets:
-///   radius_m, density_kg_m3, stiffness_pa (K),
-///   adhesion_n_m (f0; 0), zeta_h (0), zeta_a (0), external_force_n (positive out of the surface; 0).
-/// All other columns pass through; one that is named like a computed column is kept as input_NAME.
-///
-/// Computed:
-///   critical_speed_m_s: this and every lower speed is captured; but with a force out of the surface, which turns back
-///     the slowest spheres before adhesion holds them, it is the largest speed that is captured;
-///   critical: `speed` where there is such a speed; `always rebounds` or `never rebounds` where there is none between
-///     1e-12 and 1e6 m/s, and critical_speed_m_s is empty.
-///
-/// Exit status: 0, or 1 if a row was bad (its reason stands in the column `error`), or 2 if nothing could be read.
-#[derive(Parser)]
-#[command(name = "critical", verbatim_doc_comment)]
-struct Options {
-    /// Largest relative error of the speed; a number type's rounding limits it.
-    #[arg(long, default_value_t = 1e-9)]
-    tolerance: f64,
-    #[command(flatten)]
-    table: TableOptions,
+fn main() -> Result<(), InputError> {
+    // Twelve nodes, and a relative error of 1e-9 at most.
+    let method = Collocation::<12, f64>::new(1e-9)?;
+    for radius in [2.5e-6, 5.06e-6, 1e-5, 2.5e-5] {
+        let sphere = Sphere::solid(radius, 2600.0)?;
+        // Glass on steel (Brach and Dunn 1995): K in Pa; zeta_H; f0 in N/m and zeta_A.
+        let contact = Simulation::new(sphere, Stiffness::new(7.5e10)?).with_damping(10.5)?.with_ring(250.0, 6.25)?;
+        println!("radius {radius:e} m, simulation: {}", in_words(contact.critical_speed(&method)?));
+        let rigid_body = RigidBody::new(sphere, SpeedRestitution::new(130.0)?).with_work_of_adhesion(2.22e-12)?;
+        println!("radius {radius:e} m, rigid body: {}", in_words(rigid_body.critical_speed()));
+    }
+    Ok(())
 }
 
-fn main() -> ExitCode {
-    let options = Options::parse();
-    options.table.run("critical", || run::<f32>(&options), || run::<f64>(&options))
-}
-
-fn run<T: Scalar + Nodes<8> + Nodes<12>>(options: &Options) -> BadRows {
-    let work = Critical::<T>::new(options.tolerance)?;
-    options.table.work(BUNDLED, &work)
-}
-
-/// The search, coarse or fine.
-struct Critical<T> {
-    coarse: Option<Collocation<8, T>>,
-    fine: Collocation<12, T>,
-}
-
-impl<T: Scalar + Nodes<8> + Nodes<12>> Critical<T> {
-    fn new(tolerance: f64) -> Result<Self, InputError> {
-        let coarse = (tolerance >= 1e-7).then(|| Collocation::new(T::constant(tolerance))).transpose()?;
-        Ok(Self { coarse, fine: Collocation::new(T::constant(tolerance))? })
-    }
-
-    fn find(&self, row: &Row<'_>) -> Result<CriticalSpeed<T>, String> {
-        let sphere = Sphere::solid(row.required("radius_m")?, row.required("density_kg_m3")?).map_err(reason)?;
-        let stiffness = Stiffness::new(row.required("stiffness_pa")?).map_err(reason)?;
-        let (adhesion, force) = (row.or_zero("adhesion_n_m")?, row.or_zero("external_force_n")?);
-        let (zeta_h, zeta_a) = (row.or_zero("zeta_h")?, row.or_zero("zeta_a")?);
-        let scene = Simulation::new(sphere, stiffness)
-            .with_damping(zeta_h)
-            .and_then(|scene| scene.with_ring(adhesion, zeta_a))
-            .and_then(|scene| scene.with_external_force(force))
-            .map_err(reason)?;
-        match &self.coarse {
-            Some(method) => scene.critical_speed(method),
-            None => scene.critical_speed(&self.fine),
-        }
-        .map_err(reason)
-    }
-}
-
-impl<T: Scalar + Nodes<8> + Nodes<12>> Work for Critical<T> {
-    fn columns(&self) -> Vec<String> {
-        ["critical_speed_m_s", "critical"].map(String::from).into()
-    }
-
-    fn cells(&self, row: &Row<'_>) -> (Vec<String>, Result<(), String>) {
-        match self.find(row) {
-            Ok(critical) => {
-                let speed = if let CriticalSpeed::At(speed) = critical { row.cell(speed) } else { String::new() };
-                (vec![speed, in_words(&critical).into()], Ok(()))
-            }
-            Err(reason) => (Vec::new(), Err(reason)),
-        }
-    }
-
-    fn heads(&self) -> Vec<&'static str> {
-        vec!["sphere", "radius\nm", "critical speed\nm/s"]
-    }
-
-    fn words(&self) -> usize {
-        1
-    }
-
-    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<Cell>, String> {
-        let critical = self.find(row)?;
-        let speed = match &critical {
-            CriticalSpeed::At(speed) => row.cell(*speed),
-            none => in_words(none).into(),
-        };
-        Ok([name, row.text("radius_m").unwrap_or_default(), speed].into_iter().map(Cell::new).collect())
-    }
-}
-
-fn in_words<T>(critical: &CriticalSpeed<T>) -> &'static str {
+fn in_words(critical: CriticalSpeed<f64>) -> String {
     match critical {
-        CriticalSpeed::At(_) => "speed",
-        CriticalSpeed::AlwaysRebounds => "always rebounds",
-        CriticalSpeed::NeverRebounds => "never rebounds",
+        CriticalSpeed::At(speed) => format!("captured below {speed:.4} m/s"),
+        CriticalSpeed::AlwaysRebounds => "always rebounds".into(),
+        CriticalSpeed::NeverRebounds => "never rebounds".into(),
     }
 }

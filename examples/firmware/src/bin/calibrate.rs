@@ -17,15 +17,15 @@ use microimpact_firmware::scenes::Number;
 
 use measurement::{Measurement, fail, hprintln, stack};
 
-#[path = "../measurement/mod.rs"]
-mod measurement;
-
 #[entry]
 fn main() -> ! {
-    measurement::run(visit_calibrations)
+    measurement::run(|measurement| visit_calibrations(&mut Measured(measurement)))
 }
 
-impl CalibrationVisitor for Measurement {
+/// Measures every calibration.
+struct Measured<'a>(&'a mut Measurement);
+
+impl CalibrationVisitor for Measured<'_> {
     fn visit<T: Number, C: Calibration<T>>(&mut self) {
         let Some(measured) = set_up::<T, C>() else {
             fail(C::NAME);
@@ -44,7 +44,7 @@ impl CalibrationVisitor for Measurement {
             C::NAME,
             T::NAME,
             Values(answer.as_ref()),
-            self.counter.count(work),
+            self.0.counter.count(work),
             bytes,
         );
         let code: fn() = code::<T, C>;

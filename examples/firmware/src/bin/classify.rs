@@ -6,9 +6,6 @@
 use microimpact_firmware::entry;
 use microimpact_firmware::scenes::visit_scenes;
 
-#[path = "../measurement/mod.rs"]
-mod measurement;
-
 #[entry]
 fn main() -> ! {
     measurement::run(visit_scenes)

@@ -6,9 +6,6 @@
 use microimpact_firmware::contacts::visit_contacts;
 use microimpact_firmware::entry;
 
-#[path = "../measurement/mod.rs"]
-mod measurement;
-
 #[entry]
 fn main() -> ! {
     measurement::run(visit_contacts)

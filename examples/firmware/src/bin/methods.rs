@@ -17,25 +17,26 @@ use microimpact_firmware::methods::{Contestant, Extent, Number, Reply, Visitor, 
 
 use measurement::{Measurement, hprintln};
 
-#[path = "../measurement/mod.rs"]
-mod measurement;
-
 /// As many steps as the counter holds where a division takes hundreds of instructions.
 const EXTENT: Extent = Extent { most_steps: 1024, sparse: false };
 
 #[entry]
 fn main() -> ! {
     measurement::run(|measurement| {
-        visit::<f32>(&TABLE_1, EXTENT, measurement);
-        visit::<f64>(&TABLE_1, EXTENT, measurement);
-        visit_fixed_point(&TABLE_1, EXTENT, measurement);
+        let counted = &mut Counted(measurement);
+        visit::<f32>(&TABLE_1, EXTENT, counted);
+        visit::<f64>(&TABLE_1, EXTENT, counted);
+        visit_fixed_point(&TABLE_1, EXTENT, counted);
     })
 }
 
-impl Visitor for Measurement {
+/// Counts the instructions of every method.
+struct Counted<'a>(&'a mut Measurement);
+
+impl Visitor for Counted<'_> {
     fn visit<T: Number>(&mut self, contestant: Contestant, mut run: impl FnMut() -> Option<Reply<T>> + 'static) {
         let reply = run().map(|reply| (reply.restitution.value(), reply.surface.map(|surface| surface.map(T::value))));
-        let instructions = self.counter.count(|| call(&mut run));
+        let instructions = self.0.counter.count(|| call(&mut run));
         print(&contestant, T::NAME, reply, instructions);
     }
 }

@@ -1,0 +1,211 @@
+//! Tables of impacts as spreadsheets write and read them.
+//!
+//! Commas, semicolons or tabs separate cells; a byte-order mark, quotes, CRLF line ends and, between semicolons
+//! or tabs, decimal commas are understood and written back the way they came.
+
+use std::error::Error;
+use std::fmt::{Display, LowerExp};
+use std::io::{self, BufRead, Read, Write};
+use std::str::FromStr;
+
+use csv::ByteRecord;
+use microimpact::Real;
+
+const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
+
+/// A number type that can be read from a cell and written to one.
+pub trait Scalar: Real + FromStr + Display + LowerExp {}
+
+impl<T: Real + FromStr + Display + LowerExp> Scalar for T {}
+
+/// How a table is written down.
+#[derive(Clone, Copy)]
+pub struct Dialect {
+    delimiter: u8,
+    byte_order_mark: bool,
+    carriage_return: bool,
+}
+
+impl Dialect {
+    /// The dialect of a table, judged by its header line.
+    fn of(header: &[u8]) -> Self {
+        let outside_quotes = |delimiter: u8| {
+            let mut quoted = false;
+            header
+                .iter()
+                .filter(|&&byte| {
+                    quoted ^= byte == b'"';
+                    byte == delimiter && !quoted
+                })
+                .count()
+        };
+        // `max_by_key` keeps the last of equals, so a header of one cell is taken to be separated by commas.
+        let delimiter = [b'\t', b';', b','].into_iter().max_by_key(|&delimiter| outside_quotes(delimiter));
+        Self {
+            delimiter: delimiter.unwrap_or(b','),
+            byte_order_mark: header.starts_with(BYTE_ORDER_MARK),
+            carriage_return: header.ends_with(b"\r\n"),
+        }
+    }
+}
+
+/// A table that is read row by row.
+pub struct Sheet<R> {
+    rows: csv::Reader<R>,
+    header: ByteRecord,
+    names: Vec<String>,
+    dialect: Dialect,
+}
+
+impl<'a> Sheet<Box<dyn BufRead + 'a>> {
+    /// Opens a table and reads its header.
+    pub fn open(mut source: impl BufRead + 'a) -> Result<Self, String> {
+        let mut header_line = Vec::new();
+        source.read_until(b'\n', &mut header_line).map_err(|error| error.to_string())?;
+        let dialect = Dialect::of(&header_line);
+        let bytes: Box<dyn BufRead> = Box::new(io::Cursor::new(header_line).chain(source));
+        let mut rows = csv::ReaderBuilder::new().delimiter(dialect.delimiter).flexible(true).from_reader(bytes);
+        let header = rows.byte_headers().map_err(|error| error.to_string())?.clone();
+        let names: Vec<String> = header.iter().map(column_name).collect();
+        if names.iter().all(String::is_empty) {
+            return Err("the table is empty: its first row must name the columns".into());
+        }
+        if let Some(twice) = names.iter().enumerate().find(|(i, name)| !name.is_empty() && names[..*i].contains(name)) {
+            return Err(format!("the column {} stands twice in the header", twice.1));
+        }
+        Ok(Self { rows, header, names, dialect })
+    }
+}
+
+/// A header cell as a name: without a byte-order mark, surrounding space or capitals.
+fn column_name(cell: &[u8]) -> String {
+    let cell = cell.strip_prefix(BYTE_ORDER_MARK).unwrap_or(cell);
+    String::from_utf8_lossy(cell).trim().to_lowercase()
+}
+
+impl<R: Read> Sheet<R> {
+    /// The next row, or `None` after the last.
+    pub fn next_row(&mut self) -> Result<Option<Row<'_>>, String> {
+        let mut cells = ByteRecord::new();
+        let more = self.rows.read_byte_record(&mut cells).map_err(|error| error.to_string())?;
+        let decimal_comma = self.dialect.delimiter != b','
+            && cells.iter().any(|cell| cell.contains(&b',') && decimal_point(cell).parse::<f64>().is_ok());
+        Ok(more.then_some(Row { names: &self.names, cells, decimal_comma }))
+    }
+
+    /// A writer for this table with computed columns behind its own. A column of the table that has the name of a
+    /// computed one is kept under the name `input_...`.
+    pub fn writer<W: Write>(&self, mut sink: W, computed: &[String]) -> Result<SheetWriter<W>, String> {
+        if self.dialect.byte_order_mark {
+            sink.write_all(BYTE_ORDER_MARK).map_err(|error| error.to_string())?;
+        }
+        let terminator = if self.dialect.carriage_return { csv::Terminator::CRLF } else { csv::Terminator::Any(b'\n') };
+        let mut rows = csv::WriterBuilder::new()
+            .delimiter(self.dialect.delimiter)
+            .terminator(terminator)
+            .flexible(true)
+            .from_writer(sink);
+        let mut header = ByteRecord::new();
+        for (cell, name) in self.header.iter().zip(&self.names) {
+            if computed.contains(name) {
+                let mut kept = format!("input_{name}");
+                while self.names.contains(&kept) || computed.contains(&kept) {
+                    kept.insert_str(0, "input_");
+                }
+                header.push_field(kept.as_bytes());
+            } else {
+                header.push_field(cell.strip_prefix(BYTE_ORDER_MARK).unwrap_or(cell));
+            }
+        }
+        header.extend(computed.iter().map(|name| name.as_bytes()));
+        rows.write_byte_record(&header).map_err(|error| error.to_string())?;
+        Ok(SheetWriter { rows, width: self.names.len() })
+    }
+}
+
+/// One row of a table.
+pub struct Row<'a> {
+    names: &'a [String],
+    cells: ByteRecord,
+    decimal_comma: bool,
+}
+
+impl Row<'_> {
+    /// The text of a cell without surrounding space; `None` where there is no such column or the cell is empty.
+    pub fn text(&self, column: &str) -> Option<String> {
+        let index = self.names.iter().position(|name| name == column)?;
+        let text = String::from_utf8_lossy(self.cells.get(index)?).trim().to_owned();
+        (!text.is_empty()).then_some(text)
+    }
+
+    /// The number in a cell; `None` where there is no such column or the cell is empty.
+    pub fn number<T: Scalar>(&self, column: &str) -> Result<Option<T>, String> {
+        let Some(text) = self.text(column) else {
+            return Ok(None);
+        };
+        if self.decimal_comma && text.contains('.') {
+            return Err(format!("{column}: \"{text}\" is ambiguous beside numbers with decimal commas"));
+        }
+        let number = if self.decimal_comma { decimal_point(text.as_bytes()) } else { text.clone() };
+        number.parse().map(Some).map_err(|_| format!("{column}: \"{text}\" is not a number"))
+    }
+
+    /// The number in a cell that must not be empty.
+    pub fn required<T: Scalar>(&self, column: &str) -> Result<T, String> {
+        self.number(column)?.ok_or_else(|| format!("{column}: missing"))
+    }
+
+    /// The number in a cell, zero where it is empty.
+    pub fn or_zero<T: Scalar>(&self, column: &str) -> Result<T, String> {
+        Ok(self.number(column)?.unwrap_or(T::ZERO))
+    }
+
+    /// What is wrong with the row as such.
+    pub fn check(&self) -> Result<(), String> {
+        let surplus: Vec<_> = self.cells.iter().skip(self.names.len()).map(String::from_utf8_lossy).collect();
+        if surplus.is_empty() {
+            return Ok(());
+        }
+        Err(format!("the row has more cells than the header, left out here: {}", surplus.join(" | ")))
+    }
+
+    /// A number as a cell of this row: the shortest text that reads back as the same number.
+    pub fn cell<T: Scalar>(&self, value: T) -> String {
+        let size = value.abs();
+        let plain = size == T::ZERO || (size >= T::constant(1e-3) && size < T::constant(1e7));
+        // Adding zero drops the sign of a zero.
+        let value = value + T::ZERO;
+        let text = if plain { value.to_string() } else { format!("{value:e}") };
+        if self.decimal_comma { text.replace('.', ",") } else { text }
+    }
+}
+
+/// An error of the library as the text of a cell.
+pub fn reason(error: impl Error) -> String {
+    error.to_string()
+}
+
+/// A number with its decimal comma, if it has just that, turned into a point.
+fn decimal_point(cell: &[u8]) -> String {
+    String::from_utf8_lossy(cell).trim().replacen(',', ".", 1)
+}
+
+/// A table that is written row by row.
+pub struct SheetWriter<W: Write> {
+    rows: csv::Writer<W>,
+    width: usize,
+}
+
+impl<W: Write> SheetWriter<W> {
+    /// Writes a row with its computed cells.
+    pub fn write(&mut self, row: &Row<'_>, computed: &[String]) -> Result<(), csv::Error> {
+        let empty: &[u8] = b"";
+        let given = row.cells.iter().chain(std::iter::repeat(empty)).take(self.width);
+        self.rows.write_record(given.chain(computed.iter().map(String::as_bytes)))
+    }
+
+    /// Writes out what is still held back.
+    pub fn finish(mut self) -> Result<(), csv::Error> {
+        Ok(self.rows.flush()?)
+    }
+}

@@ -1,0 +1,148 @@
+//! One measured impact: its coefficients with their standard errors, its class and how sure that is.
+
+use microimpact::rigid::{Departure, EnergyLedger, infer, infer_assuming_rolling, infer_with_spins};
+use microimpact::uncertainty::NormalDistribution;
+use microimpact::{
+    Classification, ConstantRestitution, ContactClass, Dual, Impact, NormalMotion, Oblique, Outcome, Real,
+    RestitutionLaw, RigidBody, SpeedRestitution, Sphere, SurfaceMotion, TangentialImpact,
+};
+
+use sheet::{Row, Scalar, reason};
+
+/// A number type that the analysis can run in.
+pub trait Number: Scalar + NormalDistribution + Into<f64> {}
+
+impl<T: Scalar + NormalDistribution + Into<f64>> Number for T {}
+
+/// Results with their derivatives by the six velocities that are measured: normal, tangential and peripheral, before and after.
+pub type Inputs<T> = Dual<T, 6>;
+
+/// A measured impact and what follows from it.
+pub struct Measured<T: Real> {
+    pub sphere: Sphere<Inputs<T>>,
+    pub impact: Impact<Inputs<T>, TangentialImpact<Inputs<T>>>,
+    pub classification: Classification<Inputs<T>, ContactClass<Inputs<T>>>,
+    /// Probability that the class is right.
+    pub confidence: T,
+    before: [f64; 2],
+    spin_measured: bool,
+    errors: [T; 6],
+}
+
+/// Standard error of a velocity where the row names none, m/s.
+const VELOCITY_ERROR: f64 = 0.01;
+
+/// Standard errors within which a slip counts as none.
+const ROLLING: f64 = 3.0;
+
+impl<T: Number> Measured<T> {
+    /// The impact of a row.
+    pub fn of(row: &Row<'_>) -> Result<Self, String> {
+        match (row.number::<T>("restitution")?, row.number::<T>("restitution_speed_m_s")?) {
+            (Some(r), None) => Self::with_law(row, ConstantRestitution::new(Dual::fixed(r)).map_err(reason)?),
+            (None, Some(k)) => Self::with_law(row, SpeedRestitution::new(Dual::fixed(k)).map_err(reason)?),
+            (None, None) => Err("restitution: missing; give restitution or restitution_speed_m_s".into()),
+            (Some(_), Some(_)) => Err("restitution: given twice, as restitution and restitution_speed_m_s".into()),
+        }
+    }
+
+    fn with_law(row: &Row<'_>, law: impl RestitutionLaw<Inputs<T>> + Copy) -> Result<Self, String> {
+        let sphere = sphere(row)?;
+        let radius = sphere.radius().value;
+        let error = row.number("velocity_error_m_s")?.unwrap_or(T::constant(VELOCITY_ERROR));
+        let (spin, spin_out) = (row.number::<T>("spin_rad_s")?, row.number::<T>("spin_out_rad_s")?);
+        let peripheral = |spin: Option<T>| radius * spin.unwrap_or(T::ZERO);
+        let [normal, tangential, turning, normal_out, tangential_out, turning_out] = Dual::variables([
+            row.required("speed_normal_m_s")?,
+            row.or_zero("speed_tangential_m_s")?,
+            peripheral(spin),
+            row.required("rebound_speed_m_s")?,
+            row.required("speed_tangential_out_m_s")?,
+            peripheral(spin_out),
+        ]);
+        let before = NormalMotion::new(normal).and_then(|motion| motion.with_tangential(tangential)).map_err(reason)?;
+        let after = Departure { normal: normal_out, tangential: tangential_out };
+        // The slip after the impact is V_t (1 + 1/kappa) - v_t/kappa - r w.
+        let inverse = T::ONE / sphere.gyration_ratio().value;
+        let slip_error = error * (T::constant(2.0) * (T::ONE + inverse + inverse * inverse)).sqrt();
+        let tolerance = T::constant(ROLLING) * slip_error;
+        let spinning = before.with_peripheral_velocity(turning).map_err(reason)?;
+        let impact = match (spin, spin_out) {
+            (None, None) => infer_assuming_rolling(&sphere, &law, &before, &after),
+            (None, Some(_)) => return Err("spin_out_rad_s: not without spin_rad_s".into()),
+            (Some(_), None) => infer(&sphere, &law, &spinning, &after, Dual::fixed(tolerance)),
+            (Some(_), Some(_)) => {
+                let spin_out = turning_out / sphere.radius();
+                infer_with_spins(&sphere, &law, &spinning, &after, spin_out, Dual::fixed(tolerance))
+            }
+        }
+        .map_err(reason)?;
+        let errors = [error; 6];
+        let classification = RigidBody::new(sphere, law).classify_impact(&impact);
+        let mut confidence = T::ONE;
+        if classification.outcome == Outcome::Rebound && error > T::ZERO {
+            confidence = (normal_out.value / error).below();
+        }
+        let slip = impact.tangential.slip();
+        let error = slip.standard_error(&errors);
+        if error > T::ZERO {
+            let rolls = ((tolerance - slip.value) / error).below() - ((-tolerance - slip.value) / error).below();
+            let slides = classification.contact.motion == SurfaceMotion::Sliding;
+            confidence = confidence * if slides { T::ONE - rolls } else { rolls };
+        }
+        let before = [spinning.tangential().value.into(), normal.value.into()];
+        Ok(Self { sphere, impact, classification, confidence, before, spin_measured: spin.is_some(), errors })
+    }
+
+    /// Overall restitution e.
+    pub fn restitution(&self) -> Inputs<T> {
+        self.impact.normal.overall_restitution()
+    }
+
+    /// Its standard error.
+    pub fn restitution_error(&self) -> T {
+        self.restitution().standard_error(&self.errors)
+    }
+
+    /// Impulse ratio mu.
+    pub fn impulse_ratio(&self) -> Inputs<T> {
+        self.impact.tangential.impulse_ratio()
+    }
+
+    /// Its standard error.
+    pub fn impulse_ratio_error(&self) -> T {
+        self.impulse_ratio().standard_error(&self.errors)
+    }
+
+    /// Angle between the surface and the path before the impact, degrees: 90 at normal incidence.
+    pub fn incidence(&self) -> f64 {
+        let [tangential, normal] = self.before;
+        normal.atan2(tangential.abs()).to_degrees()
+    }
+
+    /// Tangential and normal approach velocity, m/s.
+    pub fn velocities(&self) -> [f64; 2] {
+        self.before
+    }
+
+    /// Spin before the impact that rolling at separation implies, rad/s, where it was not measured.
+    pub fn implied_spin(&self) -> Option<T> {
+        (!self.spin_measured).then(|| self.impact.tangential.spin_before(&self.sphere).value)
+    }
+
+    /// Where the energy went.
+    pub fn energy(&self) -> EnergyLedger<Inputs<T>> {
+        self.impact.energy(&self.sphere)
+    }
+}
+
+fn sphere<T: Number>(row: &Row<'_>) -> Result<Sphere<Inputs<T>>, String> {
+    let radius = match (row.number("radius_m")?, row.number::<T>("diameter_m")?) {
+        (Some(radius), None) => radius,
+        (None, Some(diameter)) => T::constant(0.5) * diameter,
+        (None, None) => return Err("diameter_m: missing; give diameter_m or radius_m".into()),
+        (Some(_), Some(_)) => return Err("size: given twice, as radius_m and diameter_m".into()),
+    };
+    let kappa = row.number("gyration_ratio")?.unwrap_or(T::constant(0.4));
+    Sphere::new(Dual::fixed(radius), Dual::fixed(row.required("density_kg_m3")?), Dual::fixed(kappa)).map_err(reason)
+}

@@ -1,0 +1,172 @@
+//! Rows by the rigid-body model.
+
+use std::marker::PhantomData;
+
+use comfy_table::Cell;
+use microimpact::rigid::ReboundAdhesion;
+use microimpact::{
+    Classification, ConstantRestitution, ContactClass, Impact, PlanarMotion, RestitutionLaw, RigidBody,
+    SpeedRestitution, Sphere, TangentialImpact,
+};
+use sheet::{Row, Scalar, reason};
+
+use super::sphere_and_motion;
+use crate::command::Work;
+use crate::words::{motion_name, outcome_name};
+
+/// The rigid-body model in numbers of type `T`.
+pub struct RigidBodyModel<T> {
+    scalar: PhantomData<T>,
+}
+
+/// An impact and its class.
+pub struct Classified<T> {
+    pub sphere: Sphere<T>,
+    pub impact: Impact<T, TangentialImpact<T>>,
+    pub classification: Classification<T, ContactClass<T>>,
+}
+
+impl<T: Scalar> RigidBodyModel<T> {
+    pub fn new() -> Self {
+        Self { scalar: PhantomData }
+    }
+
+    /// Builds the scene of a row and classifies its impact.
+    pub fn compute(&self, row: &Row<'_>) -> Result<Classified<T>, String> {
+        let (sphere, before) = sphere_and_motion(row)?;
+        match (row.number("restitution")?, row.number("restitution_speed_m_s")?) {
+            (Some(r), None) => with_law(row, sphere, &before, ConstantRestitution::new(r).map_err(reason)?),
+            (None, Some(k)) => with_law(row, sphere, &before, SpeedRestitution::new(k).map_err(reason)?),
+            (None, None) => Err("restitution: missing; give restitution or restitution_speed_m_s".into()),
+            (Some(_), Some(_)) => Err("restitution: given twice, as restitution and restitution_speed_m_s".into()),
+        }
+    }
+}
+
+/// Chooses the adhesion that the row gives.
+fn with_law<T: Scalar>(
+    row: &Row<'_>,
+    sphere: Sphere<T>,
+    before: &PlanarMotion<T>,
+    law: impl RestitutionLaw<T> + Copy,
+) -> Result<Classified<T>, String> {
+    let scene = RigidBody::new(sphere, law);
+    match (row.number("adhesion_coefficient")?, row.number("work_of_adhesion_j")?) {
+        (None, None) => with_adhesion(row, before, scene),
+        (Some(rho), None) => with_adhesion(row, before, scene.with_adhesion_coefficient(rho).map_err(reason)?),
+        (None, Some(work)) => with_adhesion(row, before, scene.with_work_of_adhesion(work).map_err(reason)?),
+        (Some(_), Some(_)) => Err("adhesion: given twice, as adhesion_coefficient and work_of_adhesion_j".into()),
+    }
+}
+
+/// Chooses the tangential process that the row gives, and computes.
+fn with_adhesion<T: Scalar>(
+    row: &Row<'_>,
+    before: &PlanarMotion<T>,
+    scene: RigidBody<T, impl RestitutionLaw<T> + Copy, impl ReboundAdhesion<T> + Copy>,
+) -> Result<Classified<T>, String> {
+    let friction = row.or_zero("friction")?;
+    let impact = match (row.number("impulse_ratio")?, row.number("rolling_arm_m")?) {
+        (Some(mu), None) => scene.impact_with_ratio(before, mu).map_err(reason)?,
+        (None, None) => scene.with_friction(friction).map_err(reason)?.impact(before),
+        (None, Some(arm)) => {
+            let scene = scene.with_friction(friction).and_then(|scene| scene.with_rolling_dissipation(arm));
+            scene.map_err(reason)?.impact(before)
+        }
+        (Some(_), Some(_)) => return Err("rolling_arm_m: not with impulse_ratio, which covers it".into()),
+    };
+    Ok(Classified { sphere: *scene.sphere(), classification: scene.classify_impact(&impact), impact })
+}
+
+impl<T: Scalar> Work for RigidBodyModel<T> {
+    fn columns(&self) -> Vec<String> {
+        [
+            "outcome",
+            "motion",
+            "overall_restitution",
+            "rebound_speed_m_s",
+            "speed_tangential_out_m_s",
+            "spin_out_rad_s",
+            "impulse_ratio_out",
+            "rolling_ratio",
+            "speed_over_critical",
+            "friction_over_limit",
+            "energy_before_j",
+            "work_material_j",
+            "work_adhesion_j",
+            "work_friction_j",
+            "work_rolling_j",
+        ]
+        .map(String::from)
+        .into()
+    }
+
+    fn cells(&self, row: &Row<'_>) -> (Vec<String>, Result<(), String>) {
+        let Classified { sphere, impact, classification } = match self.compute(row) {
+            Ok(classified) => classified,
+            Err(reason) => return (Vec::new(), Err(reason)),
+        };
+        let Impact { normal, tangential } = &impact;
+        let ledger = impact.energy(&sphere);
+        let optional = |value: Option<T>| value.map(|value| row.cell(value)).unwrap_or_default();
+        let cells = vec![
+            outcome_name(classification.outcome).into(),
+            motion_name(classification.contact.motion).into(),
+            row.cell(normal.overall_restitution()),
+            row.cell(normal.rebound_speed()),
+            row.cell(tangential.tangential()),
+            row.cell(tangential.spin(&sphere)),
+            row.cell(tangential.impulse_ratio()),
+            row.cell(tangential.rolling_ratio()),
+            optional(classification.speed_over_critical),
+            optional(classification.contact.friction_over_limit),
+            row.cell(ledger.before),
+            row.cell(ledger.material),
+            row.cell(ledger.adhesion),
+            row.cell(ledger.friction),
+            row.cell(ledger.rolling),
+        ];
+        (cells, Ok(()))
+    }
+
+    fn heads(&self) -> Vec<&'static str> {
+        vec![
+            "impact",
+            "class",
+            "e",
+            "V_n\nm/s",
+            "V_t\nm/s",
+            "spin\nrad/s",
+            "mu",
+            "mu_0",
+            "speed over\ncritical",
+            "friction\nover mu_0",
+            "energy\nlost %",
+        ]
+    }
+
+    fn words(&self) -> usize {
+        2
+    }
+
+    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<Cell>, String> {
+        let Classified { sphere, impact, classification } = self.compute(row)?;
+        let Impact { normal, tangential } = &impact;
+        let ledger = impact.energy(&sphere);
+        let optional = |value: Option<T>| value.map_or("-".into(), |value| format!("{value:.3}"));
+        let cells = [
+            name,
+            classification.class().to_string(),
+            format!("{:.3}", normal.overall_restitution()),
+            format!("{:.3}", normal.rebound_speed()),
+            format!("{:.3}", tangential.tangential() + T::ZERO),
+            format!("{:.2e}", tangential.spin(&sphere) + T::ZERO),
+            format!("{:.4}", tangential.impulse_ratio()),
+            format!("{:.4}", tangential.rolling_ratio()),
+            optional(classification.speed_over_critical),
+            optional(classification.contact.friction_over_limit),
+            format!("{:.1}", T::constant(100.0) * ledger.lost() / ledger.before),
+        ];
+        Ok(cells.into_iter().map(Cell::new).collect())
+    }
+}

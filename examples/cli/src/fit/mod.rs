@@ -1,0 +1,104 @@
+//! Fits f0, both dampings and the distribution of diameters to a cloud of impacts.
+//!
+//! `cargo microimpact fit FILE.csv --diameter 8.6e-6 --diameter-error 2e-7`
+
+use std::error::Error;
+use std::fs::File;
+use std::io::{self, BufReader};
+use std::path::PathBuf;
+
+use clap::Args;
+use comfy_table::Table;
+use sheet::Sheet;
+
+use crate::Streams;
+use crate::command::exit_status;
+pub use joint::{COUNT, FitError, Impact, JointFit, Known, NAMES, Parameters, restitution};
+
+pub mod figures;
+mod joint;
+
+/// Fit f0, zeta_H, zeta_A, mean and spread of diameters to a table of speeds and restitutions.
+///
+/// Columns read: speed_normal_m_s, restitution (zero for a capture). Without a value in each row there is no fit.
+#[derive(Args)]
+#[command(verbatim_doc_comment)]
+pub struct Options {
+    /// Table of impacts.
+    file: PathBuf,
+    /// Hertz stiffness, Pa.
+    #[arg(long, default_value_t = 7.5e10)]
+    stiffness: f64,
+    /// Density, kg/m^3.
+    #[arg(long, default_value_t = 2600.0)]
+    density: f64,
+    /// Standard error of a restitution.
+    #[arg(long, default_value_t = 0.01)]
+    noise: f64,
+    /// Mean diameter as measured by other means, m; impacts tell only f0 over diameter.
+    #[arg(long)]
+    diameter: f64,
+    /// Its standard error, m.
+    #[arg(long)]
+    diameter_error: f64,
+    /// First values of f0, zeta_H, zeta_A and the relative spread.
+    #[arg(long, num_args = 4, default_values_t = [250.0, 10.0, 6.0, 0.1])]
+    first: Vec<f64>,
+    /// Figure to draw (SVG).
+    #[arg(long)]
+    figure: Option<PathBuf>,
+}
+
+impl Options {
+    /// Runs the command; its exit status.
+    pub fn run(&self, streams: &mut Streams<'_>) -> u8 {
+        exit_status("fit", run(self, streams).map(|()| 0), streams.errors)
+    }
+}
+
+fn run(options: &Options, streams: &mut Streams<'_>) -> Result<(), Box<dyn Error>> {
+    let impacts = read(options)?;
+    let known = Known {
+        stiffness: options.stiffness,
+        density: options.density,
+        noise: options.noise,
+        diameter: (options.diameter, options.diameter_error),
+    };
+    let [f0, zeta_h, zeta_a, spread] = options.first[..] else {
+        return Err("--first takes four numbers".into());
+    };
+    let fit = JointFit::of(&known, &impacts, [f0, zeta_h, zeta_a, options.diameter, spread])?;
+    let mut table = Table::new();
+    table.set_header(["parameter", "value", "95 % from", "to", "unit"]);
+    for (index, (name, unit)) in NAMES.into_iter().enumerate() {
+        let (low, high) = fit.interval(index);
+        let cells = [fit.parameters[index], low, high].map(|number| format!("{number:.4e}"));
+        table.add_row([[name.to_owned()].as_slice(), &cells, &[unit.to_owned()]].concat());
+    }
+    writeln!(streams.output, "{table}")?;
+    let mean_square = fit.residuals().map(|(_, residual)| residual * residual).sum::<f64>() / impacts.len() as f64;
+    writeln!(
+        streams.output,
+        "impacts: {}, mean square of the residuals in their variance: {mean_square:.3}",
+        impacts.len()
+    )?;
+    if let Some(figure) = &options.figure {
+        figures::draw(&fit, figure)?;
+    }
+    Ok(())
+}
+
+/// The impacts of a table.
+fn read(options: &Options) -> Result<Vec<Impact>, String> {
+    let named = |error: io::Error| format!("{}: {error}", options.file.display());
+    let mut sheet = Sheet::open(BufReader::new(File::open(&options.file).map_err(named)?))?;
+    let mut impacts = Vec::new();
+    while let Some(row) = sheet.next_row()? {
+        let number = |column: &str| row.required(column);
+        let impact = row
+            .check()
+            .and_then(|()| Ok(Impact { speed: number("speed_normal_m_s")?, restitution: number("restitution")? }));
+        impacts.push(impact.map_err(|reason| format!("row {}: {reason}", impacts.len() + 1))?);
+    }
+    Ok(impacts)
+}

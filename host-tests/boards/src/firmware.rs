@@ -1,0 +1,110 @@
+//! The firmware's binaries, built for a board by a cargo of their own.
+
+use std::env;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use super::Board;
+use super::process::{self, Finished};
+use super::toolchain::{Toolchain, target_variable};
+
+/// Generous: the first build on a slow machine compiles `core` too.
+const LIMIT: Duration = Duration::from_secs(900);
+
+/// Where the firmware is in the repository.
+pub const FOLDER: &str = "examples/firmware";
+
+/// The feature of the probes, which changes nothing in the other binaries.
+const PROBE: &str = "probe";
+
+/// The repository's top folder.
+pub fn repository() -> &'static Path {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    package.ancestors().nth(2).unwrap_or(package)
+}
+
+/// Builds binaries of the firmware and returns the folder they are in.
+pub fn build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<PathBuf, String> {
+    build_with(toolchain, board, PROBE, binaries)
+}
+
+/// The same, for flash rather than speed.
+pub fn build_small(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<PathBuf, String> {
+    built(toolchain, board, binaries, "small", run_cargo(toolchain, board, "small", PROBE, binaries)?)
+}
+
+/// The same with a feature.
+pub fn build_with(toolchain: &Toolchain, board: &Board, feature: &str, binaries: &[&str]) -> Result<PathBuf, String> {
+    built(toolchain, board, binaries, "release", run_cargo(toolchain, board, "release", feature, binaries)?)
+}
+
+fn built(
+    toolchain: &Toolchain,
+    board: &Board,
+    binaries: &[&str],
+    profile: &str,
+    finished: Finished,
+) -> Result<PathBuf, String> {
+    if finished.success() {
+        Ok(target_folder(toolchain, board).join(board.triple).join(profile))
+    } else {
+        Err(format!(
+            "{}: building {} failed ({}):\n{}",
+            board.core,
+            binaries.join(", "),
+            finished.ending(),
+            finished.tail(40)
+        ))
+    }
+}
+
+/// Builds binaries that are allowed to fail.
+pub fn try_build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<Finished, String> {
+    run_cargo(toolchain, board, "release", PROBE, binaries)
+}
+
+/// Builds binaries of a copy of the repository and returns the folder they are in.
+pub fn build_copy(toolchain: &Toolchain, board: &Board, copy: &Path, binaries: &[&str]) -> Result<PathBuf, String> {
+    let finished = run_cargo_in(&copy.join(FOLDER), toolchain, board, "release", None, binaries)?;
+    built(toolchain, board, binaries, "release", finished)
+}
+
+fn run_cargo(
+    toolchain: &Toolchain,
+    board: &Board,
+    profile: &str,
+    feature: &str,
+    binaries: &[&str],
+) -> Result<Finished, String> {
+    run_cargo_in(&repository().join(FOLDER), toolchain, board, profile, Some(feature), binaries)
+}
+
+fn run_cargo_in(
+    folder: &Path,
+    toolchain: &Toolchain,
+    board: &Board,
+    profile: &str,
+    feature: Option<&str>,
+    binaries: &[&str],
+) -> Result<Finished, String> {
+    let mut cargo = toolchain.cargo(board.triple);
+    cargo.current_dir(folder).args(["--profile", profile]).arg("--target-dir").arg(target_folder(toolchain, board));
+    if let Some(feature) = feature {
+        cargo.args(["--features", feature]);
+    }
+    for binary in binaries {
+        cargo.args(["--bin", binary]);
+    }
+    if let Some(cpu) = board.cpu {
+        let flags = format!("-C target-cpu={cpu}");
+        cargo.env(target_variable(board.triple, "RUSTFLAGS"), flags);
+    }
+    process::run(&mut cargo, LIMIT).map_err(|error| format!("cannot run cargo: {error}"))
+}
+
+/// One for each compiler and processor: targets share a folder without harm, and what
+/// is built for the host only once, but two processors of one target would not.
+pub fn target_folder(toolchain: &Toolchain, board: &Board) -> PathBuf {
+    let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| repository().join("target"), PathBuf::from);
+    target.join("firmware").join(toolchain.folder()).join(board.cpu.unwrap_or("generic"))
+}

@@ -1,0 +1,108 @@
+//! `cargo qemu c`: the C example of `examples/c`, built by a C compiler against the static library, on an emulated board.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::time::Duration;
+
+use reference::c_results;
+
+use boards::C_BOARD as BOARD;
+use boards::emulator;
+use boards::firmware;
+use boards::packages::{self, Permission};
+use boards::process::{self, Finished};
+use boards::toolchain::Choice;
+
+const COMPILER: &str = "arm-none-eabi-gcc";
+const PACKAGES: [&str; 2] = ["gcc-arm-none-eabi", "libnewlib-arm-none-eabi"];
+const LIBRARY: &str = "libmicroimpact_c.a";
+/// Part of the name of Rust's panic handler.
+const PANIC_HANDLER: &str = "rust_begin_unwind";
+const LIMIT: Duration = Duration::from_secs(900);
+
+/// Every line in which the board's results differ from the host's in any bit.
+pub(crate) fn compare(choice: Choice, permission: Permission) -> Result<Vec<String>, String> {
+    let (toolchain, emulator) = match crate::tools(choice, &[BOARD], permission) {
+        Ok(tools) => tools,
+        Err(missing) => return Ok(missing),
+    };
+    let c_compiler = find_compiler(permission)?;
+    eprintln!("compilers: {}; {c_compiler}\nemulator: {emulator}", toolchain.compiler);
+    let sources = firmware::repository().join("examples/c");
+    let target = firmware::target_folder(&toolchain, &BOARD).join("c");
+    let folder = target.join(BOARD.triple).join("release");
+
+    eprintln!("building for {} ({}) ...", BOARD.core, BOARD.triple);
+    for profile in ["dev", "release"] {
+        let mut cargo = toolchain.cargo(BOARD.triple);
+        cargo.current_dir(&sources).args(["--profile", profile, "--locked", "--target-dir"]).arg(&target);
+        done("the static library", process::run(&mut cargo, LIMIT))?;
+    }
+    panics_are_left_out(&target.join(BOARD.triple))?;
+    let executable = folder.join("results");
+    done("the C example", process::run(&mut link(&sources, &folder, &executable), LIMIT))?;
+
+    eprintln!("running on {} ({}) ...", BOARD.core, BOARD.machine);
+    let printed = emulator::run(&BOARD, &executable)?;
+    let expected = c_results::expected().map_err(|error| error.to_string())?;
+    print!("{printed}");
+    let (printed, expected): (Vec<_>, Vec<_>) = (printed.lines().collect(), expected.lines().collect());
+    let mut failures = Vec::new();
+    if printed.len() != expected.len() {
+        failures.push(format!("C printed {} lines instead of {}", printed.len(), expected.len()));
+    }
+    let differing = printed.iter().zip(&expected).filter(|(printed, expected)| printed != expected);
+    failures.extend(differing.map(|(printed, expected)| format!("C: {printed}\nRust: {expected}")));
+    Ok(failures)
+}
+
+fn link(sources: &Path, folder: &Path, executable: &Path) -> Command {
+    let mut compiler = Command::new(COMPILER);
+    compiler
+        .args(["-mcpu=cortex-m3", "-mthumb", "-O2", "-std=c11", "-Wall", "-Wextra", "-Werror"])
+        .args(["--specs=rdimon.specs", "-nostartfiles", "-Wl,--gc-sections", "-ffunction-sections"])
+        .arg("-T")
+        .arg(sources.join("board.ld"))
+        .arg("-I")
+        .arg(sources.join("include"))
+        .args([sources.join("startup.c"), sources.join("results.c"), folder.join(LIBRARY)])
+        .arg("-o")
+        .arg(executable);
+    compiler
+}
+
+/// The optimised library has no panic handler, which proves that no function called from C panics; that the other one has it
+/// proves the proof.
+fn panics_are_left_out(builds: &Path) -> Result<(), String> {
+    let has_handler = |build: &str| {
+        let path = builds.join(build).join(LIBRARY);
+        let library = fs::read(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+        Ok::<_, String>(library.windows(PANIC_HANDLER.len()).any(|bytes| bytes == PANIC_HANDLER.as_bytes()))
+    };
+    match (has_handler("debug")?, has_handler("release")?) {
+        (true, false) => Ok(()),
+        (_, true) => Err("a function of the static library can panic".to_owned()),
+        (false, _) => {
+            Err(format!("{PANIC_HANDLER} is not the name of the panic handler, so its absence proves nothing"))
+        }
+    }
+}
+
+fn done(what: &str, run: std::io::Result<Finished>) -> Result<(), String> {
+    match run {
+        Ok(finished) if finished.success() => Ok(()),
+        Ok(finished) => Err(format!("building {what} failed ({}):\n{}", finished.ending(), finished.tail(40))),
+        Err(error) => Err(format!("building {what}: {error}")),
+    }
+}
+
+fn find_compiler(permission: Permission) -> Result<String, String> {
+    let version = || process::first_line(Command::new(COMPILER).arg("--version"));
+    if let Some(version) = version() {
+        return Ok(version);
+    }
+    packages::install(&PACKAGES, permission)
+        .map_err(|why| format!("no {COMPILER}; `apt-get install {}` on Debian ({why})", PACKAGES.join(" ")))?;
+    version().ok_or_else(|| format!("{COMPILER} is installed but does not run"))
+}

@@ -1,0 +1,215 @@
+//! What `examples/c/results.c` must print, computed in Rust.
+
+use std::fmt::Write;
+
+use microimpact::boundary::{BoundarySlice, BoundaryTable, Reading, Rebound, RestitutionTable};
+use microimpact::simulation::{
+    Collocation, ContactImpulses, HystereticDamping, Ring, Sample, SimulatedImpact, Simulation, TangentialContact,
+    Trajectory,
+};
+use microimpact::{
+    Coulomb, InputError, NormalMotion, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
+    SurfaceMotion,
+};
+
+use microimpact_scenes::table_1::{
+    DENSITY_KG_M3, FRICTION, MATERIAL_DAMPING, RADIUS_M, RESTITUTION_SPEED_M_S, RING_DAMPING, RING_N_M, STIFFNESS_PA,
+    WORK_OF_ADHESION_J,
+};
+
+/// Approach speed, tangential and peripheral velocity of each impact, m/s.
+pub const MOTIONS: [[f32; 3]; 8] = [
+    [2.8, 0.0, 0.0],
+    [2.8, 0.0, 0.7388],
+    [2.8, 20.0, 0.0],
+    [2.8, 1.0, -2.5],
+    [1.85, 0.0, 0.0],
+    [0.5, 0.0, 0.0],
+    [1.75, 0.2, 0.0],
+    [1.0, 5.0, 0.0],
+];
+
+/// Radius of each sphere that is looked up in the tables, m.
+pub const RADII: [f32; 4] = [1e-6, 2.5e-6, 5.06e-6, 1e-5];
+
+/// Motions that are looked up, as [`MOTIONS`].
+pub const LOOKED_UP: [[f32; 3]; 6] =
+    [[5.15957, 0.0, 0.0], [2.8, 0.0, 0.7388], [2.8, 20.0, 0.0], [1.4, 0.0, 0.0], [9.0, 1.0, -2.5], [300.0, 0.0, 0.0]];
+
+/// Where the tables begin, m.
+const SMALLEST_RADIUS: f32 = 2e-6;
+const LARGEST_SPEED_RATIO: f32 = 10.0;
+
+/// Arguments with which `microimpact table` writes the constant of the C example.
+pub const CONSTANT: [&str; 6] = ["--smallest-radius", "2e-6", "--cells", "8", "--format", "c"];
+
+/// All lines, with every bit of each number.
+///
+/// # Errors
+/// None for the values here.
+pub fn expected() -> Result<String, InputError> {
+    Ok(impacts()? + &trajectories()? + &boundaries()? + &restitutions()?)
+}
+
+/// The lines of both models.
+fn impacts() -> Result<String, InputError> {
+    let c = f32::constant;
+    let sphere = Sphere::solid(c(RADIUS_M), c(DENSITY_KG_M3))?;
+    let body = RigidBody::new(sphere, SpeedRestitution::new(c(RESTITUTION_SPEED_M_S))?)
+        .with_work_of_adhesion(c(WORK_OF_ADHESION_J))?
+        .with_friction(c(FRICTION))?;
+    let contact = surface(c(RADIUS_M))?.with_friction(c(FRICTION))?;
+    let method = Collocation::<7, f32>::new(1e-6)?;
+    let (mut rigid, mut simulated) = (String::new(), String::new());
+    for (index, before) in MOTIONS.into_iter().enumerate() {
+        let motion = motion(before)?;
+        let (impact, classification) = (body.impact(&motion), body.classify(&motion));
+        line(
+            &mut rigid,
+            &format!("rigid {index} {}", classification.class() as u8),
+            &[
+                classification.speed_over_critical.unwrap_or(-1.0),
+                classification.contact.friction_over_limit.unwrap_or(-1.0),
+                impact.normal.overall_restitution(),
+                impact.tangential.tangential(),
+                impact.tangential.peripheral(),
+            ],
+        );
+        let impact: SimulatedImpact<f32, TangentialContact<f32>, ()> = contact.observe(&method, &motion)?;
+        line(
+            &mut simulated,
+            &format!("contact {index} {}", impact.class().map_or(u8::MAX, |class| class as u8)),
+            &[
+                impact.normal.overall_restitution(),
+                impact.normal.peak_indentation().unwrap_or(-1.0),
+                impact.tangential.tangential(),
+                impact.tangential.spin(),
+            ],
+        );
+    }
+    Ok(rigid + &simulated)
+}
+
+/// The lines of the trajectories, each whole and in the least room: of the scene, and of one without damping, adhesion and
+/// friction.
+fn trajectories() -> Result<String, InputError> {
+    let c = f32::constant;
+    let contact = surface(c(RADIUS_M))?.with_friction(c(FRICTION))?;
+    let sphere = Sphere::solid(c(RADIUS_M), c(DENSITY_KG_M3))?;
+    // Absent terms are strengths of zero in C.
+    let elastic = Simulation::new(sphere, Stiffness::new(c(STIFFNESS_PA))?)
+        .with_damping(0.0)?
+        .with_ring(0.0, 0.0)?
+        .with_friction(0.0)?;
+    let method = Collocation::<7, f32>::new(1e-6)?;
+    let mut text = String::new();
+    for (name, scene) in [("trajectory", contact), ("elastic", elastic)] {
+        for (index, before) in MOTIONS.into_iter().enumerate() {
+            let impact: SimulatedImpact<f32, TangentialContact<f32>, Trajectory<f32, 64>> =
+                scene.observe(&method, &motion(before)?)?;
+            let whole: Vec<Sample<f32>> = impact.outputs.samples().collect();
+            for samples in [&whole, &least(&impact.outputs)] {
+                let class = impact.class().map_or(u8::MAX, |class| class as u8);
+                line(&mut text, &format!("{name} {index} {class}"), &[impact.normal.overall_restitution()]);
+                for Sample { time, indentation, velocity, force, elastic } in samples {
+                    line(&mut text, "sample", &[*time, *indentation, *velocity, *force, *elastic]);
+                }
+            }
+        }
+    }
+    Ok(text)
+}
+
+/// What is in a trajectory however little room there is.
+fn least(whole: &Trajectory<f32, 64>) -> Vec<Sample<f32>> {
+    let (first, last) = (whole.samples().next(), whole.samples().last());
+    let mut samples: Vec<_> = [first, whole.peak(), whole.roll(), last].into_iter().flatten().collect();
+    samples.sort_by(|a, b| a.time.total_cmp(&b.time));
+    samples.dedup();
+    samples
+}
+
+type Surface<T> = Simulation<T, HystereticDamping<T>, Ring<T>>;
+
+fn surface<T: Real>(radius: T) -> Result<Surface<T>, InputError> {
+    let c = T::constant;
+    let sphere = Sphere::solid(radius, c(DENSITY_KG_M3))?;
+    Simulation::new(sphere, Stiffness::new(c(STIFFNESS_PA))?)
+        .with_damping(c(MATERIAL_DAMPING))?
+        .with_ring(c(RING_N_M), c(RING_DAMPING))
+}
+
+fn motion([approach, tangential, peripheral]: [f32; 3]) -> Result<PlanarMotion<f32>, InputError> {
+    NormalMotion::new(approach)?.with_tangential(tangential)?.with_peripheral_velocity(peripheral)
+}
+
+/// The lines of the tables of critical speeds: that which `microimpact table` writes, and one made in single precision.
+fn boundaries() -> Result<String, InputError> {
+    let constant = BoundaryTable::<8>::new(2e-6_f64, |radius| {
+        surface(radius)?.critical_speed(&Collocation::<9, f64>::new(1e-9)?)
+    })?;
+    let made = BoundaryTable::<4>::new(SMALLEST_RADIUS, |radius| {
+        surface(radius)?.critical_speed(&Collocation::<7, f32>::new(1e-6)?)
+    })?;
+    let mut text = verdicts("constant", constant.as_slice())?;
+    let (smallest, margin, cells) = made.parts();
+    line(&mut text, "made", &[smallest]);
+    text.pop();
+    let _ = writeln!(text, " {margin}");
+    for [constant, linear, square, cube] in cells {
+        let _ = writeln!(text, "cell {constant} {linear} {square} {cube}");
+    }
+    Ok(text + &verdicts("boundary", made.as_slice())?)
+}
+
+fn verdicts(name: &str, table: BoundarySlice<'_>) -> Result<String, InputError> {
+    let mut text = String::new();
+    for (i, radius) in RADII.into_iter().enumerate() {
+        for (j, before) in LOOKED_UP.into_iter().enumerate() {
+            let verdict = table.classify(radius, &motion(before)?);
+            let _ = writeln!(text, "{name} {i} {j} {}", verdict as u8);
+        }
+    }
+    Ok(text)
+}
+
+/// The lines of the table of restitutions.
+fn restitutions() -> Result<String, InputError> {
+    let method = Collocation::<7, f32>::new(1e-6)?;
+    let boundary = BoundaryTable::new(SMALLEST_RADIUS, |radius| surface(radius)?.critical_speed(&method))?;
+    let table = RestitutionTable::<f32, 8, 6, 10>::new(boundary, LARGEST_SPEED_RATIO, |radius, speed| {
+        let surface = surface(radius)?;
+        let impact: SimulatedImpact<_, (), ContactImpulses<f32>> =
+            surface.observe(&method, &NormalMotion::new(speed)?)?;
+        let impulse = impact.outputs.elastic / (surface.sphere().mass() * speed);
+        Ok(Rebound { restitution: impact.normal.overall_restitution(), impulse })
+    })?;
+    let friction = Coulomb::new(f32::constant(FRICTION))?;
+    let mut text = String::new();
+    for (i, radius) in RADII.into_iter().enumerate() {
+        for (j, before) in LOOKED_UP.into_iter().enumerate() {
+            let motion = motion(before)?;
+            let (verdict, surface_motion, numbers) = match table.read(radius, &motion) {
+                Reading::Rebound { rebound, error } => {
+                    let after = rebound.separation(&friction, 0.4, &motion);
+                    let numbers = [rebound.restitution, error, after.tangential, after.peripheral];
+                    (0, if after.motion == SurfaceMotion::Sliding { 1 } else { 2 }, numbers)
+                }
+                Reading::Capture => (1, 0, [0.0; 4]),
+                Reading::TooCloseToCall => (2, 0, [-1.0, -1.0, 0.0, 0.0]),
+                Reading::OutsideTable => (3, 0, [-1.0, -1.0, 0.0, 0.0]),
+            };
+            line(&mut text, &format!("restitution {i} {j} {verdict} {surface_motion}"), &numbers);
+        }
+    }
+    Ok(text)
+}
+
+fn line(text: &mut String, start: &str, numbers: &[f32]) {
+    // Writing to a String cannot fail.
+    let _ = write!(text, "{start}");
+    for number in numbers {
+        let _ = write!(text, " {:08x}", number.to_bits());
+    }
+    text.push('\n');
+}

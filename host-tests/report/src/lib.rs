@@ -1,0 +1,105 @@
+//! `cargo write-report`: error against run time, stability, the price of each part, and the paper's numbers beside ours, as
+//! one page with pictures and tables.
+
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::Parser;
+use clap::builder::PossibleValuesParser;
+
+mod committed;
+mod content;
+mod cost;
+mod device;
+mod page;
+mod paper;
+mod plot;
+mod price;
+mod stability;
+
+pub use cost::is_counted;
+
+use content::{Run, Section};
+use page::Chapter;
+
+/// Write a report with pictures and tables into a folder: `index.html`, and the numbers of each as CSV beside it.
+///
+/// Exit status: 0, 1 if a section failed or a figure is not current, 2 if the report cannot be written.
+#[derive(Parser)]
+#[command(name = "write-report")]
+pub struct Options {
+    /// A reduced run within a minute; the full one takes up to a quarter of an hour
+    #[arg(long)]
+    quick: bool,
+    /// Folder to write into [default: target/report of the repository]
+    #[arg(long)]
+    output: Option<PathBuf>,
+    /// Only these sections
+    #[arg(long, value_name = "SECTION", value_parser = PossibleValuesParser::new(SECTIONS.map(|(name, _)| name)))]
+    only: Vec<String>,
+    /// Draw the figures that README shows, and nothing else
+    #[arg(long, conflicts_with_all = ["check", "quick", "output", "only"])]
+    figures: bool,
+    /// See whether the figures that README shows are current, and do nothing else
+    #[arg(long, conflicts_with_all = ["quick", "output", "only"])]
+    check: bool,
+}
+
+type Write = fn(&Run) -> Result<Section, String>;
+
+/// The sections in the order of the page.
+const SECTIONS: [(&str, Write); 4] =
+    [("cost", cost::section), ("stability", stability::section), ("price", price::section), ("paper", paper::section)];
+
+const REPOSITORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+
+/// Does what is asked for; whether all of it succeeded.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn run(options: &Options) -> Result<bool, Box<dyn Error>> {
+    match (options.figures, options.check) {
+        (true, _) => committed::write().map(|()| true),
+        (_, true) => check(),
+        _ => write(options),
+    }
+}
+
+/// Whether the figures that README shows are current.
+fn check() -> Result<bool, Box<dyn Error>> {
+    let stale = committed::stale()?;
+    for path in &stale {
+        eprintln!("not current: {}; `cargo write-report --figures` draws it anew", path.display());
+    }
+    Ok(stale.is_empty())
+}
+
+/// Runs the sections and writes the page; whether all of them succeeded.
+fn write(options: &Options) -> Result<bool, Box<dyn Error>> {
+    let run = Run { quick: options.quick };
+    let begin = Instant::now();
+    let mut chapters = Vec::new();
+    for (name, section) in SECTIONS.iter().filter(|(name, _)| options.includes(name)) {
+        let begin = Instant::now();
+        eprintln!("{name} ...");
+        let chapter = Chapter { name, section: section(&run), elapsed: begin.elapsed() };
+        if let Err(error) = &chapter.section {
+            eprintln!("{name} failed: {error}");
+        }
+        eprintln!("{name}: {:.1} s", chapter.elapsed.as_secs_f64());
+        chapters.push(chapter);
+    }
+    let default = || Path::new(REPOSITORY).join("target/report");
+    let folder = options.output.clone().unwrap_or_else(default);
+    let facts = device::facts(options.quick, begin.elapsed())?;
+    let index = page::write(&folder, &facts, &chapters)?;
+    eprintln!("{}", index.display());
+    Ok(chapters.iter().all(|chapter| chapter.section.is_ok()))
+}
+
+impl Options {
+    fn includes(&self, section: &str) -> bool {
+        self.only.is_empty() || self.only.iter().any(|only| only == section)
+    }
+}

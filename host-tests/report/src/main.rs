@@ -1,0 +1,19 @@
+//! `cargo write-report`.
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+fn main() -> ExitCode {
+    if report::is_counted() {
+        return ExitCode::SUCCESS;
+    }
+    match report::run(&report::Options::parse()) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::from(2)
+        }
+    }
+}

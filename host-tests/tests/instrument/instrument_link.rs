@@ -1,0 +1,243 @@
+//! The link to an instrument: each event is answered once and rightly, and each fault is counted by its name.
+
+use std::io::{Read, Write};
+use std::net::{TcpListener, TcpStream};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use link::{Client, LinkError, load};
+use microimpact::instrument::link::{Decoder, Encoder, FrameFault, Inlet, PROTOCOL, Reply, Report, Request};
+use microimpact::instrument::{Instrument, NoLines, PlanarReading, Queue};
+use microimpact_scenes::station::{
+    BINS, CLASSES, Event, MESSAGE_BYTES, QUEUE, REPLY_BYTES, Scene, ToHost, ToInstrument, bins, scene,
+};
+use proptest::prelude::*;
+
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// What an instrument may do wrong.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Defect {
+    None,
+    AnswersTwice,
+    WrongClass,
+    ForgetsOverruns,
+    LosesAnEvent,
+}
+
+/// The firmware of the example, without its interrupt: requests wait in the queue until a chunk of bytes has been read.
+fn serve(mut stream: TcpStream, reset: &AtomicBool, defect: Defect) {
+    let mut chunk = [0; 4096];
+    let mut encoder = Encoder::<REPLY_BYTES>::new();
+    loop {
+        reset.store(false, Ordering::SeqCst);
+        let mut station: Instrument<Scene<f32>, NoLines, f32, CLASSES, BINS> =
+            Instrument::new(scene().unwrap(), NoLines, bins().unwrap());
+        let mut queue = Queue::<ToInstrument, QUEUE>::new();
+        let (mut sender, mut receiver) = queue.split();
+        let mut inlet = Inlet::<MESSAGE_BYTES>::new();
+        let (mut reports, mut ticks) = (0, 0);
+        let mut tell = |stream: &mut TcpStream, reply: &ToHost| stream.write_all(encoder.frame(reply).unwrap()).is_ok();
+        tell(&mut stream, &Reply::Started { protocol: PROTOCOL });
+        while !reset.load(Ordering::SeqCst) {
+            let Ok(length @ 1..) = stream.read(&mut chunk) else { return };
+            for request in chunk[..length].iter().filter_map(|&byte| inlet.receive(byte)) {
+                let _ = sender.send(request);
+            }
+            while let Some(request) = receiver.receive() {
+                ticks += 1;
+                match request {
+                    Request::Event { number, .. } if defect == Defect::LosesAnEvent && number == 777 => {}
+                    Request::Event { number, reading } => {
+                        let mut reply = match station.process(&reading) {
+                            Ok(verdict) => Reply::Classified { number, verdict },
+                            Err(rejection) => Reply::Rejected { number, rejection },
+                        };
+                        if let (Reply::Classified { verdict, .. }, Defect::WrongClass) = (&mut reply, defect) {
+                            verdict.class = microimpact::Class::CapturedRolling;
+                        }
+                        tell(&mut stream, &reply);
+                        if defect == Defect::AnswersTwice && number == 777 {
+                            tell(&mut stream, &reply);
+                        }
+                    }
+                    Request::Report { number } => {
+                        reports += 1;
+                        let tally = station.tally();
+                        let report = Report {
+                            arrivals: inlet.arrivals(),
+                            lost: if defect == Defect::ForgetsOverruns { 0 } else { receiver.lost() },
+                            classified: tally.classified(),
+                            rejections: tally.rejections(),
+                            reports,
+                            signal_failures: tally.signal_failures(),
+                            ticks,
+                        };
+                        tell(&mut stream, &Reply::Report { number, report });
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Runs the trial against the instrument above.
+fn trial(defect: Defect) -> Result<load::Trial, String> {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = listener.local_addr().unwrap();
+    let reset = Arc::new(AtomicBool::new(true));
+    let button = Arc::clone(&reset);
+    thread::spawn(move || serve(TcpStream::connect(address).unwrap(), &button, defect));
+    let patience = if defect == Defect::LosesAnEvent { PATIENCE / 10 } else { PATIENCE };
+    let mut client = Client::new(listener.accept().unwrap().0, patience).unwrap();
+    let trial = load::run(&mut client, 20_000, 1, || reset.store(true, Ordering::SeqCst))?;
+    load::overrun(&mut client, 2, || reset.store(true, Ordering::SeqCst))?;
+    Ok(trial)
+}
+
+#[test]
+fn every_event_is_answered_once_and_every_fault_counted() {
+    let trial = trial(Defect::None).unwrap();
+    assert!(trial.classes.iter().all(|&count| count > 20), "{trial}");
+    assert!(trial.rejected > 0 && trial.rejected == trial.sent.impossible, "{trial}");
+}
+
+/// The trial finds what it is there to find.
+#[test]
+fn defects_are_found() {
+    for (defect, sign) in [
+        (Defect::AnswersTwice, "a reply to nothing"),
+        (Defect::WrongClass, "but it is"),
+        (Defect::ForgetsOverruns, "full queue"),
+        (Defect::LosesAnEvent, "no reply in time"),
+    ] {
+        let found = trial(defect).unwrap_err();
+        assert!(found.contains(sign), "{found}");
+    }
+}
+
+#[test]
+fn an_instrument_of_another_version_is_refused() {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let mut instrument = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
+    let hello: ToHost = Reply::Started { protocol: PROTOCOL + 1 };
+    instrument.write_all(Encoder::<REPLY_BYTES>::new().frame(&hello).unwrap()).unwrap();
+    let refused = Client::new(listener.accept().unwrap().0, PATIENCE).err();
+    assert!(matches!(refused, Some(LinkError::Protocol(other)) if other == PROTOCOL + 1));
+}
+
+fn events() -> impl Strategy<Value = Event> {
+    (any::<f32>(), any::<f32>(), any::<f32>()).prop_map(|(approach, tangential, peripheral)| PlanarReading {
+        approach,
+        tangential,
+        peripheral,
+    })
+}
+
+fn frame(request: &ToInstrument) -> Vec<u8> {
+    Encoder::<64>::new().frame(request).unwrap().to_vec()
+}
+
+/// The largest numbers, which take most bytes.
+#[test]
+fn the_longest_messages_fit() {
+    let reading = PlanarReading { approach: f32::MAX, tangential: f32::MIN, peripheral: f32::MIN };
+    let request = frame(&Request::Event { number: u32::MAX, reading });
+    let mut inlet = Inlet::<MESSAGE_BYTES>::new();
+    assert!(request.iter().find_map(|&byte| inlet.receive::<Event>(byte)).is_some());
+    let faults = microimpact::instrument::link::FrameFaults {
+        oversized: u64::MAX,
+        stuffing: u64::MAX,
+        checksum: u64::MAX,
+        content: u64::MAX,
+    };
+    let arrivals = microimpact::instrument::link::Arrivals {
+        events: u64::MAX,
+        reports: u64::MAX,
+        duplicates: u64::MAX,
+        missing: u64::MAX,
+        faults,
+    };
+    let report = Report {
+        arrivals,
+        lost: u32::MAX,
+        classified: u64::MAX,
+        rejections: microimpact::instrument::Rejections { input: u64::MAX, unsolved: u64::MAX },
+        reports: u64::MAX,
+        signal_failures: u64::MAX,
+        ticks: u64::MAX,
+    };
+    let reply: ToHost = Reply::Report { number: u32::MAX, report };
+    assert!(Encoder::<REPLY_BYTES>::new().frame(&reply).is_ok());
+}
+
+proptest! {
+    /// Whatever comes before it, a frame is understood: the link is in step again within one frame.
+    #[test]
+    fn any_noise_spoils_no_frame(noise in prop::collection::vec(any::<u8>(), 0..200), event in events()) {
+        let request = Request::Event { number: 5, reading: event };
+        let mut decoder = Decoder::<MESSAGE_BYTES>::new();
+        let mut received = Vec::new();
+        for byte in noise.iter().copied().chain(frame(&request)) {
+            received.extend(decoder.push::<ToInstrument>(byte));
+        }
+        // Compared as bytes, because NaN is unlike itself.
+        let last = received.pop().unwrap().map(|last| frame(&last));
+        prop_assert_eq!(last, Ok(frame(&request)));
+        prop_assert!(received.iter().all(Result::is_err), "noise was understood: {:?}", received);
+    }
+
+    /// A frame in which bytes were changed, lost or added is never taken for a request.
+    #[test]
+    fn a_damaged_frame_is_never_understood(
+        event in events(),
+        place in 1usize..20,
+        insert in prop::collection::vec(any::<u8>(), 0..4),
+        remove in 0usize..4,
+    ) {
+        let whole = frame(&Request::Event { number: 5, reading: event });
+        let mut damaged = whole.clone();
+        let place = place.min(damaged.len() - 1);
+        let end = (place + remove).min(damaged.len() - 1);
+        damaged.splice(place..end, insert);
+        damaged.push(0);
+        let mut inlet = Inlet::<MESSAGE_BYTES>::new();
+        let understood = damaged.iter().filter_map(|&byte| inlet.receive::<Event>(byte)).count();
+        let unharmed = damaged[..damaged.len() - 1] == whole;
+        let prefixed = damaged.windows(whole.len()).any(|part| part == whole);
+        prop_assert_eq!(understood > 0, unharmed || prefixed);
+        prop_assert!(unharmed || prefixed || inlet.arrivals().faults.total() > 0);
+    }
+
+    /// Numbers may wrap, repeat, and leave gaps.
+    #[test]
+    fn numbers_tell_new_from_old(start in any::<u32>(), steps in prop::collection::vec(0u32..5, 1..50)) {
+        let mut inlet = Inlet::<MESSAGE_BYTES>::new();
+        let (mut number, mut duplicates, mut missing) = (start, 0, 0);
+        let reading = PlanarReading { approach: 1.0, tangential: 0.0, peripheral: 0.0 };
+        let mut send = |number| {
+            let bytes = frame(&Request::Event { number, reading });
+            bytes.iter().filter_map(|&byte| inlet.receive::<Event>(byte)).count()
+        };
+        prop_assert_eq!(send(number), 1);
+        for &step in &steps {
+            number = number.wrapping_add(step);
+            duplicates += u64::from(step == 0);
+            missing += u64::from(step.saturating_sub(1));
+            prop_assert_eq!(send(number), usize::from(step > 0));
+        }
+        // One from long ago.
+        prop_assert_eq!(send(number.wrapping_sub(1000)), 0);
+        prop_assert_eq!((inlet.arrivals().duplicates, inlet.arrivals().missing), (duplicates + 1, missing));
+    }
+
+    #[test]
+    fn oversized_frames_are_named(length in MESSAGE_BYTES + 3..1000) {
+        let mut decoder = Decoder::<MESSAGE_BYTES>::new();
+        let long = std::iter::once(0).chain(std::iter::repeat_n(7, length)).chain([0]);
+        let received: Vec<_> = long.filter_map(|byte| decoder.push::<ToInstrument>(byte)).collect();
+        prop_assert_eq!(received, [Err(FrameFault::Oversized)]);
+    }
+}

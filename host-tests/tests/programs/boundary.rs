@@ -1,0 +1,538 @@
+//! Tables of the critical speed: their certificate, what they say, and what they refuse.
+
+use std::process::Command;
+
+use crate::microimpact;
+use microimpact::boundary::{BoundarySlice, BoundaryTable, Reading, Rebound, RestitutionTable, Single, Verdict};
+use microimpact::simulation::{
+    Collocation, ContactImpulses, HystereticDamping, Nodes, Ring, SimulatedImpact, Simulation, TangentialContact,
+};
+use microimpact::{
+    Coulomb, CriticalSpeed, Fault, InputError, NormalMotion, Outcome, Parameter, Real, RigidBody, SpeedRestitution,
+    Sphere, Stiffness, SurfaceMotion,
+};
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::{RngSeed, TestRunner};
+
+/// A surface and what the spheres are made of.
+#[derive(Clone, Copy, Debug)]
+struct Material {
+    density: f64,
+    stiffness: f64,
+    adhesion: f64,
+    zeta_h: f64,
+    zeta_a: f64,
+}
+
+/// The paper's, with the halved damping of adhesion.
+const PAPER: Material = Material { density: 2600.0, stiffness: 7.5e10, adhesion: 250.0, zeta_h: 10.5, zeta_a: 6.25 };
+
+impl Material {
+    fn scene<T: Real>(&self, radius: T) -> Result<Simulation<T, HystereticDamping<T>, Ring<T>>, InputError> {
+        let sphere = Sphere::solid(radius, T::constant(self.density))?;
+        Simulation::new(sphere, Stiffness::new(T::constant(self.stiffness))?)
+            .with_damping(T::constant(self.zeta_h))?
+            .with_ring(T::constant(self.adhesion), T::constant(self.zeta_a))
+    }
+
+    fn critical<const N: usize, T: Nodes<N>>(&self, radius: T, tolerance: f64) -> Result<CriticalSpeed<T>, InputError> {
+        self.scene(radius)?.critical_speed(&Collocation::<N, T>::new(T::constant(tolerance))?)
+    }
+
+    fn exact(&self, radius: f64) -> f64 {
+        speed(self.critical::<9, f64>(radius, 1e-9))
+    }
+
+    fn table<const N: usize>(&self, smallest: f64) -> Result<BoundaryTable<N>, InputError> {
+        BoundaryTable::new(smallest, |radius| self.critical::<9, f64>(radius, 1e-9))
+    }
+}
+
+fn speed<T: std::fmt::Debug>(critical: Result<CriticalSpeed<T>, InputError>) -> T {
+    match critical {
+        Ok(CriticalSpeed::At(speed)) => speed,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn classify<const N: usize, T: Single>(table: &BoundaryTable<N>, radius: T, speed: T) -> Verdict {
+    table.classify(radius, &NormalMotion::new(speed).unwrap())
+}
+
+/// The largest relative error of a table, over `count` radii of even logarithms; and that each verdict holds.
+fn largest_error<const N: usize>(table: &BoundaryTable<N>, material: &Material, count: u32) -> f64 {
+    let (smallest, end) = table.radii::<f64>();
+    let mut largest = 0.0_f64;
+    for k in 0..count {
+        let radius = smallest * (end / smallest).powf((f64::from(k) + 0.5) / f64::from(count));
+        let exact = material.exact(radius);
+        let found = table.critical_speed(radius).unwrap();
+        largest = largest.max((found / exact - 1.0).abs());
+        let margin = table.margin::<f64>();
+        for (factor, wrong) in [(1.0 + 1e-7, Verdict::Capture), (1.0 - 1e-7, Verdict::Rebound)] {
+            assert_ne!(classify(table, radius, exact * factor), wrong, "{material:?}, {radius:e}");
+        }
+        assert_eq!(classify(table, radius, exact * (1.0 + 2.1 * margin)), Verdict::Rebound, "{material:?}, {radius:e}");
+        assert_eq!(classify(table, radius, exact * (1.0 - 2.1 * margin)), Verdict::Capture, "{material:?}, {radius:e}");
+    }
+    largest
+}
+
+#[test]
+fn certificate_holds_for_the_paper() {
+    // From 0.84 to 180 um in 504 bytes.
+    let table = PAPER.table::<31>(0.84e-6).unwrap();
+    assert!(size_of_val(&table) <= 512);
+    let (smallest, end) = table.radii::<f64>();
+    assert!(smallest <= 0.84e-6 && end >= 180e-6);
+    let error = largest_error(&table, &PAPER, 4000);
+    assert!(error <= table.margin::<f64>(), "{error:e}");
+    assert!(table.margin::<f64>() <= 1e-4);
+    // A margin that is far from the error would call too much too close.
+    assert!(error >= 0.4 * table.margin::<f64>(), "{error:e}");
+}
+
+/// The answers of the reference, to 20 digits.
+#[test]
+fn reference_is_classified() {
+    let table = PAPER.table::<31>(0.84e-6).unwrap();
+    let mut reader = csv::Reader::from_reader(include_str!("../../data/critical.csv").as_bytes());
+    let mut of_the_paper = 0;
+    for row in reader.records() {
+        let row = row.unwrap();
+        let number = |column: usize| row[column].parse::<f64>().unwrap();
+        if number(5) != PAPER.zeta_h {
+            continue;
+        }
+        of_the_paper += 1;
+        let (radius, exact) = (number(1), number(7));
+        let [above, below] = [1.0 + 2.1 * table.margin::<f64>(), 1.0 - 2.1 * table.margin::<f64>()];
+        assert_eq!(classify(&table, radius, exact * above), Verdict::Rebound);
+        assert_eq!(classify(&table, radius, exact * below), Verdict::Capture);
+        assert_eq!(classify(&table, radius as f32, (exact * above) as f32), Verdict::Rebound);
+        assert_eq!(classify(&table, radius as f32, (exact * below) as f32), Verdict::Capture);
+        assert!((table.critical_speed(radius).unwrap() / exact - 1.0).abs() <= table.margin::<f64>());
+    }
+    assert_eq!(of_the_paper, 6);
+}
+
+#[test]
+fn certificate_holds_for_random_materials() {
+    let mut runner = TestRunner::new(ProptestConfig { rng_seed: RngSeed::Fixed(1995), ..ProptestConfig::default() });
+    let decades = |from: f64, to: f64| (from..to).prop_map(|power| 10_f64.powf(power));
+    let materials = (
+        decades(2.7, 4.0),
+        decades(9.0, 11.5),
+        decades(0.0, 3.0),
+        decades(-1.0, 1.5),
+        decades(-1.0, 1.5),
+        decades(-7.0, -4.0),
+    );
+    let (mut tables, mut narrow, mut refused) = (0, 0, 0);
+    while tables < 200 {
+        let (density, stiffness, adhesion, zeta_h, zeta_a, smallest) =
+            materials.new_tree(&mut runner).unwrap().current();
+        let material = Material { density, stiffness, adhesion, zeta_h, zeta_a };
+        match material.table::<8>(smallest) {
+            Ok(table) => {
+                let error = largest_error(&table, &material, 60);
+                assert!(
+                    error <= table.margin::<f64>(),
+                    "{material:?}, {smallest:e}: {error:e} of {:e}",
+                    table.margin::<f64>()
+                );
+                tables += 1;
+                narrow += u32::from(table.margin::<f64>() <= 1e-4);
+            }
+            Err(error) => {
+                assert!([Parameter::CriticalSpeed, Parameter::BoundaryMargin].contains(&error.parameter), "{error}");
+                refused += 1;
+            }
+        }
+    }
+    println!("{narrow} of {tables} tables with a margin up to 1e-4; {refused} refused");
+    assert!(narrow > tables / 2);
+    assert!(refused > 0);
+}
+
+/// Made on a device without double precision, the table errs by no more than the critical speeds it is made from.
+#[test]
+fn tables_are_made_in_single_precision() {
+    let table = BoundaryTable::<16>::new(1e-6_f32, |radius| PAPER.critical::<8, f32>(radius, 1e-6)).unwrap();
+    let error = largest_error(&table, &PAPER, 500);
+    assert!(error <= table.margin::<f64>(), "{error:e}");
+    assert!(table.margin::<f32>() <= 1e-4);
+}
+
+/// W_A that goes with the area of contact: the rigid-body model, whose margin is an equation.
+#[test]
+fn certificate_holds_for_the_rigid_body() {
+    let scene = |radius: f64| {
+        let body = RigidBody::new(Sphere::solid(radius, 2600.0)?, SpeedRestitution::new(130.0)?);
+        body.with_work_of_adhesion(2e-12 * (radius / 5e-6).powi(2))
+    };
+    let table = BoundaryTable::<24>::new(1e-6, |radius| Ok(scene(radius)?.critical_speed())).unwrap();
+    assert!(table.margin::<f64>() <= 1e-4);
+    let (smallest, end) = table.radii::<f64>();
+    for k in 0..3000 {
+        let radius = smallest * (end / smallest).powf((f64::from(k) + 0.5) / 3000.0);
+        let scene = scene(radius).unwrap();
+        let exact = speed(Ok(scene.critical_speed()));
+        assert!((table.critical_speed(radius).unwrap() / exact - 1.0).abs() <= table.margin::<f64>());
+        for factor in [0.5, 0.999, 1.001, 2.0] {
+            let motion = NormalMotion::new(exact * factor).unwrap();
+            let expected = match scene.classify(&motion).outcome {
+                Outcome::Rebound => Verdict::Rebound,
+                Outcome::Capture => Verdict::Capture,
+            };
+            assert_eq!(table.classify(radius, &motion), expected);
+        }
+    }
+}
+
+#[test]
+fn queries_outside_the_table_say_so() {
+    let table = PAPER.table::<4>(2e-6).unwrap();
+    let (smallest, end) = table.radii::<f32>();
+    let verdict = |radius: f32| classify(&table, radius, 1.0_f32);
+    assert_eq!(verdict(smallest), Verdict::Capture);
+    assert_eq!(verdict(end.next_down()), Verdict::Capture);
+    for radius in [smallest.next_down(), end, 0.0, -0.0, -3e-6, f32::MIN_POSITIVE, 1e-45, f32::MAX] {
+        assert_eq!(verdict(radius), Verdict::OutsideTable, "{radius:e}");
+        assert_eq!(table.critical_speed(radius), None);
+    }
+    for radius in [f32::INFINITY, f32::NEG_INFINITY, f32::NAN, -f32::NAN, f32::MIN, -1e-45, f32::from_bits(u32::MAX)] {
+        assert_eq!(verdict(radius), Verdict::OutsideTable, "{radius:e}");
+    }
+    for radius in [f64::NAN, f64::MIN_POSITIVE, f64::MAX, f64::NEG_INFINITY, -3e-6] {
+        assert_eq!(classify(&table, radius, 1.0), Verdict::OutsideTable, "{radius:e}");
+    }
+    // The slowest and the fastest speed there are.
+    assert_eq!(classify(&table, 2.5e-6, 1e-12), Verdict::Capture);
+    assert_eq!(classify(&table, 2.5e-6, 1e6), Verdict::Rebound);
+}
+
+#[test]
+fn tables_that_cannot_be_made_are_refused() {
+    let fault = |parameter, fault| Some(InputError { parameter, fault });
+    let constant = |critical| move |_: f64| Ok(critical);
+    let made = |critical| BoundaryTable::<4>::new(1e-6, constant(critical)).err();
+    assert_eq!(made(CriticalSpeed::At(1.0)), None);
+    assert_eq!(made(CriticalSpeed::AlwaysRebounds), fault(Parameter::CriticalSpeed, Fault::TooSmall));
+    assert_eq!(made(CriticalSpeed::NeverRebounds), fault(Parameter::CriticalSpeed, Fault::TooLarge));
+    assert_eq!(made(CriticalSpeed::At(f64::NAN)), fault(Parameter::CriticalSpeed, Fault::NotFinite));
+    let source_fails = BoundaryTable::<4>::new(1e-6, |_: f64| Err(Parameter::Density.check(-1.0).unwrap_err()));
+    assert_eq!(source_fails.err(), fault(Parameter::Density, Fault::TooSmall));
+    let beyond = BoundaryTable::<8>::new(0.5, constant(CriticalSpeed::At(1.0)));
+    assert_eq!(beyond.err(), fault(Parameter::Radius, Fault::TooLarge));
+    // What no cubic can follow.
+    let jump = |radius: f64| Ok(CriticalSpeed::At(if radius < 1.525_878_9e-6 { 1.0 } else { 2.0 }));
+    assert_eq!(BoundaryTable::<8>::new(1e-6, jump).err(), fault(Parameter::BoundaryMargin, Fault::TooLarge));
+}
+
+#[test]
+fn parts_that_are_no_table_are_refused() {
+    let table = PAPER.table::<4>(2e-6).unwrap();
+    let (smallest, margin, cells) = table.parts();
+    let remade = |smallest, margin, cells| BoundaryTable::<4>::from_parts(smallest, margin, cells).err();
+    let fault = |parameter, fault| Some(InputError { parameter, fault });
+    assert_eq!(BoundaryTable::from_parts(smallest, margin, *cells), Ok(table));
+    for (radius, expected) in [(f32::NAN, Fault::NotFinite), (-1e-6, Fault::TooSmall), (2.0, Fault::TooLarge)] {
+        assert_eq!(remade(radius, margin, *cells), fault(Parameter::Radius, expected));
+    }
+    assert_eq!(remade(smallest, 0, *cells), fault(Parameter::BoundaryMargin, Fault::TooSmall));
+    for margin in [600_000, u32::MAX] {
+        assert_eq!(remade(smallest, margin, *cells), fault(Parameter::BoundaryMargin, Fault::TooLarge));
+    }
+    // A digit wrong in any cell tears it from its neighbours, or is no speed.
+    for (cell, part) in (0..4).flat_map(|cell| (0..3).map(move |part| (cell, part))) {
+        let mut wrong = *cells;
+        wrong[cell][part] += 100_000;
+        assert_eq!(remade(smallest, margin, wrong), fault(Parameter::BoundaryMargin, Fault::TooSmall), "{cell} {part}");
+    }
+    for (constant, expected) in [(0, Fault::TooSmall), (i32::MAX, Fault::TooLarge), (i32::MIN, Fault::TooSmall)] {
+        let wrong = [[constant, 0, 0, 0]; 4];
+        assert_eq!(remade(smallest, margin, wrong), fault(Parameter::CriticalSpeed, expected));
+    }
+}
+
+/// Restitution and elastic impulse of the simulation.
+fn rebound(material: &Material, radius: f64, speed: f64) -> Result<Rebound<f64>, InputError> {
+    let scene = material.scene(radius)?;
+    let method = Collocation::<9, f64>::new(1e-9)?;
+    let impact: SimulatedImpact<_, _, ContactImpulses<f64>> = scene.observe(&method, &NormalMotion::new(speed)?)?;
+    let impulse = impact.outputs.elastic / (scene.sphere().mass() * speed);
+    Ok(Rebound { restitution: impact.normal.overall_restitution(), impulse })
+}
+
+type Surface = RestitutionTable<f64, 12, 7, 10>;
+
+/// Radii of 2 to 15 um, up to ten times the critical speed.
+fn surface() -> Surface {
+    let boundary = PAPER.table(2e-6).unwrap();
+    RestitutionTable::new(boundary, 10.0, |radius, speed| rebound(&PAPER, radius, speed)).unwrap()
+}
+
+/// Places of a table: radius and speed, from just above the critical one to ten times it, evenly in the root of the excess.
+fn places(table: &Surface, count: u32) -> impl Iterator<Item = (f64, f64)> {
+    let (smallest, end) = table.boundary().radii::<f64>();
+    (0..count).flat_map(move |k| {
+        let radius = smallest * (end / smallest).powf((f64::from(k) + 0.5) / f64::from(count));
+        let critical = PAPER.exact(radius);
+        let root = move |l: u32| 10_f64.log2().sqrt() * (f64::from(l) + 0.5) / f64::from(count);
+        (0..count).map(move |l| (radius, critical * (root(l) * root(l)).exp2()))
+    })
+}
+
+#[test]
+fn certificate_of_the_restitution_holds() {
+    let table = surface();
+    assert!(table.error() <= 1e-3, "{:e}", table.error());
+    // With adhesion the elastic impulse is up to nine times the momentum.
+    assert!(table.impulse_error() <= 3e-2, "{:e}", table.impulse_error());
+    let (mut of_bound, mut far, mut impulse, mut read) = (0.0_f64, 0.0_f64, 0.0_f64, 0);
+    for (radius, speed) in places(&table, 70) {
+        let exact = rebound(&PAPER, radius, speed).unwrap();
+        match table.read(radius, &NormalMotion::new(speed).unwrap()) {
+            Reading::Rebound { rebound: found, error } => {
+                let off = (found.restitution - exact.restitution).abs();
+                of_bound = of_bound.max(off / error);
+                if speed > 1.02 * PAPER.exact(radius) {
+                    far = far.max(off);
+                }
+                impulse = impulse.max((found.impulse - exact.impulse).abs());
+                read += 1;
+            }
+            other => assert_eq!(other, Reading::TooCloseToCall, "{radius:e}, {speed}"),
+        }
+    }
+    assert!(read >= 4830, "{read} of 4900 are far enough from the boundary");
+    assert!(of_bound <= 1.0, "{of_bound} of the bound");
+    assert!(far <= 1e-3, "{far:e}");
+    assert!(impulse <= table.impulse_error(), "{impulse:e} of {:e}", table.impulse_error());
+    // Bounds that are far from the errors would be of little use.
+    assert!(of_bound >= 0.2 && impulse >= 0.2 * table.impulse_error(), "{of_bound}, {impulse:e}");
+}
+
+/// Sliding or rolling, and the velocities, are those of the simulation wherever the elastic impulse decides it clearly.
+#[test]
+fn tangential_motion_is_that_of_the_simulation() {
+    let (table, friction, method) = (surface(), 0.1, Collocation::<9, f64>::new(1e-9).unwrap());
+    let coulomb = Coulomb::new(friction).unwrap();
+    let (mut slides, mut rolls) = (0, 0);
+    for (radius, speed) in places(&table, 12) {
+        let scene = PAPER.scene(radius).unwrap().with_friction(friction).unwrap();
+        for slip in [-3.0, -0.71, -0.1, 0.0, 0.4, 0.68, 0.72, 2.0] {
+            let motion = NormalMotion::new(speed).unwrap().with_tangential(0.3 * speed).unwrap();
+            let motion = motion.with_peripheral_velocity((0.3 - slip) * speed).unwrap();
+            let Reading::Rebound { rebound, .. } = table.read(radius, &motion) else { continue };
+            let after = rebound.separation(&coulomb, 0.4, &motion);
+            let simulated: SimulatedImpact<_, TangentialContact<_>, ()> = scene.observe(&method, &motion).unwrap();
+            let allowed = speed * friction * table.impulse_error();
+            assert!((after.tangential - simulated.tangential.tangential()).abs() <= allowed);
+            assert!((after.peripheral - simulated.tangential.spin() * radius).abs() <= 2.5 * allowed);
+            let over = friction * rebound.impulse * 3.5 - slip.abs();
+            if over.abs() > friction * 3.5 * table.impulse_error() {
+                assert_eq!(after.motion, simulated.tangential.motion(), "{radius:e}, {speed}, {slip}");
+            }
+            match after.motion {
+                SurfaceMotion::Sliding => slides += 1,
+                _ => rolls += 1,
+            }
+        }
+    }
+    assert!(slides > 100 && rolls > 100, "{slides} {rolls}");
+}
+
+#[test]
+fn readings_outside_the_table_say_so() {
+    let table = surface();
+    let (smallest, end) = table.boundary().radii::<f64>();
+    let read = |radius: f64, speed: f64| table.read(radius, &NormalMotion::new(speed).unwrap());
+    for radius in [0.999 * smallest, end, 0.0, -3e-6, f64::NAN, f64::INFINITY] {
+        assert_eq!(read(radius, 5.0), Reading::OutsideTable, "{radius:e}");
+    }
+    let critical = PAPER.exact(3e-6);
+    for (factor, expected) in [(1e-9, Reading::Capture), (0.999, Reading::Capture), (1.0, Reading::TooCloseToCall)] {
+        assert_eq!(read(3e-6, factor * critical), expected);
+    }
+    assert!(matches!(read(3e-6, 9.999 * critical), Reading::Rebound { .. }));
+    for factor in [10.001, 1e4] {
+        assert_eq!(read(3e-6, factor * critical), Reading::OutsideTable);
+    }
+    // The ends of the range of radii are read as well as its middle.
+    for radius in [smallest, end * (1.0 - 1e-6)] {
+        let exact = rebound(&PAPER, radius, 2.0 * PAPER.exact(radius)).unwrap();
+        let Reading::Rebound { rebound, error } = read(radius, 2.0 * PAPER.exact(radius)) else { panic!("{radius:e}") };
+        assert!((rebound.restitution - exact.restitution).abs() <= error);
+    }
+}
+
+#[test]
+fn surfaces_that_cannot_be_made_are_refused() {
+    let boundary = PAPER.table::<1>(2e-6).unwrap();
+    let made = |ratio: f64, restitution: f64| {
+        let source = |_, _| Ok(Rebound { restitution, impulse: 2.0 });
+        RestitutionTable::<f64, 1, 3, 4>::new(boundary, ratio, source).err()
+    };
+    let fault = |parameter, fault| Some(InputError { parameter, fault });
+    assert_eq!(made(10.0, 0.5), None);
+    assert_eq!(made(10.0, f64::NAN), fault(Parameter::Restitution, Fault::NotFinite));
+    assert_eq!(made(10.0, 1.1), fault(Parameter::Restitution, Fault::TooLarge));
+    let fast = BoundaryTable::<1>::new(1e-6, |_: f64| Ok(CriticalSpeed::At(9e5))).unwrap();
+    let source = |_, _| Ok(Rebound { restitution: 0.5, impulse: 2.0 });
+    let error = RestitutionTable::<f64, 1, 3, 4>::new(fast, 10.0, source).unwrap_err();
+    assert_eq!(error.parameter, Parameter::ApproachSpeed);
+}
+
+#[test]
+fn single_precision_reads_the_same() {
+    let double = surface();
+    let boundary = *double.boundary();
+    let single = RestitutionTable::<f32, 12, 7, 10>::new(boundary, 10.0, |radius, speed| {
+        let Rebound { restitution, impulse } = rebound(&PAPER, radius.into(), speed.into())?;
+        Ok(Rebound { restitution: restitution as f32, impulse: impulse as f32 })
+    })
+    .unwrap();
+    for (radius, speed) in places(&double, 20) {
+        let (one, other) = (
+            double.read(radius, &NormalMotion::new(speed).unwrap()),
+            single.read(radius as f32, &NormalMotion::new(speed as f32).unwrap()),
+        );
+        if let (Reading::Rebound { rebound: one, .. }, Reading::Rebound { rebound: other, .. }) = (one, other) {
+            assert!((one.restitution - f64::from(other.restitution)).abs() <= 1e-5);
+            assert!((one.impulse - f64::from(other.impulse)).abs() <= 1e-5);
+        }
+    }
+}
+
+const SMALL: [&str; 4] = ["--smallest-radius", "2e-6", "--cells", "4"];
+
+fn written(format: &str) -> String {
+    let output = microimpact("table", &[&SMALL[..], &["--format", format]].concat(), b"");
+    assert_eq!(output.status, 0, "{}", output.complaint());
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Cells written as lines of four numbers.
+fn cells_in<'a>(lines: impl Iterator<Item = &'a str>) -> [[i32; 4]; 4] {
+    let numbers = |line: &str| line.split(", ").map(|number| number.parse().unwrap()).collect::<Vec<i32>>();
+    let cells: Vec<[i32; 4]> = lines.map(|line| numbers(line).try_into().unwrap()).collect();
+    cells.try_into().unwrap()
+}
+
+#[test]
+fn example_writes_a_constant() {
+    let table = PAPER.table::<4>(2e-6).unwrap();
+    let (smallest, margin, cells) = table.parts();
+    let text = written("rust");
+    assert!(text.contains("BoundaryTable<4> =") && text.contains(&format!("from_parts({smallest:e}, {margin}, [")));
+    let lines = text.lines().filter_map(|line| line.trim().strip_prefix('[')?.strip_suffix("],"));
+    assert_eq!(cells_in(lines), *cells);
+    let text = written("csv");
+    let lines: Vec<String> =
+        text.lines().skip(1).map(|line| line.split(',').skip(2).take(4).collect::<Vec<_>>().join(", ")).collect();
+    assert_eq!(cells_in(lines.iter().map(String::as_str)), *cells);
+}
+
+/// The constant of the firmware is the one that the example writes.
+#[test]
+fn table_of_the_firmware_is_current() {
+    let firmware = include_str!("../../../examples/firmware/scenes/src/tables.rs");
+    let table = PAPER.table::<12>(2e-6).unwrap();
+    let (smallest, margin, cells) = table.parts();
+    let lines: Vec<&str> = firmware.lines().map(str::trim).collect();
+    let at = lines.iter().position(|line| *line == format!("{smallest:e},")).unwrap();
+    assert_eq!(lines[at + 1], format!("{margin},"));
+    for (cell, line) in cells.iter().zip(&lines[at + 3..]) {
+        assert_eq!(format!("{cell:?},"), *line);
+    }
+}
+
+/// Radii within and around a table, and speeds close to the critical one and far from it.
+fn queries(table: &BoundaryTable<4>) -> Vec<(f32, f32)> {
+    let mut queries = Vec::new();
+    for k in 0..400 {
+        let radius = 1.8e-6 * 1.004_f32.powi(k);
+        let critical = table.critical_speed(radius).unwrap_or(1.0);
+        let factors = [1e-12 / critical, 0.5, 0.999, 0.999_95, 1.0, 1.000_05, 1.001, 2.0, 1e5];
+        queries.extend(factors.map(|factor| (radius, (critical * factor).clamp(1e-12, 1e6))));
+    }
+    queries.extend([0.0, -3e-6, f32::NAN, f32::INFINITY, 1e-45].map(|radius| (radius, 1.0)));
+    queries
+}
+
+/// A cell that is read alone gives the verdicts of the table, and tells of the table whether it is one.
+#[test]
+fn cells_say_what_the_table_says() {
+    let table = PAPER.table::<4>(2e-6).unwrap();
+    let (smallest, margin, cells) = table.parts();
+    let alone = |cells: &[[i32; 4]], radius: f32, speed: f32| {
+        let motion = NormalMotion::new(speed).unwrap();
+        let cell = BoundarySlice::cell(smallest, margin, cells, radius)?;
+        Ok(cell.map_or(Verdict::OutsideTable, |cell| cell.classify(radius, &motion)))
+    };
+    for (radius, speed) in queries(&table) {
+        assert_eq!(alone(cells, radius, speed), Ok(classify(&table, radius, speed)), "{radius:e} {speed:e}");
+    }
+    let mut spoilt = *cells;
+    spoilt[1][0] = 0;
+    let error = InputError { parameter: Parameter::CriticalSpeed, fault: Fault::TooSmall };
+    assert_eq!(BoundarySlice::from_parts(smallest, margin, &spoilt), Err(error));
+    // Cells are linear in the radius within an octave.
+    let second = smallest * 1.25..smallest * 1.5;
+    for (radius, speed) in queries(&table) {
+        let expected = if second.contains(&radius) { Err(error) } else { Ok(classify(&table, radius, speed)) };
+        assert_eq!(alone(&spoilt, radius, speed), expected, "{radius:e}");
+    }
+}
+
+/// The function in C gives the verdicts of the library, everywhere.
+#[test]
+fn example_writes_c_that_says_the_same() {
+    let folder = std::env::temp_dir().join(format!("boundary-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let (source, program) = (folder.join("boundary.c"), folder.join("boundary"));
+    let main = "#include <stdio.h>\n\
+        int main(void) {\n\
+            float radius, speed;\n\
+            while (scanf(\"%f %f\", &radius, &speed) == 2) printf(\"%d\\n\", (int)boundary_classify(radius, speed));\n\
+            return 0;\n\
+        }\n";
+    std::fs::write(&source, written("c") + main).unwrap();
+    let options = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-o"];
+    let built = Command::new("cc").args(options).arg(&program).arg(&source).status().unwrap();
+    assert!(built.success());
+
+    let table = PAPER.table::<4>(2e-6).unwrap();
+    let queries = queries(&table);
+    let input: String = queries.iter().map(|(radius, speed)| format!("{radius:e} {speed:e}\n")).collect();
+    std::fs::write(folder.join("queries"), input).unwrap();
+    let queried = std::fs::File::open(folder.join("queries")).unwrap();
+    let output = Command::new(&program).stdin(queried).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let verdicts = [Verdict::Rebound, Verdict::Capture, Verdict::TooCloseToCall, Verdict::OutsideTable];
+    let answers: Vec<Verdict> = text.lines().map(|line| verdicts[line.parse::<usize>().unwrap()]).collect();
+    assert_eq!(answers.len(), queries.len());
+    for ((radius, speed), answer) in queries.into_iter().zip(&answers) {
+        assert_eq!(classify(&table, radius, speed), *answer, "{radius:e} {speed:e}");
+    }
+    for verdict in verdicts {
+        assert!(answers.contains(&verdict), "{verdict:?}");
+    }
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn example_refuses_what_has_no_boundary_with_2() {
+    for (arguments, word) in [
+        (["--adhesion", "0"], "critical speed is below its range"),
+        (["--smallest-radius", "-1"], "radius"),
+        (["--cells", "33"], "cells"),
+    ] {
+        let output = microimpact("table", &arguments, b"");
+        assert_eq!(output.status, 2);
+        assert!(output.complaint().contains(word));
+    }
+}

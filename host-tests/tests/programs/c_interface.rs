@@ -1,0 +1,145 @@
+//! The interface for C: its header is current, misuse is harmless, and its results are those of Rust.
+
+use std::path::{Path, PathBuf};
+
+use reference::c_results;
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/c")
+}
+
+fn header() -> String {
+    let mut text = Vec::new();
+    let config = cbindgen::Config::from_file(folder().join("cbindgen.toml")).unwrap();
+    let bindings = cbindgen::Builder::new().with_crate(folder()).with_config(config).generate().unwrap();
+    bindings.write(&mut text);
+    String::from_utf8(text).unwrap()
+}
+
+/// The table that `microimpact table` writes for C.
+fn constant() -> String {
+    let output = crate::microimpact("table", &c_results::CONSTANT, b"");
+    assert_eq!(output.status, 0, "{}", output.complaint());
+    let arguments = c_results::CONSTANT.join(" ");
+    let made_by = format!("/* Made by cargo microimpact table {arguments} */\n");
+    made_by + &String::from_utf8(output.stdout).unwrap()
+}
+
+fn constant_file() -> PathBuf {
+    folder().join("boundary.h")
+}
+
+fn header_file() -> PathBuf {
+    folder().join("include/microimpact.h")
+}
+
+#[test]
+fn header_is_current() {
+    let stored = std::fs::read_to_string(header_file()).unwrap();
+    let write = "cargo test --package host-tests --test programs -- --ignored";
+    assert_eq!(stored, header(), "the interface has changed; `{write}` writes its header anew");
+}
+
+#[test]
+fn constant_is_current() {
+    assert_eq!(std::fs::read_to_string(constant_file()).unwrap(), constant());
+}
+
+#[test]
+#[ignore = "writes the headers anew"]
+fn write_headers() {
+    std::fs::write(header_file(), header()).unwrap();
+    std::fs::write(constant_file(), constant()).unwrap();
+}
+
+/// The C programs under the sanitizers; the library is built for that of addresses too, so that it sees what Rust writes.
+#[cfg(target_os = "linux")]
+mod sanitized {
+    use std::path::{Path, PathBuf};
+    use std::process::{Command, Output};
+    use std::sync::OnceLock;
+
+    use reference::c_results;
+
+    use super::folder;
+
+    const TEMPORARY: &str = env!("CARGO_TARGET_TMPDIR");
+
+    /// The static library, built once.
+    fn library() -> &'static Path {
+        static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
+        LIBRARY.get_or_init(|| {
+            let triple = format!("{}-unknown-linux-gnu", std::env::consts::ARCH);
+            let target = Path::new(TEMPORARY).join("c");
+            let mut cargo = Command::new(env!("CARGO"));
+            cargo.args(["build", "--release", "--locked", "--target", &triple]);
+            cargo.arg("--manifest-path").arg(folder().join("Cargo.toml")).arg("--target-dir").arg(&target);
+            cargo.env("RUSTC_BOOTSTRAP", "1").env("RUSTFLAGS", "-Zsanitizer=address");
+            assert!(cargo.status().unwrap().success());
+            target.join(triple).join("release/libmicroimpact_c.a")
+        })
+    }
+
+    /// Compiles a C program and runs it with arguments.
+    fn run(program: &str, name: &str, arguments: &[&str]) -> Output {
+        let executable = Path::new(TEMPORARY).join(name);
+        let mut compiler = Command::new("cc");
+        compiler.args(["-std=c11", "-Wall", "-Wextra", "-Werror", "-g"]);
+        compiler.args(["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]);
+        compiler.arg("-I").arg(folder().join("include")).arg(folder().join(program)).arg(library());
+        assert!(compiler.args(["-lm", "-o"]).arg(&executable).status().unwrap().success());
+        Command::new(executable).args(arguments).output().unwrap()
+    }
+
+    #[test]
+    fn misuse_is_reported_and_harmless() {
+        let output = run("check.c", "check", &[]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+
+    #[test]
+    fn the_sanitizer_sees_what_rust_writes() {
+        let output = run("check.c", "overflow", &["overflow"]);
+        let complaint = String::from_utf8_lossy(&output.stderr);
+        assert!(!output.status.success() && complaint.contains("heap-buffer-overflow"), "{complaint}");
+    }
+
+    #[test]
+    fn results_are_those_of_rust_to_the_last_bit() {
+        let output = run("results.c", "results", &[]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let printed = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(printed, c_results::expected().unwrap());
+        let lines = |kind: &str| printed.lines().filter(|line| line.starts_with(kind)).count();
+        assert_eq!(lines("rigid") + lines("contact"), 2 * c_results::MOTIONS.len());
+        // Every trajectory twice; in the least room it is four samples, or three of a sphere that does not begin to roll.
+        assert_eq!(lines("trajectory"), 2 * c_results::MOTIONS.len());
+        assert_eq!(lines("elastic"), 2 * c_results::MOTIONS.len());
+        let starts = |line: &&str| line.starts_with("trajectory") || line.starts_with("elastic");
+        let lengths: Vec<usize> = printed
+            .split_inclusive('\n')
+            .collect::<Vec<_>>()
+            .chunk_by(|_, next| next.starts_with("sample"))
+            .filter(|chunk| chunk.first().is_some_and(starts))
+            .map(|chunk| chunk.len() - 1)
+            .collect();
+        assert!(lengths.chunks(2).all(|pair| pair[0] > 2 * pair[1]), "{lengths:?}");
+        assert!([3, 4].iter().all(|least| lengths.contains(least)), "{lengths:?}");
+        // Every verdict of each table, and both motions along the surface.
+        let looked_up = c_results::RADII.len() * c_results::LOOKED_UP.len();
+        for table in ["constant", "boundary", "restitution"] {
+            assert_eq!(lines(table), looked_up);
+            for verdict in ["0", "1", "2", "3"] {
+                let said = |line: &str| line.starts_with(table) && line.split(' ').nth(3) == Some(verdict);
+                assert!(printed.lines().any(said), "{table} {verdict}");
+            }
+        }
+        for surface_motion in ["0 1", "0 2"] {
+            let said = |line: &str| {
+                line.starts_with("restitution")
+                    && line.split(' ').skip(3).take(2).collect::<Vec<_>>().join(" ") == surface_motion
+            };
+            assert!(printed.lines().any(said), "{surface_motion}");
+        }
+    }
+}

@@ -1,0 +1,289 @@
+//! The command `classify`.
+
+use crate::{Output, microimpact};
+
+const HEADER: &str = "name,radius_m,density_kg_m3,restitution,adhesion_coefficient,friction,speed_normal_m_s,speed_tangential_m_s,spin_rad_s\n";
+const TABLE_1: &str = "Table 1,5.06e-6,2600,0.978,0.237,0.1,2.8,0,1.46e5\n";
+
+fn run(arguments: &[&str], input: &[u8]) -> Output {
+    microimpact("classify", arguments, input)
+}
+
+/// A table that was written, by column name and row.
+struct Written {
+    names: Vec<String>,
+    rows: Vec<csv::StringRecord>,
+}
+
+impl Written {
+    fn read(bytes: &[u8], delimiter: u8) -> Self {
+        let mut reader = csv::ReaderBuilder::new().delimiter(delimiter).from_reader(bytes);
+        let names = reader.headers().unwrap().iter().map(str::to_owned).collect();
+        let rows = reader.records().map(Result::unwrap).collect();
+        Self { names, rows }
+    }
+
+    fn text(&self, row: usize, column: &str) -> &str {
+        let index = self.names.iter().position(|name| name == column).unwrap_or_else(|| panic!("no column {column}"));
+        &self.rows[row][index]
+    }
+
+    fn number(&self, row: usize, column: &str) -> f64 {
+        self.text(row, column).parse().unwrap_or_else(|_| panic!("{column}: {}", self.text(row, column)))
+    }
+}
+
+fn classified(table: &str) -> (Written, u8) {
+    let output = run(&["-", "--format", "csv"], table.as_bytes());
+    (Written::read(&output.stdout, b','), output.status)
+}
+
+#[test]
+fn bundled_impacts_without_arguments() {
+    let output = run(&[], b"");
+    assert_eq!(output.status, 0, "{}", output.complaint());
+    let text = String::from_utf8(output.stdout).unwrap();
+    let line = text.lines().find(|line| line.contains("Table 1: glass on steel")).unwrap();
+    for word in ["rebound rolling", "0.746", "2.089", "0.0432", "45.1"] {
+        assert!(line.contains(word), "{line}");
+    }
+    assert!(!text.contains("bad row"));
+}
+
+#[test]
+fn one_row_out_for_every_row_in() {
+    let rows = [
+        TABLE_1,
+        "negative radius,-1,2600,0.978,0.237,0.1,2.8,0,0\n",
+        "receding,1e-6,2600,0.978,0.237,0.1,-2.8,0,0\n",
+        "not a number,1e-6,2600,nan,0,0.1,2.8,0,0\n",
+        "words,1e-6,heavy,0.9,0,0.1,2.8,0,0\n",
+        "no restitution,1e-6,2600,,0,0.1,2.8,0,0\n",
+        "short row,1e-6,2600,0.9\n",
+        "long row,1e-6,2600,0.9,0,0.1,2.8,0,0,surplus\n",
+        "blank optional cells,1e-6,2600,0.9,,,2.8,,\n",
+    ];
+    let (written, status) = classified(&(HEADER.to_owned() + &rows.concat()));
+    assert_eq!(status, 1);
+    assert_eq!(written.rows.len(), rows.len());
+    for (row, reason) in [
+        (1, "radius is below its range, 1e-10 to 1 m"),
+        (2, "approach speed is below its range"),
+        (3, "restitution is not a finite number"),
+        (4, "density_kg_m3: \"heavy\" is not a number"),
+        (5, "restitution: missing"),
+        (6, "speed_normal_m_s: missing"),
+        (7, "surplus"),
+    ] {
+        assert!(written.text(row, "error").contains(reason), "{}", written.text(row, "error"));
+        assert_eq!(written.text(row, "outcome"), "");
+    }
+    for row in [0, 8] {
+        assert_eq!((written.text(row, "error"), written.text(row, "outcome")), ("", "rebound"));
+    }
+}
+
+#[test]
+fn numbers_of_table_1() {
+    let (written, status) = classified(&(HEADER.to_owned() + TABLE_1));
+    assert_eq!(status, 0);
+    assert_eq!(written.text(0, "motion"), "rolling");
+    assert!((written.number(0, "overall_restitution") - 0.746).abs() < 5e-4);
+    assert!((written.number(0, "rebound_speed_m_s") - 2.09).abs() < 5e-3);
+    assert!((written.number(0, "energy_before_j") - 5.68e-12).abs() < 5e-15);
+    assert_eq!(written.number(0, "restitution"), 0.978, "the input column stays as it was");
+}
+
+#[test]
+fn all_ways_to_give_a_term() {
+    let header = "radius_m,density_kg_m3,restitution,restitution_speed_m_s,adhesion_coefficient,work_of_adhesion_j,friction,impulse_ratio,rolling_arm_m,gyration_ratio,speed_normal_m_s,speed_tangential_m_s\n";
+    let rows = [
+        "5e-6,2600,,130,,2e-12,0.1,,,,2.8,1\n",
+        "5e-6,2600,,130,,2e-12,0.1,,,,1,1\n",
+        "5e-6,2600,0.9,,0,,,-0.02,,,2.8,1\n",
+        "5e-6,2600,0.9,,0,,,0.02,,,2.8,1\n",
+        "5e-6,2600,0.9,,0,,0.5,,1e-8,0.6,2.8,1\n",
+        "5e-6,2600,0.9,130,0,,0.5,,,,2.8,1\n",
+        "5e-6,2600,0.9,,0,1e-12,0.5,,,,2.8,1\n",
+        "5e-6,2600,0.9,,0,,,-0.02,1e-8,,2.8,1\n",
+    ];
+    let (written, status) = classified(&(header.to_owned() + &rows.concat()));
+    assert_eq!(status, 1);
+    assert!(written.number(0, "speed_over_critical") > 1.0);
+    assert_eq!(written.text(1, "outcome"), "capture");
+    assert!(written.number(1, "speed_over_critical") < 1.0);
+    assert!((written.number(2, "impulse_ratio_out") + 0.02).abs() < 1e-12);
+    assert!(written.text(3, "error").contains("impulse ratio lies outside its bounds"));
+    assert!(written.number(4, "work_rolling_j") > 0.0);
+    for (row, word) in [(5, "restitution: given twice"), (6, "adhesion: given twice"), (7, "rolling_arm_m")] {
+        assert!(written.text(row, "error").contains(word), "{}", written.text(row, "error"));
+    }
+}
+
+/// What Excel writes where commas are decimal marks: semicolons, a byte-order mark and CRLF.
+#[test]
+fn spreadsheet_dialects() {
+    let table = "\u{feff}Name;Radius_M ;density_kg_m3;restitution;speed_normal_m_s;\"note; free\"\r\n\
+                 \"a \"\"quoted\"\" name\";5,06e-6;2600;0,5;2,5;\"x;y\"\r\n";
+    let output = run(&["-", "--format", "csv"], table.as_bytes());
+    assert_eq!(output.status, 0, "{}", output.complaint());
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.starts_with("\u{feff}Name;Radius_M ;"), "{text}");
+    assert_eq!(text.matches("\r\n").count(), 2);
+    assert!(
+        text.contains("\"a \"\"quoted\"\" name\";5,06e-6;2600;0,5;2,5;\"x;y\";rebound;rolling;0,5;1,25;"),
+        "{text}"
+    );
+
+    let tabs =
+        run(&["-", "--format", "csv"], b"radius_m\tdensity_kg_m3\trestitution\tspeed_normal_m_s\n1e-6\t1000\t0.5\t2\n");
+    assert_eq!(Written::read(&tabs.stdout, b'\t').text(0, "rebound_speed_m_s"), "1");
+}
+
+#[test]
+fn ambiguous_decimal_points_are_refused() {
+    let table = "radius_m;density_kg_m3;restitution;speed_normal_m_s\n5,06e-6;2.600;0,5;2,5\n";
+    let output = run(&["-", "--format", "csv"], table.as_bytes());
+    assert_eq!(output.status, 1);
+    assert!(String::from_utf8_lossy(&output.stdout).contains("density_kg_m3: \"\"2.600\"\" is ambiguous"));
+}
+
+/// A result can be classified again and again.
+#[test]
+fn output_is_input() {
+    let mut table = HEADER.to_owned() + TABLE_1;
+    for _ in 0..4 {
+        let output = run(&["-", "--format", "csv"], table.as_bytes());
+        assert_eq!(output.status, 0, "{}", output.complaint());
+        table = String::from_utf8(output.stdout).unwrap();
+    }
+    assert!(table.contains("input_input_input_outcome"));
+}
+
+#[test]
+fn unknown_columns_pass_through() {
+    let table =
+        "outcome,radius_m,density_kg_m3,restitution,speed_normal_m_s,remark\nseen,1e-6,1000,0.5,2,\"kept, as is\"\n";
+    let (written, status) = classified(table);
+    assert_eq!(status, 0);
+    assert_eq!(written.text(0, "input_outcome"), "seen");
+    assert_eq!(written.text(0, "outcome"), "rebound");
+    assert_eq!(written.text(0, "remark"), "kept, as is");
+}
+
+#[test]
+fn reference_cases_are_accepted() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/cases.csv");
+    let given = Written::read(&std::fs::read(path).unwrap(), b',');
+    let output = run(&[path, "--format", "csv"], b"");
+    assert_eq!(output.status, 0, "{}", output.complaint());
+    let written = Written::read(&output.stdout, b',');
+    assert_eq!(written.rows.len(), given.rows.len());
+    for row in 0..given.rows.len() {
+        // The table's restitution is e, which this model takes for R of an impact without adhesion.
+        let (e, computed) = (given.number(row, "restitution"), written.number(row, "overall_restitution"));
+        assert!((computed - e).abs() <= 1e-15, "row {row}: {computed} against {e}");
+        assert_eq!(written.text(row, "outcome"), given.text(row, "outcome"), "row {row}");
+    }
+}
+
+/// The simulation's columns have the names of the reference and its values.
+#[test]
+fn reference_cases_by_the_simulation() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/cases.csv");
+    let given = Written::read(&std::fs::read(path).unwrap(), b',');
+    let output = run(&[path, "--format", "csv", "--model", "simulation", "--tolerance", "1e-13"], b"");
+    assert_eq!(output.status, 0, "{}", output.complaint());
+    let written = Written::read(&output.stdout, b',');
+    for row in 0..given.rows.len() {
+        let name = given.text(row, "name");
+        assert_eq!(written.text(row, "outcome"), given.text(row, "outcome"), "{name}");
+        let columns: &[&str] = if given.text(row, "outcome") == "rebound" {
+            assert_eq!(written.text(row, "motion"), given.text(row, "motion"), "{name}");
+            &[
+                "restitution",
+                "max_indentation_m",
+                "time_peak_s",
+                "contact_time_s",
+                "time_roll_s",
+                "impulse_hertz_n_s",
+                "impulse_adhesion_rebound_n_s",
+                "work_material_j",
+                "work_adhesion_j",
+                "speed_tangential_out_m_s",
+                "spin_out_rad_s",
+                "rotation_rad",
+                "displacement_tangential_m",
+            ]
+        } else {
+            &["restitution", "max_indentation_m", "turning_indentation_m"]
+        };
+        for column in columns.iter().chain(&["group_a", "group_b", "group_h", "group_g"]) {
+            let exact = given.number(row, column);
+            if exact.is_nan() {
+                assert_eq!(written.text(row, column), "", "{name}, {column}");
+                continue;
+            }
+            let (found, close) = (written.number(row, column), name.contains("e-06"));
+            let allowed = exact.abs() * if close { 1e-8 } else { 1e-10 };
+            assert!((found - exact).abs() <= allowed, "{name}, {column}: {found} against {exact}");
+        }
+    }
+}
+
+#[test]
+fn both_models_side_by_side() {
+    let header = "radius_m,density_kg_m3,stiffness_pa,adhesion_n_m,zeta_h,zeta_a,friction,restitution,adhesion_coefficient,speed_normal_m_s,speed_tangential_m_s,spin_rad_s\n";
+    let rows = [
+        "5.06e-6,2600,7.5e10,250,10.5,6.25,0.1,0.978,0.237,2.8,0,145400\n",
+        "5.06e-6,2600,7.5e10,250,10.5,6.25,0.1,,,2.8,0,145400\n",
+        "5.06e-6,2600,,250,10.5,6.25,0.1,0.978,0.237,2.8,0,145400\n",
+        "5.06e-6,2600,,250,10.5,6.25,0.1,0.978,0.237,-2.8,0,145400\n",
+    ];
+    let table = header.to_owned() + &rows.concat();
+    let output = run(&["-", "--format", "csv", "--model", "both"], table.as_bytes());
+    assert_eq!(output.status, 1);
+    let written = Written::read(&output.stdout, b',');
+    assert_eq!((written.text(0, "outcome"), written.text(0, "rigid_body_motion")), ("rebound", "rolling"));
+    assert!((written.number(0, "restitution") - 0.746193).abs() < 1e-6);
+    assert!((written.number(0, "rigid_body_overall_restitution") - 0.746214).abs() < 1e-6);
+    assert_eq!(written.text(0, "input_restitution"), "0.978");
+    assert_eq!(written.text(1, "outcome"), "rebound");
+    assert!(written.text(1, "error").starts_with("rigid body: restitution: missing"));
+    assert_eq!(written.text(2, "rigid_body_outcome"), "rebound");
+    assert!(written.text(2, "error").starts_with("simulation: stiffness_pa: missing"));
+    assert!(written.text(3, "error").starts_with("approach speed is below"));
+
+    for model in ["simulation", "both"] {
+        let output = run(&["--model", model], b"");
+        assert_eq!(output.status, 0);
+        assert!(String::from_utf8_lossy(&output.stdout).contains("rebound rolling"));
+    }
+}
+
+#[test]
+fn single_precision() {
+    let table = HEADER.to_owned() + TABLE_1;
+    let output = run(&["-", "--format", "csv", "--scalar", "f32"], table.as_bytes());
+    let (single, double) = (Written::read(&output.stdout, b','), classified(&table).0);
+    for column in ["overall_restitution", "speed_tangential_out_m_s", "spin_out_rad_s", "energy_before_j"] {
+        let (single, double) = (single.number(0, column), double.number(0, column));
+        assert!((single / double - 1.0).abs() < 1e-6, "{column}: {single} against {double}");
+    }
+    assert_ne!(single.number(0, "energy_before_j"), double.number(0, "energy_before_j"));
+}
+
+#[test]
+fn unusable_input_is_said_and_exits_with_2() {
+    for (arguments, input, word) in [
+        (["missing.csv", "--format", "csv"], "", "missing.csv"),
+        (["-", "--format", "csv"], "", "empty"),
+        (["-", "--format", "csv"], "radius_m,RADIUS_M\n1,2\n", "twice"),
+        (["-", "--format", "pdf"], "", "pdf"),
+        (["-", "--tolerance", "0"], "radius_m\n", "tolerance"),
+    ] {
+        let output = run(&arguments, input.as_bytes());
+        assert_eq!(output.status, 2);
+        assert!(output.complaint().contains(word));
+    }
+}

@@ -1,0 +1,205 @@
+//! Numbers in README.md are those that were measured.
+
+use std::collections::HashMap;
+
+use microimpact::simulation::Collocation;
+
+const README: &str = include_str!("../../../README.md");
+const FOOTPRINT: &str = include_str!("../../data/footprint.csv");
+
+/// Scenes by their names in README and in the measurements.
+const SCENES: [(&str, &str); 4] = [
+    ("normal, rho given", "normal/coefficient"),
+    ("normal, W_A given", "normal/work"),
+    ("friction and spin, rho given", "planar/coefficient"),
+    ("friction and spin, W_A given", "planar/work"),
+];
+
+/// The columns of README's table, by the names of the measured quantities.
+const QUANTITIES: [&str; 4] = ["classify", "set up and classify", "flash", "stack"];
+
+/// The largest figure of each scene and quantity on the core that README mostly speaks of, over impacts and compilers.
+fn measured() -> HashMap<(String, String), f64> {
+    measured_on("Cortex-M4F")
+}
+
+/// The same on any core.
+fn measured_on(name: &str) -> HashMap<(String, String), f64> {
+    let mut largest = HashMap::new();
+    let mut reader = csv::Reader::from_reader(FOOTPRINT.as_bytes());
+    let names = reader.headers().unwrap().clone();
+    let column = |name: &str| names.iter().position(|column| column == name).unwrap();
+    let (core, scalar, scene) = (column("core"), column("scalar"), column("scene"));
+    let (quantity, value) = (column("quantity"), column("value"));
+    for record in reader.records() {
+        let record = record.unwrap();
+        if &record[core] == name && &record[scalar] == "f32" {
+            let figure = largest.entry((record[scene].to_owned(), record[quantity].to_owned())).or_insert(0.0);
+            *figure = record[value].parse::<f64>().unwrap().max(*figure);
+        }
+    }
+    largest
+}
+
+/// The same of the simulation and of tables.
+const SIMULATED: [(&str, &str); 9] = [
+    ("`FixedCost<4>`, 2 sweeps, class alone", "simulation/fixed-class"),
+    ("`FixedCost<5>`, 3 sweeps, error of e 1e-5", "simulation/fixed-1e-5"),
+    ("`FixedCost<7>`, 3 sweeps, error of e 1e-6", "simulation/fixed-1e-6"),
+    ("`FixedCost<5, 7>` with friction and spin", "simulation/fixed-oblique-1e-5"),
+    ("`FixedCost<7, 9>` with friction and spin", "simulation/fixed-oblique-1e-6"),
+    ("`Collocation<7>`, tolerance 1e-6", "simulation/normal"),
+    ("the same with friction and spin", "simulation/oblique"),
+    ("boundary table", "table/boundary"),
+    ("restitution table with friction and spin", "table/restitution"),
+];
+
+/// Methods with their flash when built for speed and for size.
+const FLASH: [(&str, [&str; 2]); 2] = [
+    ("`FixedCost<5>`", ["simulation/fixed-1e-5", "small/fixed-1e-5"]),
+    ("`FixedCost<5, 7>` with friction and spin", ["simulation/fixed-oblique-1e-5", "small/fixed-oblique-1e-5"]),
+];
+
+const SIMULATED_QUANTITIES: [&str; 2] = ["classify", "stack"];
+
+/// README in one line, as its lines break anywhere.
+fn words() -> String {
+    README.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn assert_rows_are_current(scenes: &[(&str, &str)], quantities: &[&str]) {
+    let measured = measured();
+    for (name, scene) in scenes {
+        let figure = |quantity: &&str| measured[&((*scene).into(), (*quantity).into())].to_string();
+        let row = format!("| {name} | {} |", quantities.iter().map(figure).collect::<Vec<_>>().join(" | "));
+        assert!(README.contains(&row), "README.md lacks the row\n{row}");
+    }
+}
+
+#[test]
+fn footprint_tables_are_current() {
+    assert_rows_are_current(&SCENES, &QUANTITIES);
+    assert_rows_are_current(&SIMULATED, &SIMULATED_QUANTITIES);
+}
+
+#[test]
+fn flash_of_the_simulation_is_current() {
+    let flash = |scene: &str| measured()[&(scene.into(), "flash".into())].to_string();
+    for (name, scenes) in FLASH {
+        let row = format!("| {name} | {} |", scenes.map(flash).join(" | "));
+        assert!(README.contains(&row), "README.md lacks the row\n{row}");
+    }
+    let words = words();
+    let (normal, oblique) = (flash("simulation/normal"), flash("simulation/oblique"));
+    let statement = format!("and {normal} bytes of flash, {oblique} with friction and spin");
+    assert!(words.contains(&statement), "README.md lacks: {statement}");
+}
+
+#[test]
+fn instructions_in_fixed_point_are_current() {
+    let count = |core: &str| measured_on(core)[&("simulation/fixed-point".into(), "classify".into())];
+    let (larger, smaller) = (count("Cortex-M3"), count("Cortex-M0"));
+    let statement = format!("takes {larger} instructions on a Cortex-M3 and {smaller} on a Cortex-M0");
+    assert!(words().contains(&statement), "README.md lacks: {statement}");
+}
+
+/// What the adaptive method promises.
+#[test]
+fn promise_of_the_adaptive_method_is_the_tested_one() {
+    let test = include_str!("../simulation/adaptive.rs");
+    for (bound, words) in [
+        ("const LARGEST: f64 = 3.0;", "between 0.01 and 3 times the tolerance"),
+        ("const SMALLEST: f64 = 0.01;", "between 0.01 and 3 times the tolerance"),
+        ("[f64; 9] = [1e-4,", "from 1e-4 to 1e-12"),
+    ] {
+        assert!(test.contains(bound) && README.contains(words), "{bound}, {words}");
+    }
+}
+
+#[test]
+fn static_memory_is_none() {
+    assert!(README.contains("No static memory."));
+    for (_, scene) in SCENES {
+        assert_eq!(measured()[&(scene.into(), "static memory".into())], 0.0);
+    }
+}
+
+/// The errors that the tests allow are those that README states.
+#[test]
+fn stated_accuracy_is_the_tested_one() {
+    for (file, tolerance, statement) in [
+        (include_str!("../rigid/rigid_properties.rs"), "<= 1e-11 * scale", "1e-11 of the size of its terms in `f64`"),
+        (include_str!("../rigid/scalars.rs"), "<= 2e-6 * scale", "`f32` agrees with `f64` to 2e-6"),
+        (include_str!("../rigid/scalars.rs"), "> 1e-5", "wherever a margin is farther than 1e-5 from one"),
+    ] {
+        assert!(file.contains(tolerance), "{tolerance}");
+        assert!(words().contains(statement), "{statement}");
+    }
+}
+
+/// The rows of the simulation's accuracy are the bounds of its tests: nodes and tolerance, e^2, indentation, all else.
+#[test]
+fn accuracy_of_the_simulation_is_the_tested_one() {
+    let tests = include_str!("../simulation/simulation_reference.rs");
+    for (setting, run) in [
+        ("14, 1e-13", "errors::<14, f64>(1e-13"),
+        ("12, 1e-12", "errors::<12, f64>(1e-12"),
+        ("9, 1e-9", "errors::<9, f64>(1e-9"),
+        ("7, 1e-6", "errors::<7, f64>(1e-6"),
+        ("8, 1e-6, `f32`", "errors::<8, f32>(1e-6"),
+    ] {
+        let test = tests.split("#[test]").find(|test| test.contains(run)).unwrap();
+        let bound = |name: &str| test.split_once(name).unwrap().1.split_once(',').unwrap().0.trim().to_owned();
+        let row =
+            format!("| {setting} | {} | {} | {} |", bound("restitution:"), bound("indentation:"), bound("others:"));
+        assert!(README.contains(&row), "README.md lacks the row\n{row}");
+    }
+}
+
+/// Numbers in prose come from the data, the library or the bound of the test that checks them.
+#[test]
+fn numbers_in_prose_are_the_tested_ones() {
+    let words = words();
+    let stretches = Collocation::<9, f64>::MOST_STRETCHES;
+    for statement in [
+        format!("compared with {} solutions to 20 digits", reference::cases().len()),
+        format!("end in finite numbers within {stretches} stretches"),
+        format!("Rust {} or newer", env!("CARGO_PKG_RUST_VERSION")),
+    ] {
+        assert!(words.contains(&statement), "README.md lacks: {statement}");
+    }
+    for (file, bound, statement) in [
+        (
+            include_str!("../simulation/simulation_exact.rs"),
+            "const SCENES: u32 = 1_000_000;",
+            "One million scenes over twelve decades of every input, or over its range",
+        ),
+        (
+            include_str!("../simulation/simulation_exact.rs"),
+            "assert!(spent < SCENES / 2500,",
+            "fewer than one in ten thousand",
+        ),
+        (include_str!("../rigid/table1.rs"), "(spin / 4.16e4 - 1.0).abs() < 0.004", "but for the final spin (0.4 %)"),
+    ] {
+        assert!(file.contains(bound) && words.contains(statement), "{bound}: {statement}");
+    }
+}
+
+/// The errors of the methods of fixed cost stand in the names of their rows.
+#[test]
+fn errors_of_fixed_cost_are_the_tested_ones() {
+    let tests = include_str!("../simulation/fixed_cost.rs");
+    let added = 1e-6;
+    let statement = format!("closer to the critical speed they are up to {added:e} larger");
+    assert!(words().contains(&statement), "README.md lacks: {statement}");
+    for (method, row, scene) in [
+        ("&FixedCost::<5>::new(3)", "`FixedCost<5>`, 3 sweeps, error of e", "simulation/fixed-1e-5"),
+        ("&FixedCost::<7>::new(3)", "`FixedCost<7>`, 3 sweeps, error of e", "simulation/fixed-1e-6"),
+    ] {
+        let test = tests.split("#[test]").find(|test| test.contains(method)).unwrap();
+        let bound = test.split_once("error < ").unwrap().1.split_once(',').unwrap().0;
+        assert!(README.contains(&format!("{row} {bound} |")), "README.md lacks: {row} {bound}");
+        let error = measured()[&(scene.into(), "error".into())];
+        assert!(error < bound.parse::<f64>().unwrap() + added, "{scene}: {error:e} on the board");
+    }
+}

@@ -1,0 +1,116 @@
+//! The method of fixed cost: its error over the paper's and random scenes, and its honesty where it does not serve.
+
+use microimpact::simulation::{
+    Collocation, ContactImpulses, FixedCost, Method, PhaseSamples, SimulatedImpact, Simulation, Status,
+    TangentialVelocities,
+};
+use microimpact::{NormalMotion, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
+use reference::{Case, cases};
+
+/// A captured sphere of the random family, too strongly damped for so few sweeps.
+const TOO_DAMPED: &str = "r002";
+
+/// Largest error of e in some families, all of whose outcomes have to be right.
+fn largest_error<T: Real>(families: &[&str], method: &impl Method<T, ()>, double: impl Fn(T) -> f64) -> f64 {
+    let mut largest = 0.0_f64;
+    for case in cases().iter().filter(|case| families.contains(&case.text("family"))) {
+        let name = case.text("name");
+        let contact = case.scene::<T>().unwrap().normal_impact(method, &case.motion::<T>().unwrap()).unwrap();
+        if name == TOO_DAMPED {
+            assert_eq!(contact.status(), Status::BudgetSpent);
+            continue;
+        }
+        assert_eq!(contact.status(), Status::Solved, "{name}");
+        assert_eq!(contact.outcome() == Some(Outcome::Rebound), case.text("outcome") == "rebound", "{name}");
+        largest = largest.max((double(contact.overall_restitution()) - case.number("restitution")).abs());
+    }
+    largest
+}
+
+const SCENES: [&str; 3] = ["paper", "figure6", "random"];
+
+#[test]
+fn five_nodes_and_three_sweeps() {
+    let error = largest_error(&SCENES, &FixedCost::<5>::new(3).unwrap(), f64::from as fn(f32) -> f64);
+    assert!(error < 1e-5, "{error:.1e}");
+}
+
+#[test]
+fn seven_nodes_and_three_sweeps() {
+    let error = largest_error(&SCENES, &FixedCost::<7>::new(3).unwrap(), f64::from as fn(f32) -> f64);
+    assert!(error < 1e-6, "{error:.1e}");
+}
+
+/// Largest errors of the velocities along the surface, over the slip or the velocity before, and of the elastic impulse.
+fn largest_tangential_error<const N: usize, const M: usize>() -> (f64, f64)
+where
+    f32: PhaseSamples<N, M>,
+{
+    let method = FixedCost::<N>::new(3).unwrap().with_outputs::<M>();
+    let (mut velocity, mut impulse) = (0.0_f64, 0.0_f64);
+    let rebounds = |case: &&Case| SCENES.contains(&case.text("family")) && case.text("outcome") == "rebound";
+    for case in cases().iter().filter(rebounds) {
+        let impact: SimulatedImpact<f32, TangentialVelocities<f32>, ContactImpulses<f32>> =
+            case.scene().unwrap().observe(&method, &case.motion().unwrap()).unwrap();
+        let slides = impact.tangential.motion == SurfaceMotion::Sliding;
+        assert_eq!(slides, case.text("motion") == "sliding", "{}", case.text("name"));
+        let (radius, tangential) = (case.number("radius_m"), case.number("speed_tangential_m_s"));
+        let slip = (tangential - radius * case.number("spin_rad_s")).abs().max(tangential.abs());
+        let along = f64::from(impact.tangential.tangential) - case.number("speed_tangential_out_m_s");
+        let around = radius * (f64::from(impact.tangential.spin) - case.number("spin_out_rad_s"));
+        if slip > 0.0 {
+            velocity = velocity.max(along.abs().max(around.abs()) / slip);
+        }
+        impulse = impulse.max((f64::from(impact.outputs.elastic) / case.number("impulse_hertz_n_s") - 1.0).abs());
+    }
+    (velocity, impulse)
+}
+
+#[test]
+fn velocities_along_the_surface_are_as_exact() {
+    let (velocity, _) = largest_tangential_error::<5, 7>();
+    assert!(velocity < 1e-5, "{velocity:.1e}");
+    let (velocity, _) = largest_tangential_error::<7, 9>();
+    assert!(velocity < 1e-6, "{velocity:.1e}");
+    let (_, impulse) = largest_tangential_error::<7, 10>();
+    assert!(impulse < 3e-6, "{impulse:.1e}");
+}
+
+#[test]
+fn more_nodes_and_sweeps_converge() {
+    let error = |method: &dyn Fn() -> f64| method();
+    let errors = [
+        error(&|| largest_error(&["paper"], &FixedCost::<4>::new(8).unwrap(), |e: f64| e)),
+        error(&|| largest_error(&["paper"], &FixedCost::<6>::new(10).unwrap(), |e: f64| e)),
+        error(&|| largest_error(&["paper"], &FixedCost::<8>::new(12).unwrap(), |e: f64| e)),
+    ];
+    assert!(errors[1] < 0.2 * errors[0] && errors[2] < 0.2 * errors[1], "{errors:?}");
+    assert!(errors[2] < 1e-7, "{errors:?}");
+}
+
+/// Where damping is too strong for it, the method says so instead of giving a wrong number.
+#[test]
+fn strong_damping_is_reported() {
+    let sphere = Sphere::solid(5.06e-6, 2600.0).unwrap();
+    let motion = NormalMotion::new(2.8).unwrap();
+    let exact = Collocation::<12, f64>::new(1e-12).unwrap();
+    let quick = FixedCost::<6>::new(6).unwrap();
+    let mut unsolved = 0;
+    for step in 0..200 {
+        let zeta = 10f64.powf(f64::from(step) / 25.0);
+        let scene = Simulation::new(sphere, Stiffness::new(7.5e10).unwrap()).with_damping(zeta).unwrap();
+        let contact = scene.normal_impact(&quick, &motion).unwrap();
+        if contact.status() != Status::Solved {
+            unsolved += 1;
+            continue;
+        }
+        let e = scene.normal_impact(&exact, &motion).unwrap().overall_restitution();
+        assert_eq!(contact.outcome(), Some(Outcome::Rebound), "{zeta}");
+        assert!(
+            (contact.overall_restitution() - e).abs() < 0.02,
+            "{zeta}: {} against {e}",
+            contact.overall_restitution()
+        );
+    }
+    assert!(unsolved > 50);
+}

@@ -1,0 +1,18 @@
+//! Tests of the simulated contact: its methods, its numbers and its outputs.
+
+mod adaptive;
+mod bounds;
+mod captured;
+mod checking;
+mod contest;
+mod critical_speed;
+mod dual;
+mod fixed_cost;
+mod fixed_point;
+mod ledger;
+mod micromath;
+mod paper_method;
+mod simulation_exact;
+mod simulation_reference;
+mod trajectory;
+mod uncertainty;
