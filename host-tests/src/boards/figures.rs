@@ -173,7 +173,13 @@ fn read(path: &Path) -> Result<Vec<(String, Figure)>, Box<dyn Error>> {
         return Err(format!("the first columns are not {}", NAMES.join(", ")).into());
     }
     let names = header.iter().skip(NAMES.len());
-    let columns = names.map(|name| column(name).ok_or_else(|| format!("the column `{name}` holds no known quantity")));
+    let columns = names.map(|name| {
+        column(name).ok_or_else(|| {
+            format!(
+                "the column `{name}` is unknown; names are like `stack (bytes)` or `classify: straight (instructions)`"
+            )
+        })
+    });
     let columns = columns.collect::<Result<Vec<_>, _>>()?;
     let mut figures = Vec::new();
     for record in reader.records() {
