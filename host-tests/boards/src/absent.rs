@@ -7,9 +7,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use object::{Object, ObjectSection, SectionFlags, elf};
+use object::{Object, ObjectSection};
 
 use super::firmware::{self, FOLDER, repository};
+use super::footprint::{self, Memory};
 use super::toolchain::Toolchain;
 use super::without::{self, Parts};
 use super::{Board, REFERENCE_CORE};
@@ -195,15 +196,10 @@ fn sources(copy: &Path, parts: &Parts<'_>) -> Result<(), String> {
 
 /// All bytes that a firmware puts into memory.
 fn contents(firmware: &Path) -> Result<Vec<u8>, String> {
-    let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", firmware.display());
-    let bytes = fs::read(firmware).map_err(|error| wrong(&error))?;
-    let file = object::File::parse(&*bytes).map_err(|error| wrong(&error))?;
-    let placed = file.sections().filter(
-        |section| matches!(section.flags(), SectionFlags::Elf { sh_flags, .. } if sh_flags.contains(elf::SHF_ALLOC)),
-    );
+    let bytes = footprint::read(firmware)?;
     let mut contents = Vec::new();
-    for section in placed {
-        contents.extend_from_slice(section.data().map_err(|error| wrong(&error))?);
+    for section in footprint::parse(firmware, &bytes)?.sections().filter(|section| Memory::of(section).is_some()) {
+        contents.extend_from_slice(section.data().map_err(|error| format!("{}: {error}", firmware.display()))?);
     }
     Ok(contents)
 }

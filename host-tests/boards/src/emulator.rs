@@ -43,22 +43,10 @@ const LIMIT: Duration = Duration::from_secs(60);
 impl Emulator {
     /// Its version; it is installed if need be.
     pub fn find(&self, permission: Permission) -> Result<String, String> {
-        if let Some(version) = self.version() {
-            return Ok(version);
-        }
         let Self { program, package, .. } = self;
-        packages::install(&[package], permission).map_err(|why| {
-            format!(
-                "no {program}; install it with QEMU: `apt-get install {package}` on Debian and Ubuntu, \
-                 `dnf install {program}` on Fedora, `brew install qemu` on macOS ({why})"
-            )
-        })?;
-        self.version().ok_or_else(|| format!("{program} is installed but does not run"))
-    }
-
-    fn version(&self) -> Option<String> {
-        let version = process::first_line(Command::new(self.program).arg("--version"))?;
-        Some(format!("{}: {version}", self.program))
+        let elsewhere = format!(", `dnf install {program}` on Fedora, `brew install qemu` on macOS");
+        let version = packages::find(program, &[package], &elsewhere, permission)?;
+        Ok(format!("{program}: {version}"))
     }
 }
 
@@ -81,21 +69,12 @@ pub fn run_within(limit: Duration, board: &Board, firmware: &Path) -> Result<Str
         .arg(firmware);
     let finished =
         process::run(&mut command, limit).map_err(|error| format!("{}: cannot run {program}: {error}", board.core))?;
-    if finished.status.is_none() {
-        return Err(format!(
-            "{}: the firmware did not end within {} s; it printed:\n{}",
-            board.core,
-            limit.as_secs(),
-            finished.tail(5)
-        ));
-    }
     if !finished.success() {
-        return Err(format!(
-            "{}: the firmware failed ({}); it printed:\n{}",
-            board.core,
-            finished.ending(),
-            finished.tail(5)
-        ));
+        let ending = match finished.status {
+            None => format!("did not end within {} s", limit.as_secs()),
+            Some(_) => format!("failed ({})", finished.ending()),
+        };
+        return Err(format!("{}: the firmware {ending}; it printed:\n{}", board.core, finished.tail(5)));
     }
     Ok(finished.stdout)
 }

@@ -1,13 +1,16 @@
 //! The figures of a run, and those of an earlier one to compare with.
 
+use std::collections::HashMap;
+use std::error::Error;
 use std::fmt::{self, Display};
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
+use super::BOARDS;
 use super::firmware::repository;
 
 /// What is measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Quantity {
     /// A classification.
     Classify,
@@ -118,54 +121,121 @@ pub struct Figure {
     pub value: f64,
 }
 
-const COLUMNS: [&str; 8] = ["compiler", "core", "scene", "scalar", "impact", "quantity", "value", "unit"];
+/// The first columns of a table: what the figures of a row belong to.
+const NAMES: [&str; 4] = ["compiler", "core", "scene", "scalar"];
 
-/// Writes figures as CSV, with their column names.
-pub fn write(rows: &[(&str, &Figure)], destination: impl io::Write) -> Result<(), csv::Error> {
+/// The name of the column of a quantity, of one impact or of the whole scene: `classify: straight (instructions)`.
+fn column_name(quantity: Quantity, impact: &str) -> String {
+    let separator = if impact.is_empty() { "" } else { ": " };
+    format!("{}{separator}{impact} ({})", quantity.name(), quantity.unit())
+}
+
+/// What a column of that name holds.
+fn column(name: &str) -> Option<(Quantity, &str)> {
+    Quantity::ALL.into_iter().find_map(|quantity| {
+        let rest = name.strip_prefix(quantity.name())?.strip_suffix(&*format!(" ({})", quantity.unit()))?;
+        if rest.is_empty() { Some((quantity, "")) } else { Some((quantity, rest.strip_prefix(": ")?)) }
+    })
+}
+
+/// Writes figures as a CSV table: a row for each compiler, core, scene and number type, a column for each quantity and impact.
+/// A cell is empty where nothing is measured.
+pub fn write(figures: &[(&str, &Figure)], destination: impl io::Write) -> Result<(), csv::Error> {
+    let (mut rows, mut columns, mut cells) = (Vec::new(), Vec::new(), HashMap::new());
+    for (compiler, Figure { subject, value }) in figures {
+        let row = [compiler, &*subject.core, &*subject.scene, &*subject.scalar];
+        let column = (subject.quantity, &*subject.impact);
+        if !rows.contains(&row) {
+            rows.push(row);
+        }
+        if !columns.contains(&column) {
+            columns.push(column);
+        }
+        cells.insert((row, column), value.to_string());
+    }
+    columns.sort_by_key(|(quantity, _)| *quantity);
     let mut writer = csv::Writer::from_writer(destination);
-    writer.write_record(COLUMNS)?;
-    for (compiler, Figure { subject, value }) in rows {
-        writer.write_record([
-            compiler,
-            &*subject.core,
-            &*subject.scene,
-            &*subject.scalar,
-            &*subject.impact,
-            subject.quantity.name(),
-            &value.to_string(),
-            subject.quantity.unit(),
-        ])?;
+    let names = columns.iter().map(|(quantity, impact)| column_name(*quantity, impact));
+    writer.write_record(NAMES.into_iter().map(str::to_owned).chain(names))?;
+    for row in rows {
+        let values = columns.iter().map(|column| cells.get(&(row, *column)).map_or("", String::as_str));
+        writer.write_record(row.into_iter().chain(values))?;
     }
     writer.flush()?;
     Ok(())
 }
 
+/// Reads such a table.
+fn read(path: &Path) -> Result<Vec<(String, Figure)>, Box<dyn Error>> {
+    let mut reader = csv::Reader::from_path(path)?;
+    let header = reader.headers()?.clone();
+    if !header.iter().take(NAMES.len()).eq(NAMES) {
+        return Err(format!("the first columns are not {}", NAMES.join(", ")).into());
+    }
+    let names = header.iter().skip(NAMES.len());
+    let columns = names.map(|name| {
+        column(name).ok_or_else(|| {
+            format!(
+                "the column `{name}` is unknown; names are like `stack (bytes)` or `classify: straight (instructions)`"
+            )
+        })
+    });
+    let columns = columns.collect::<Result<Vec<_>, _>>()?;
+    let mut figures = Vec::new();
+    for record in reader.records() {
+        let record = record?;
+        for ((quantity, impact), cell) in columns.iter().zip(record.iter().skip(NAMES.len())) {
+            if cell.is_empty() {
+                continue;
+            }
+            let [core, scene, scalar, impact] = [&record[1], &record[2], &record[3], impact].map(str::to_owned);
+            let subject = Subject { core, scene, scalar, impact, quantity: *quantity };
+            match cell.parse::<f64>() {
+                Ok(value) if value.is_finite() => figures.push((record[0].to_owned(), Figure { subject, value })),
+                _ => return Err(format!("{subject} = `{cell}` is not a finite number").into()),
+            }
+        }
+    }
+    Ok(figures)
+}
+
+/// The largest figure of a scene, over all its impacts.
+pub fn largest<'a>(
+    figures: impl IntoIterator<Item = &'a Figure>,
+    core: &str,
+    scene: &str,
+    scalar: &str,
+    quantity: Quantity,
+) -> Option<f64> {
+    let is_of_scene = |subject: &Subject| {
+        (&*subject.core, &*subject.scene, &*subject.scalar, subject.quantity) == (core, scene, scalar, quantity)
+    };
+    let own = figures.into_iter().filter(|figure| is_of_scene(&figure.subject));
+    own.map(|figure| figure.value).reduce(f64::max)
+}
+
 /// The figures that are kept in the repository, each with the compiler that led to it.
 pub struct Stored {
+    /// In the order of the compilers' names.
     rows: Vec<(String, Figure)>,
 }
 
 impl Stored {
-    /// The file in the repository.
+    /// The folder in the repository, with a file for each core.
     pub fn path() -> PathBuf {
-        repository().join("host-tests/data/footprint.csv")
+        repository().join("host-tests/data/footprint")
     }
 
-    /// The figures in a file; none where there is no file.
-    pub fn read(path: &Path) -> Result<Self, String> {
-        if !path.exists() {
-            return Ok(Self { rows: Vec::new() });
-        }
-        let wrong = |error: &dyn Display| {
-            format!("{}: {error}; correct it, or delete it and run `cargo qemu --overwrite`", path.display())
-        };
-        let mut reader = csv::Reader::from_path(path).map_err(|error| wrong(&error))?;
+    /// The figures in a folder; none of a core where it has no file.
+    pub fn read(folder: &Path) -> Result<Self, String> {
         let mut rows = Vec::new();
-        for record in reader.records() {
-            let record = record.map_err(|error| wrong(&error))?;
-            let row = parse(&record).ok_or_else(|| wrong(&format!("wrong row {record:?}")))?;
-            rows.push(row);
+        for path in BOARDS.map(|board| file(folder, board.core)).iter().filter(|path| path.exists()) {
+            rows.extend(read(path).map_err(|error| {
+                let path = path.display();
+                format!("{path}: {error}; correct the file, or delete it and run `cargo qemu --overwrite`")
+            })?);
         }
+        rows.sort_by(|(one, _), (other, _)| one.cmp(other));
         Ok(Self { rows })
     }
 
@@ -173,19 +243,15 @@ impl Stored {
     pub fn compare(&self, compiler: &str, figures: &[Figure]) -> Comparison {
         let own: Vec<&Figure> = self.rows_of(compiler).collect();
         let mut comparison = Comparison { stored: own.len(), unknown: 0, worse: Vec::new() };
-        for figure in figures {
-            let Some(before) = own.iter().find(|old| old.subject == figure.subject) else {
+        for Figure { subject, value } in figures {
+            let Some(before) = own.iter().find(|old| old.subject == *subject).map(|old| old.value) else {
                 comparison.unknown += 1;
                 continue;
             };
-            if is_worse(figure.subject.quantity, before.value, figure.value) {
+            if is_worse(subject.quantity, before, *value) {
+                let unit = subject.quantity.unit();
                 comparison.worse.push(format!(
-                    "{}: {} {}, {} when stored; make it better, or accept it with `cargo qemu \
-                     --overwrite`",
-                    figure.subject,
-                    figure.value,
-                    figure.subject.quantity.unit(),
-                    before.value
+                    "{subject} = {value} {unit}, which is more than 5 % above the stored {before} {unit}; reduce it, or                      store the new figures with `cargo qemu --overwrite`"
                 ));
             }
         }
@@ -193,22 +259,31 @@ impl Stored {
     }
 
     /// Replaces the figures of one compiler and keeps those of all others.
-    pub fn overwrite(&self, compiler: &str, figures: &[Figure], path: &Path) -> Result<(), String> {
+    pub fn overwrite(&self, compiler: &str, figures: &[Figure], folder: &Path) -> Result<(), String> {
         let others = self.rows.iter().filter(|(by, _)| by != compiler);
         let mut rows: Vec<(&str, &Figure)> = others.map(|(by, figure)| (&**by, figure)).collect();
         rows.extend(figures.iter().map(|figure| (compiler, figure)));
         rows.sort_by_key(|(by, _)| *by);
-
-        let wrong = |error: &dyn Display| format!("cannot write {}: {error}", path.display());
-        let file = std::fs::File::create(path).map_err(|error| wrong(&error))?;
-        write(&rows, file).map_err(|error| wrong(&error))
+        for core in BOARDS.map(|board| board.core) {
+            let path = file(folder, core);
+            let rows: Vec<_> = rows.iter().copied().filter(|(_, figure)| figure.subject.core == core).collect();
+            let created = fs::create_dir_all(folder).and_then(|()| fs::File::create(&path));
+            let written = created.map_err(csv::Error::from).and_then(|file| write(&rows, file));
+            written.map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+        }
+        Ok(())
     }
 
-    /// The compilers that have figures, the earliest in the file first.
+    /// The compilers that have figures.
     pub fn compilers(&self) -> Vec<&str> {
         let mut compilers: Vec<&str> = self.rows.iter().map(|(by, _)| &**by).collect();
         compilers.dedup();
         compilers
+    }
+
+    /// The figures of all compilers.
+    pub fn all(&self) -> impl Iterator<Item = &Figure> {
+        self.rows.iter().map(|(_, figure)| figure)
     }
 
     /// The figures of one compiler.
@@ -216,6 +291,11 @@ impl Stored {
         let own = self.rows.iter().filter(move |(by, _)| by == compiler);
         own.map(|(_, figure)| figure)
     }
+}
+
+/// The file with the figures of a core.
+fn file(folder: &Path, core: &str) -> PathBuf {
+    folder.join(format!("{}.csv", core.to_lowercase()))
 }
 
 /// How a run compares with the stored figures of the same compiler.
@@ -234,16 +314,28 @@ fn is_worse(quantity: Quantity, before: f64, now: f64) -> bool {
     more > quantity.tolerated() && more > 0.05 * before
 }
 
-fn parse(record: &csv::StringRecord) -> Option<(String, Figure)> {
-    let text = |column: usize| record.get(column).map(str::to_owned);
-    let quantity = text(5)?;
-    let subject = Subject {
-        core: text(1)?,
-        scene: text(2)?,
-        scalar: text(3)?,
-        impact: text(4)?,
-        quantity: Quantity::ALL.into_iter().find(|known| known.name() == quantity)?,
-    };
-    let value = record.get(6)?.parse().ok()?;
-    Some((text(0)?, Figure { subject, value }))
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stored_figures_are_written_as_they_were_read_and_compared() {
+        let stored = Stored::read(&Stored::path()).unwrap();
+        let compiler = stored.compilers()[0];
+        let figures: Vec<Figure> = stored.rows_of(compiler).cloned().collect();
+        let folder = std::env::temp_dir().join(format!("microimpact-footprint-{}", std::process::id()));
+        stored.overwrite(compiler, &figures, &folder).unwrap();
+        for core in BOARDS.map(|board| board.core) {
+            let [before, after] = [&Stored::path(), &folder].map(|folder| fs::read(file(folder, core)).unwrap());
+            assert!(before == after, "{core}");
+        }
+        fs::remove_dir_all(&folder).unwrap();
+
+        let worse = |factor: f64, added: f64| {
+            let grown = |old: &Figure| Figure { value: old.value * factor + added, ..old.clone() };
+            stored.compare(compiler, &figures.iter().map(grown).collect::<Vec<_>>()).worse.len()
+        };
+        assert_eq!((worse(1.06, 3.0), worse(1.04, 0.0)), (figures.len(), 0));
+        assert_eq!(stored.compare("another", &figures).unknown, figures.len());
+    }
 }

@@ -15,7 +15,7 @@ const LIMIT: Duration = Duration::from_secs(900);
 pub const FOLDER: &str = "examples/firmware";
 
 /// The feature of the probes, which changes nothing in the other binaries.
-const PROBE: &str = "probe";
+pub const PROBE: &str = "probe";
 
 /// The repository's top folder.
 pub fn repository() -> &'static Path {
@@ -30,57 +30,39 @@ pub fn build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<
 
 /// The same, for flash rather than speed.
 pub fn build_small(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<PathBuf, String> {
-    built(toolchain, board, binaries, "small", run_cargo(toolchain, board, "small", PROBE, binaries)?)
+    build_in(repository(), toolchain, board, "small", Some(PROBE), binaries)
 }
 
 /// The same with a feature.
 pub fn build_with(toolchain: &Toolchain, board: &Board, feature: &str, binaries: &[&str]) -> Result<PathBuf, String> {
-    built(toolchain, board, binaries, "release", run_cargo(toolchain, board, "release", feature, binaries)?)
-}
-
-fn built(
-    toolchain: &Toolchain,
-    board: &Board,
-    binaries: &[&str],
-    profile: &str,
-    finished: Finished,
-) -> Result<PathBuf, String> {
-    if finished.success() {
-        Ok(target_folder(toolchain, board).join(board.triple).join(profile))
-    } else {
-        Err(format!(
-            "{}: building {} failed ({}):\n{}",
-            board.core,
-            binaries.join(", "),
-            finished.ending(),
-            finished.tail(40)
-        ))
-    }
+    build_in(repository(), toolchain, board, "release", Some(feature), binaries)
 }
 
 /// Builds binaries that are allowed to fail.
 pub fn try_build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<Finished, String> {
-    run_cargo(toolchain, board, "release", PROBE, binaries)
+    run_cargo(repository(), toolchain, board, "release", Some(PROBE), binaries)
 }
 
 /// Builds binaries of a copy of the repository and returns the folder they are in.
 pub fn build_copy(toolchain: &Toolchain, board: &Board, copy: &Path, binaries: &[&str]) -> Result<PathBuf, String> {
-    let finished = run_cargo_in(&copy.join(FOLDER), toolchain, board, "release", None, binaries)?;
-    built(toolchain, board, binaries, "release", finished)
+    build_in(copy, toolchain, board, "release", None, binaries)
 }
 
-fn run_cargo(
+fn build_in(
+    repository: &Path,
     toolchain: &Toolchain,
     board: &Board,
     profile: &str,
-    feature: &str,
+    feature: Option<&str>,
     binaries: &[&str],
-) -> Result<Finished, String> {
-    run_cargo_in(&repository().join(FOLDER), toolchain, board, profile, Some(feature), binaries)
+) -> Result<PathBuf, String> {
+    let what = format!("{}: building {}", board.core, binaries.join(", "));
+    run_cargo(repository, toolchain, board, profile, feature, binaries)?.succeeded(&what, 40)?;
+    Ok(target_folder(toolchain, board).join(board.triple).join(profile))
 }
 
-fn run_cargo_in(
-    folder: &Path,
+fn run_cargo(
+    repository: &Path,
     toolchain: &Toolchain,
     board: &Board,
     profile: &str,
@@ -88,7 +70,8 @@ fn run_cargo_in(
     binaries: &[&str],
 ) -> Result<Finished, String> {
     let mut cargo = toolchain.cargo(board.triple);
-    cargo.current_dir(folder).args(["--profile", profile]).arg("--target-dir").arg(target_folder(toolchain, board));
+    cargo.current_dir(repository.join(FOLDER)).args(["--profile", profile]);
+    cargo.arg("--target-dir").arg(target_folder(toolchain, board));
     if let Some(feature) = feature {
         cargo.args(["--features", feature]);
     }

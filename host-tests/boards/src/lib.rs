@@ -36,7 +36,7 @@ pub const REFERENCE_CORE: &str = "Cortex-M4F";
 /// Every board of a run, by architecture and from the smallest core to the largest.
 pub const BOARDS: [Board; 6] = [
     Board { core: "Cortex-M0", emulator: ARM, machine: "microbit", triple: "thumbv6m-none-eabi", cpu: None },
-    Board { core: "Cortex-M3", emulator: ARM, machine: "mps2-an385", triple: "thumbv7m-none-eabi", cpu: None },
+    C_BOARD,
     Board { core: REFERENCE_CORE, emulator: ARM, machine: "mps2-an386", triple: "thumbv7em-none-eabihf", cpu: None },
     Board {
         core: "Cortex-M7",
@@ -55,5 +55,4 @@ pub const C_BOARD: Board =
     Board { core: "Cortex-M3", emulator: ARM, machine: "mps2-an385", triple: "thumbv7m-none-eabi", cpu: None };
 
 /// The board of the instrument, which has ports and a UART that its interrupts are named after.
-pub const INSTRUMENT_BOARD: Board =
-    Board { core: "Cortex-M3", emulator: ARM, machine: "lm3s6965evb", triple: "thumbv7m-none-eabi", cpu: None };
+pub const INSTRUMENT_BOARD: Board = Board { machine: "lm3s6965evb", ..C_BOARD };

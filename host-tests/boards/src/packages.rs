@@ -18,6 +18,19 @@ pub enum Permission {
     LookOnly,
 }
 
+/// The version of a program, which is installed from its packages if need be; `elsewhere` says how on other systems.
+pub fn find(program: &str, packages: &[&str], elsewhere: &str, permission: Permission) -> Result<String, String> {
+    let version = || process::first_line(Command::new(program).arg("--version"));
+    if let Some(version) = version() {
+        return Ok(version);
+    }
+    let names = packages.join(" ");
+    install(packages, permission).map_err(|why| {
+        format!("no {program}; install it: `apt-get install {names}` on Debian and Ubuntu{elsewhere} ({why})")
+    })?;
+    version().ok_or_else(|| format!("{program} is installed but does not run"))
+}
+
 /// Installs packages with apt-get, or says why it did not.
 pub fn install(packages: &[&str], permission: Permission) -> Result<(), String> {
     if permission == Permission::LookOnly {
@@ -38,9 +51,5 @@ fn apt_get(arguments: &[&str]) -> Result<(), String> {
     let mut command = Command::new("apt-get");
     command.env("DEBIAN_FRONTEND", "noninteractive").args(arguments);
     let finished = process::run(&mut command, LIMIT).map_err(|error| format!("apt-get: {error}"))?;
-    if finished.success() {
-        Ok(())
-    } else {
-        Err(format!("`apt-get {}` failed ({}):\n{}", arguments.join(" "), finished.ending(), finished.tail(5)))
-    }
+    finished.succeeded(&format!("`apt-get {}`", arguments.join(" ")), 5).map(drop)
 }

@@ -30,6 +30,11 @@ impl Finished {
         }
     }
 
+    /// Itself if it succeeded; else an error that says how `what` ended, with the last lines that it printed.
+    pub fn succeeded(self, what: &str, lines: usize) -> Result<Self, String> {
+        if self.success() { Ok(self) } else { Err(format!("{what} failed ({}):\n{}", self.ending(), self.tail(lines))) }
+    }
+
     /// The last lines of all that it printed.
     pub fn tail(&self, lines: usize) -> String {
         let text = format!("{}\n{}", self.stdout.trim_end(), self.stderr.trim_end());

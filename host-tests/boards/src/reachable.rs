@@ -9,12 +9,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use object::{
-    File, Object, ObjectSection, ObjectSymbol, Relocation, RelocationTarget, Section, SectionFlags, SectionKind,
-    SymbolKind, elf,
-};
+use object::{File, Object, ObjectSection, ObjectSymbol, Relocation, RelocationTarget, Section, SymbolKind};
 
-use super::footprint::Footprint;
+use super::footprint::{self, Footprint, Memory};
 
 /// Where the names of pieces begin in a line of the map, after address, load address, size and alignment.
 const NAMES: usize = 33;
@@ -29,10 +26,7 @@ pub struct Pieces {
 struct Piece {
     name: String,
     size: u32,
-    /// Whether it is a variable.
-    variable: bool,
-    /// Whether it has a start value or is constant, and so takes flash.
-    stored: bool,
+    memory: Memory,
     /// Addresses that it refers to.
     references: Vec<u32>,
 }
@@ -43,8 +37,8 @@ impl Pieces {
         let name = firmware.display();
         let map = firmware.with_extension("map");
         let map = fs::read_to_string(&map).map_err(|error| format!("cannot read {}: {error}", map.display()))?;
-        let bytes = fs::read(firmware).map_err(|error| format!("cannot read {name}: {error}"))?;
-        let file = File::parse(&*bytes).map_err(|error| format!("cannot understand {name}: {error}"))?;
+        let bytes = footprint::read(firmware)?;
+        let file = footprint::parse(firmware, &bytes)?;
         let mut pieces = Self { pieces: BTreeMap::new() };
         let mut section = None;
         for line in map.lines() {
@@ -87,8 +81,7 @@ impl Pieces {
             if piece.name.contains("thunk") {
                 return Err(format!("{}: the linker does not say where it leads", piece.name));
             }
-            footprint.flash += if piece.stored { piece.size } else { 0 };
-            footprint.static_memory += if piece.variable { piece.size } else { 0 };
+            footprint.add(piece.memory, piece.size);
             open.extend(&piece.references);
         }
         Ok(footprint)
@@ -96,12 +89,7 @@ impl Pieces {
 
     /// Adds a piece, or each constant of one into which the linker has put equal ones together.
     fn add(&mut self, section: &Section<'_, '_>, address: u32, size: u32, name: &str) {
-        let SectionFlags::Elf { sh_flags, .. } = section.flags() else { return };
-        if !sh_flags.contains(elf::SHF_ALLOC) {
-            return;
-        }
-        let variable = sh_flags.contains(elf::SHF_WRITE);
-        let stored = section.kind() != SectionKind::UninitializedData;
+        let Some(memory) = Memory::of(section) else { return };
         let mut lengths = vec![size];
         if name.contains(".str1.") {
             let data = section.data_range(u64::from(address), u64::from(size)).ok().flatten().unwrap_or_default();
@@ -113,7 +101,7 @@ impl Pieces {
         }
         let mut start = address;
         for size in lengths {
-            let piece = Piece { name: name.to_owned(), size, variable, stored, references: Vec::new() };
+            let piece = Piece { name: name.to_owned(), size, memory, references: Vec::new() };
             self.pieces.insert(start, piece);
             start += size;
         }

@@ -63,21 +63,16 @@ pub(crate) struct Code {
 impl Protocol {
     /// Reads the lines that the firmware prints.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
-        let mut protocol = Self::default();
-        let mut done = false;
-        for line in text.lines() {
-            let (kind, fields) = Fields::of(line);
+        let (mut measurements, mut stacks) = (Vec::new(), Vec::new());
+        let code = read_lines(text, |kind, fields| {
             match kind {
-                "impact" => protocol.measurements.push(fields.measurement()?),
-                "stack" => {
-                    protocol.stacks.push((fields.text("scene")?, fields.text("scalar")?, fields.number("bytes")?))
-                }
-                "code" => protocol.code.push(fields.code()?),
-                "done" => done = true,
-                _ => return Err(format!("the firmware printed an unknown line: {line}")),
+                "impact" => measurements.push(fields.measurement()?),
+                "stack" => stacks.push((fields.text("scene")?, fields.text("scalar")?, fields.number("bytes")?)),
+                _ => return Ok(false),
             }
-        }
-        if done { Ok(protocol) } else { Err("the firmware's output stops before its end".to_owned()) }
+            Ok(true)
+        })?;
+        Ok(Self { measurements, stacks, code })
     }
 
     /// Adds what another firmware said.
@@ -143,9 +138,7 @@ impl Verdict {
             _ => false,
         }
     }
-}
 
-impl Verdict {
     fn error(&self, case: &Case, expected: &BTreeMap<Case, Expected>) -> Option<f64> {
         if let Some(exact) = expected.get(case)?.restitution {
             let answered = self.class != UNDECIDED && self.class != REFUSED;
@@ -169,6 +162,24 @@ impl Display for Verdict {
     }
 }
 
+/// Reads the lines that a firmware prints, the last of which is `done`, and returns where its code is. All other lines go to
+/// `take`, which says whether it knows their kind.
+pub(crate) fn read_lines(
+    text: &str,
+    mut take: impl FnMut(&str, &Fields<'_>) -> Result<bool, String>,
+) -> Result<Vec<Code>, String> {
+    let (mut code, mut done) = (Vec::new(), false);
+    for line in text.lines() {
+        match Fields::of(line) {
+            ("code", fields) => code.push(fields.code()?),
+            ("done", _) => done = true,
+            (kind, fields) if take(kind, &fields)? => {}
+            _ => return Err(format!("the firmware printed an unknown line: {line}")),
+        }
+    }
+    if done { Ok(code) } else { Err("the firmware's output stops before its end".to_owned()) }
+}
+
 /// A line of a firmware: a word, and values by their keys.
 pub(crate) struct Fields<'a> {
     line: &'a str,
@@ -177,7 +188,7 @@ pub(crate) struct Fields<'a> {
 
 impl<'a> Fields<'a> {
     /// The word and the values of a line.
-    pub(crate) fn of(line: &'a str) -> (&'a str, Self) {
+    fn of(line: &'a str) -> (&'a str, Self) {
         let mut words = line.split_whitespace();
         let kind = words.next().unwrap_or_default();
         (kind, Self { line, values: words.filter_map(|word| word.split_once('=')).collect() })
@@ -198,7 +209,7 @@ impl<'a> Fields<'a> {
     }
 
     /// Where the code of a scene or a calibration is.
-    pub(crate) fn code(&self) -> Result<Code, String> {
+    fn code(&self) -> Result<Code, String> {
         Ok(Code { scene: self.text("scene")?, scalar: self.text("scalar")?, function: self.number("address")? })
     }
 

@@ -23,12 +23,8 @@ const LIMIT: Duration = Duration::from_secs(900);
 
 /// Every line in which the board's results differ from the host's in any bit.
 pub(crate) fn compare(choice: Choice, permission: Permission) -> Result<Vec<String>, String> {
-    let (toolchain, emulator) = match crate::tools(choice, &[BOARD], permission) {
-        Ok(tools) => tools,
-        Err(missing) => return Ok(missing),
-    };
-    let c_compiler = find_compiler(permission)?;
-    eprintln!("compilers: {}; {c_compiler}\nemulator: {emulator}", toolchain.compiler);
+    let toolchain = crate::tools(choice, &[BOARD], permission)?;
+    eprintln!("C compiler: {}", packages::find(COMPILER, &PACKAGES, "", permission)?);
     let sources = firmware::repository().join("examples/c");
     let target = firmware::target_folder(&toolchain, &BOARD).join("c");
     let folder = target.join(BOARD.triple).join("release");
@@ -90,19 +86,6 @@ fn panics_are_left_out(builds: &Path) -> Result<(), String> {
 }
 
 fn done(what: &str, run: std::io::Result<Finished>) -> Result<(), String> {
-    match run {
-        Ok(finished) if finished.success() => Ok(()),
-        Ok(finished) => Err(format!("building {what} failed ({}):\n{}", finished.ending(), finished.tail(40))),
-        Err(error) => Err(format!("building {what}: {error}")),
-    }
-}
-
-fn find_compiler(permission: Permission) -> Result<String, String> {
-    let version = || process::first_line(Command::new(COMPILER).arg("--version"));
-    if let Some(version) = version() {
-        return Ok(version);
-    }
-    packages::install(&PACKAGES, permission)
-        .map_err(|why| format!("no {COMPILER}; `apt-get install {}` on Debian ({why})", PACKAGES.join(" ")))?;
-    version().ok_or_else(|| format!("{COMPILER} is installed but does not run"))
+    let finished = run.map_err(|error| format!("building {what}: {error}"))?;
+    finished.succeeded(&format!("building {what}"), 40).map(drop)
 }

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::fmt::{self, Display};
 
-use boards::figures::{Figure, Quantity, Subject};
-
-use crate::answers::{Code, Fields};
+use boards::Board;
+use boards::figures::{Figure, Quantity};
 use microimpact_scenes::calibrations::{Calibration, CalibrationVisitor, visit_calibrations};
 use microimpact_scenes::scenes::Number;
+
+use crate::answers::{self, Code};
 
 /// A calibration with one number type.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -37,22 +38,19 @@ pub(crate) struct Protocol {
 impl Protocol {
     /// Reads the lines that the firmware prints.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
-        let (mut calibrated, mut code) = (Vec::new(), Vec::new());
-        let mut done = false;
-        for line in text.lines() {
-            match Fields::of(line) {
-                ("calibration", fields) => calibrated.push(Calibrated {
+        let mut calibrated = Vec::new();
+        let code = answers::read_lines(text, |kind, fields| {
+            if kind == "calibration" {
+                calibrated.push(Calibrated {
                     case: Case { scene: fields.text("scene")?, scalar: fields.text("scalar")? },
                     values: numbers(&fields.text("values")?)?,
                     instructions: fields.number("instructions")?,
                     stack: fields.number("stack")?,
-                }),
-                ("code", fields) => code.push(fields.code()?),
-                ("done", _) => done = true,
-                _ => return Err(format!("the firmware printed an unknown line: {line}")),
+                });
             }
-        }
-        if done { Ok(Self { calibrated, code }) } else { Err("the firmware's output stops before its end".to_owned()) }
+            Ok(kind == "calibration")
+        })?;
+        Ok(Self { calibrated, code })
     }
 
     /// Every difference from what the host expects.
@@ -71,19 +69,10 @@ impl Protocol {
     }
 
     /// The figures that a board printed.
-    pub(crate) fn figures(&self, core: &str) -> Vec<Figure> {
-        let figures = |Calibrated { case, instructions, stack, .. }: &Calibrated| {
-            let figure = |quantity, value| Figure {
-                subject: Subject {
-                    core: core.to_owned(),
-                    scene: case.scene.clone(),
-                    scalar: case.scalar.clone(),
-                    impact: String::new(),
-                    quantity,
-                },
-                value: f64::from(value),
-            };
-            [figure(Quantity::Calibrate, *instructions), figure(Quantity::Stack, *stack)]
+    pub(crate) fn figures(&self, board: &Board) -> Vec<Figure> {
+        let figures = |Calibrated { case: Case { scene, scalar }, instructions, stack, .. }: &Calibrated| {
+            [(Quantity::Calibrate, instructions), (Quantity::Stack, stack)]
+                .map(|(quantity, value)| crate::of_scene(board, scene, scalar, quantity, (*value).into()))
         };
         self.calibrated.iter().flat_map(figures).collect()
     }

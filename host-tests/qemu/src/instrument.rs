@@ -15,7 +15,6 @@ use microimpact_scenes::station::{self, Event};
 
 use crate::session::{Session, instructions};
 use boards::INSTRUMENT_BOARD as BOARD;
-use boards::firmware;
 use boards::packages::Permission;
 use boards::toolchain::{Choice, Toolchain};
 use sheet::{Row, Sheet};
@@ -50,10 +49,7 @@ pub(crate) struct Load {
 /// Sends the events of a table and prints their classes.
 pub(crate) fn classify(events: &Events, choice: Choice, permission: Permission) -> Result<Vec<String>, String> {
     let mut sheet = Sheet::open(source(events)?)?;
-    let toolchain = match toolchain(choice, permission) {
-        Ok(toolchain) => toolchain,
-        Err(missing) => return Ok(missing),
-    };
+    let toolchain = crate::tools(choice, &[BOARD], permission)?;
     let (mut session, mut client) = start(&toolchain, "instrument")?;
     let judge = Judge::new()?;
     let radius = station::scene::<f64>().map_err(|error| error.to_string())?.sphere().radius();
@@ -116,10 +112,7 @@ fn cells(number: u64, answer: &Answer, lines: u32) -> [String; 5] {
 
 /// Puts the instrument on trial and says what it takes.
 pub(crate) fn load(load: &Load, choice: Choice, permission: Permission) -> Result<Vec<String>, String> {
-    let toolchain = match toolchain(choice, permission) {
-        Ok(toolchain) => toolchain,
-        Err(missing) => return Ok(missing),
-    };
+    let toolchain = crate::tools(choice, &[BOARD], permission)?;
     let (mut session, mut client) = start(&toolchain, "instrument")?;
     let begin = Instant::now();
     let mut failures = Vec::new();
@@ -155,18 +148,9 @@ fn each_of(trial: &Trial) -> u64 {
     instructions(trial.spent.ticks) / trial.spent.requests.max(1)
 }
 
-/// The compiler, or everything that is missing.
-fn toolchain(choice: Choice, permission: Permission) -> Result<Toolchain, Vec<String>> {
-    let (toolchain, emulator) = crate::tools(choice, &[BOARD], permission)?;
-    eprintln!("compiler: {}\nemulator: {emulator}", toolchain.compiler);
-    Ok(toolchain)
-}
-
 /// The running instrument.
 fn start(toolchain: &Toolchain, feature: &str) -> Result<(Session, Client), String> {
-    eprintln!("building for {} ({}) ...", BOARD.core, BOARD.triple);
-    let folder = firmware::build_with(toolchain, &BOARD, feature, &["instrument"])?;
-    eprintln!("running on {} ({}) ...", BOARD.core, BOARD.machine);
+    let folder = crate::built(toolchain, &BOARD, feature, &["instrument"])?;
     let (session, serial) = Session::start(&BOARD, &folder.join("instrument"))?;
     let client = Client::new(serial, PATIENCE).map_err(|error| error.to_string())?;
     Ok((session, client))

@@ -6,12 +6,6 @@ use boards::figures::{Figure, Quantity, Subject};
 /// The scalar for which the promises hold.
 pub(crate) const SCALAR: &str = "f32";
 
-/// The largest figure of its kind in a scene.
-pub(crate) struct Checked {
-    pub(crate) subject: Subject,
-    pub(crate) value: f64,
-}
-
 /// Whether contact is simulated in a scene.
 pub(crate) fn is_simulated(scene: &str) -> bool {
     scene.starts_with("simulation/")
@@ -79,40 +73,32 @@ const ELSEWHERE: [(&str, &str, f64); 3] = [
 ];
 
 /// The figures of the scenes for use: the worst of each scene and quantity.
-pub(crate) fn check(figures: &[Figure]) -> Vec<Checked> {
-    let mut checked: Vec<Checked> = Vec::new();
-    for Figure { subject, value } in figures {
+pub(crate) fn check(figures: &[Figure]) -> Vec<Figure> {
+    let mut checked: Vec<Figure> = Vec::new();
+    for figure in figures {
+        let Figure { subject, value } = figure;
         if subject.core != REFERENCE_CORE || subject.scalar != SCALAR || is_variant(&subject.scene) {
             continue;
         }
         let same =
-            |other: &&mut Checked| other.subject.scene == subject.scene && other.subject.quantity == subject.quantity;
+            |other: &&mut Figure| other.subject.scene == subject.scene && other.subject.quantity == subject.quantity;
         match checked.iter_mut().find(same) {
             Some(known) if known.value >= *value => {}
-            Some(known) => (known.subject, known.value) = (subject.clone(), *value),
-            None => checked.push(Checked { subject: subject.clone(), value: *value }),
+            Some(known) => known.clone_from(figure),
+            None => checked.push(figure.clone()),
         }
     }
     checked
 }
 
 /// Every broken promise.
-pub(crate) fn broken(checked: &[Checked]) -> Vec<String> {
-    let mut broken = Vec::new();
-    for Checked { subject, value } in checked {
-        if let Some(limit) = of(&subject.scene, subject.quantity)
-            && *value > limit
-        {
-            let unit = subject.quantity.unit();
-            broken.push(format!("{subject}: {value} {unit}; the promise is at most {limit}"));
-        }
-    }
-    broken
+pub(crate) fn broken(checked: &[Figure]) -> Vec<String> {
+    exceeding(checked, |subject| of(&subject.scene, subject.quantity))
 }
 
 /// Every broken promise on another core than the reference.
 pub(crate) fn broken_elsewhere(figures: &[Figure]) -> Vec<String> {
-    let limit = |subject: &Subject| {
+    exceeding(figures, |subject| {
         let promised = |(core, scene, _): &&(&str, &str, f64)| subject.core == *core && subject.scene == *scene;
         match subject.quantity {
             _ if subject.core == REFERENCE_CORE => None,
@@ -120,12 +106,16 @@ pub(crate) fn broken_elsewhere(figures: &[Figure]) -> Vec<String> {
             Quantity::Classify => ELSEWHERE.iter().find(promised).map(|(.., limit)| *limit),
             _ => None,
         }
+    })
+}
+
+/// Every figure that is larger than its limit.
+fn exceeding(figures: &[Figure], limit: impl Fn(&Subject) -> Option<f64>) -> Vec<String> {
+    let exceeds = |Figure { subject, value }: &Figure| {
+        let (limit, unit) = (limit(subject)?, subject.quantity.unit());
+        (*value > limit).then(|| format!("{subject}: {value} {unit}; the promise is at most {limit}"))
     };
-    let limited = figures.iter().filter_map(|figure| Some((figure, limit(&figure.subject)?)));
-    let broken = limited.filter(|(figure, limit)| figure.value > *limit);
-    broken
-        .map(|(Figure { subject, value }, limit)| format!("{subject}: {value}; the promise is at most {limit}"))
-        .collect()
+    figures.iter().filter_map(exceeds).collect()
 }
 
 /// By how many bytes the code and constants of a scene may differ from a firmware for it alone, where the compiler joins and

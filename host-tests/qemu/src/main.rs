@@ -102,11 +102,7 @@ fn run(arguments: &Arguments, permission: Permission) -> Result<Vec<String>, Str
     let stored = Stored::read(&Stored::path())?;
     let expected = answers::expected()?;
     let calibrated = calibrate::expected()?;
-    let (toolchain, emulator) = match tools(arguments.toolchain, &BOARDS, permission) {
-        Ok(tools) => tools,
-        Err(missing) => return Ok(missing),
-    };
-    eprintln!("compiler: {}\nemulator: {emulator}", toolchain.compiler);
+    let toolchain = tools(arguments.toolchain, &BOARDS, permission)?;
 
     let mut failures = Vec::new();
     let mut protocols = Vec::new();
@@ -127,7 +123,7 @@ fn run(arguments: &Arguments, permission: Permission) -> Result<Vec<String>, Str
             Ok((protocol, code)) => {
                 let differences = protocol.differences(&calibrated);
                 failures.extend(differences.iter().map(|text| format!("{}: {text}", board.core)));
-                figures.extend(protocol.figures(board.core));
+                figures.extend(protocol.figures(board));
                 figures.extend(code);
             }
             Err(error) => failures.push(error),
@@ -186,26 +182,23 @@ fn run(arguments: &Arguments, permission: Permission) -> Result<Vec<String>, Str
     Ok(failures)
 }
 
-/// Compiler and emulators, or everything that is missing.
-fn tools(choice: Choice, boards: &[Board], permission: Permission) -> Result<(Toolchain, String), Vec<String>> {
+/// The compiler, once it and the emulators are there; else everything that is missing.
+fn tools(choice: Choice, boards: &[Board], permission: Permission) -> Result<Toolchain, String> {
     let mut triples: Vec<&str> = boards.iter().map(|board| board.triple).collect();
     triples.dedup();
     let mut emulators: Vec<&Emulator> = boards.iter().map(|board| &board.emulator).collect();
     emulators.dedup_by_key(|emulator| emulator.program);
-    let toolchain = Toolchain::find(choice, &triples, permission);
     let (mut versions, mut missing) = (Vec::new(), Vec::new());
+    let toolchain = Toolchain::find(choice, &triples, permission).map_err(|why| missing.push(why));
     for emulator in emulators {
         match emulator.find(permission) {
             Ok(version) => versions.push(version),
             Err(why) => missing.push(why),
         }
     }
-    match toolchain {
-        Ok(toolchain) if missing.is_empty() => return Ok((toolchain, versions.join("; "))),
-        Ok(_) => {}
-        Err(why) => missing.insert(0, why),
-    }
-    Err(missing)
+    let toolchain = toolchain.ok().filter(|_| missing.is_empty()).ok_or_else(|| missing.join("\n"))?;
+    eprintln!("compiler: {}\nemulator: {}", toolchain.compiler, versions.join("; "));
+    Ok(toolchain)
 }
 
 /// The binaries that measure; together they hold more than the smallest board does.
@@ -214,7 +207,7 @@ const MEASURING: [&str; 5] = ["classify", "contacts", "variants", "collocations"
 /// What the firmware says on a board, and what each scene needs of it.
 fn run_board(toolchain: &Toolchain, board: &Board) -> Result<(Protocol, Vec<Figure>), String> {
     let (mut all, mut figures) = (Protocol::default(), Vec::new());
-    let folder = built(toolchain, board, &MEASURING)?;
+    let folder = built(toolchain, board, firmware::PROBE, &MEASURING)?;
     for binary in MEASURING {
         let firmware = folder.join(binary);
         let protocol = Protocol::parse(&emulator::run(board, &firmware)?)
@@ -227,17 +220,17 @@ fn run_board(toolchain: &Toolchain, board: &Board) -> Result<(Protocol, Vec<Figu
 
 /// The same of calibrations.
 fn run_calibrations(toolchain: &Toolchain, board: &Board) -> Result<(calibrate::Protocol, Vec<Figure>), String> {
-    let firmware = built(toolchain, board, &["calibrate"])?.join("calibrate");
+    let firmware = built(toolchain, board, firmware::PROBE, &["calibrate"])?.join("calibrate");
     let protocol = calibrate::Protocol::parse(&emulator::run(board, &firmware)?)
         .map_err(|error| format!("{}, calibrate: {error}", board.core))?;
     let figures = needs(board, &firmware, &protocol.code)?;
     Ok((protocol, figures))
 }
 
-/// The folder in which binaries for a board are.
-fn built(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<PathBuf, String> {
+/// The folder in which binaries for a board are, which then run.
+fn built(toolchain: &Toolchain, board: &Board, feature: &str, binaries: &[&str]) -> Result<PathBuf, String> {
     eprintln!("building {} for {} ({}) ...", binaries.join(", "), board.core, board.triple);
-    let folder = firmware::build(toolchain, board, binaries)?;
+    let folder = firmware::build_with(toolchain, board, feature, binaries)?;
     eprintln!("running on {} ({}) ...", board.core, board.machine);
     Ok(folder)
 }

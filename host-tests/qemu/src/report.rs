@@ -7,8 +7,8 @@ use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table, TableComponent};
 
 use crate::answers::{Case, Protocol};
-use crate::limits::{self, Checked};
-use boards::figures::Quantity;
+use crate::limits;
+use boards::figures::{Figure, Quantity};
 use boards::{Board, REFERENCE_CORE};
 
 /// Class and instructions of every case, a column for each core.
@@ -47,33 +47,32 @@ fn cost(protocol: &Protocol, case: &Case) -> String {
 
 /// The promises and what became of them, the rigid body's first, then those of the simulation, of tables, of fixed point and
 /// of calibrations; a column for each scene.
-pub(crate) fn footprint(checked: &[Checked]) -> String {
-    let (fixed_point, others): (Vec<_>, Vec<_>) =
-        checked.iter().partition(|checked| limits::is_fixed_point(&checked.subject.scene));
-    let (simulated, others): (Vec<_>, Vec<_>) =
-        others.into_iter().partition(|checked| limits::is_simulated(&checked.subject.scene));
-    let (tables, others): (Vec<_>, Vec<_>) =
-        others.into_iter().partition(|checked| limits::is_table(&checked.subject.scene));
-    let (calibrations, rigid): (Vec<_>, Vec<_>) =
-        others.into_iter().partition(|checked| limits::is_calibration(&checked.subject.scene));
+pub(crate) fn footprint(checked: &[Figure]) -> String {
+    let place = |scene: &str| match scene {
+        _ if limits::is_fixed_point(scene) => 3,
+        _ if limits::is_simulated(scene) => 1,
+        _ if limits::is_table(scene) => 2,
+        _ if limits::is_calibration(scene) => 4,
+        _ => 0,
+    };
+    let tables = [0, 1, 2, 3, 4].map(|table| {
+        let own: Vec<&Figure> = checked.iter().filter(|figure| place(&figure.subject.scene) == table).collect();
+        footprint_table(&own).to_string()
+    });
     format!(
-        "Footprint on {REFERENCE_CORE}, {}\n{}\n\n{}\n\n{}\n\n{}\n\n{}\n\
+        "Footprint on {REFERENCE_CORE}, {}\n{}\n\
          Instructions are not cycles. Flash: a firmware that validates a scene and motions and classifies them, less the same\n\
          firmware without that. Code and constants, static memory: what the same refers to in a firmware with other scenes,\n\
          between which the compiler shares more and joins less.\n",
         limits::SCALAR,
-        footprint_table(&rigid),
-        footprint_table(&simulated),
-        footprint_table(&tables),
-        footprint_table(&fixed_point),
-        footprint_table(&calibrations),
+        tables.join("\n\n"),
     )
 }
 
-fn footprint_table(checked: &[&Checked]) -> Table {
+fn footprint_table(checked: &[&Figure]) -> Table {
     let mut scenes: Vec<&str> = Vec::new();
     let mut quantities: Vec<Quantity> = Vec::new();
-    for Checked { subject, .. } in checked {
+    for Figure { subject, .. } in checked {
         if !scenes.contains(&&*subject.scene) {
             scenes.push(&subject.scene);
         }
@@ -89,7 +88,7 @@ fn footprint_table(checked: &[&Checked]) -> Table {
         let limit = limit.map_or_else(|| "-".to_owned(), |limit| limit.to_string());
         let mut row = vec![format!("{}, {}", quantity.name(), quantity.unit()), limit];
         row.extend(scenes.iter().map(|scene| {
-            let same = |found: &&&Checked| found.subject.quantity == quantity && found.subject.scene == *scene;
+            let same = |found: &&&Figure| found.subject.quantity == quantity && found.subject.scene == *scene;
             checked.iter().find(same).map_or_else(String::new, |found| quantity.digits(found.value))
         }));
         table.add_row(row);

@@ -3,7 +3,7 @@
 
 use boards::BOARDS;
 use boards::absent::PROOFS;
-use boards::figures::{Figure as Measured, Quantity, Stored};
+use boards::figures::{self, Figure as Measured, Quantity, Stored};
 
 use crate::content::{Cell, Figure, Part, Run, Section, Table};
 use crate::plot::{self, Line, Mark};
@@ -155,11 +155,7 @@ struct Prices<'a> {
 impl Prices<'_> {
     /// The largest figure of a scene.
     fn of(&self, scene: &str, scalar: &str, core: &str, quantity: Quantity) -> Option<f64> {
-        let same = |figure: &&&Measured| {
-            let subject = &figure.subject;
-            (&*subject.scene, &*subject.scalar, &*subject.core, subject.quantity) == (scene, scalar, core, quantity)
-        };
-        self.figures.iter().filter(same).map(|figure| figure.value).reduce(f64::max)
+        figures::largest(self.figures.iter().copied(), core, scene, scalar, quantity)
     }
 
     /// What each term adds, a column for each core.

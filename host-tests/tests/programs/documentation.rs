@@ -1,11 +1,13 @@
 //! Numbers in README.md are those that were measured.
 
-use std::collections::HashMap;
+use std::sync::LazyLock;
 
+use boards::REFERENCE_CORE;
+use boards::figures::{Quantity, Stored, largest};
 use microimpact::simulation::Collocation;
 
 const README: &str = include_str!("../../../README.md");
-const FOOTPRINT: &str = include_str!("../../data/footprint.csv");
+static STORED: LazyLock<Stored> = LazyLock::new(|| Stored::read(&Stored::path()).unwrap());
 
 /// Scenes by their names in README and in the measurements.
 const SCENES: [(&str, &str); 4] = [
@@ -15,30 +17,17 @@ const SCENES: [(&str, &str); 4] = [
     ("friction and spin, W_A given", "planar/work"),
 ];
 
-/// The columns of README's table, by the names of the measured quantities.
-const QUANTITIES: [&str; 4] = ["classify", "set up and classify", "flash", "stack"];
+/// The columns of README's table.
+const QUANTITIES: [Quantity; 4] = [Quantity::Classify, Quantity::SetUpAndClassify, Quantity::Flash, Quantity::Stack];
 
-/// The largest figure of each scene and quantity on the core that README mostly speaks of, over impacts and compilers.
-fn measured() -> HashMap<(String, String), f64> {
-    measured_on("Cortex-M4F")
+/// The largest figure of a scene on the core that README mostly speaks of, over impacts and compilers.
+fn measured(scene: &str, quantity: Quantity) -> f64 {
+    measured_on(REFERENCE_CORE, scene, quantity)
 }
 
 /// The same on any core.
-fn measured_on(name: &str) -> HashMap<(String, String), f64> {
-    let mut largest = HashMap::new();
-    let mut reader = csv::Reader::from_reader(FOOTPRINT.as_bytes());
-    let names = reader.headers().unwrap().clone();
-    let column = |name: &str| names.iter().position(|column| column == name).unwrap();
-    let (core, scalar, scene) = (column("core"), column("scalar"), column("scene"));
-    let (quantity, value) = (column("quantity"), column("value"));
-    for record in reader.records() {
-        let record = record.unwrap();
-        if &record[core] == name && &record[scalar] == "f32" {
-            let figure = largest.entry((record[scene].to_owned(), record[quantity].to_owned())).or_insert(0.0);
-            *figure = record[value].parse::<f64>().unwrap().max(*figure);
-        }
-    }
-    largest
+fn measured_on(core: &str, scene: &str, quantity: Quantity) -> f64 {
+    largest(STORED.all(), core, scene, "f32", quantity).unwrap()
 }
 
 /// The same of the simulation and of tables.
@@ -60,17 +49,16 @@ const FLASH: [(&str, [&str; 2]); 2] = [
     ("`FixedCost<5, 7>` with friction and spin", ["simulation/fixed-oblique-1e-5", "small/fixed-oblique-1e-5"]),
 ];
 
-const SIMULATED_QUANTITIES: [&str; 2] = ["classify", "stack"];
+const SIMULATED_QUANTITIES: [Quantity; 2] = [Quantity::Classify, Quantity::Stack];
 
 /// README in one line, as its lines break anywhere.
 fn words() -> String {
     README.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-fn assert_rows_are_current(scenes: &[(&str, &str)], quantities: &[&str]) {
-    let measured = measured();
+fn assert_rows_are_current(scenes: &[(&str, &str)], quantities: &[Quantity]) {
     for (name, scene) in scenes {
-        let figure = |quantity: &&str| measured[&((*scene).into(), (*quantity).into())].to_string();
+        let figure = |quantity: &Quantity| measured(scene, *quantity).to_string();
         let row = format!("| {name} | {} |", quantities.iter().map(figure).collect::<Vec<_>>().join(" | "));
         assert!(README.contains(&row), "README.md lacks the row\n{row}");
     }
@@ -84,7 +72,7 @@ fn footprint_tables_are_current() {
 
 #[test]
 fn flash_of_the_simulation_is_current() {
-    let flash = |scene: &str| measured()[&(scene.into(), "flash".into())].to_string();
+    let flash = |scene: &str| measured(scene, Quantity::Flash).to_string();
     for (name, scenes) in FLASH {
         let row = format!("| {name} | {} |", scenes.map(flash).join(" | "));
         assert!(README.contains(&row), "README.md lacks the row\n{row}");
@@ -97,7 +85,7 @@ fn flash_of_the_simulation_is_current() {
 
 #[test]
 fn instructions_in_fixed_point_are_current() {
-    let count = |core: &str| measured_on(core)[&("simulation/fixed-point".into(), "classify".into())];
+    let count = |core: &str| measured_on(core, "simulation/fixed-point", Quantity::Classify);
     let (larger, smaller) = (count("Cortex-M3"), count("Cortex-M0"));
     let statement = format!("takes {larger} instructions on a Cortex-M3 and {smaller} on a Cortex-M0");
     assert!(words().contains(&statement), "README.md lacks: {statement}");
@@ -120,7 +108,7 @@ fn promise_of_the_adaptive_method_is_the_tested_one() {
 fn static_memory_is_none() {
     assert!(README.contains("No static memory."));
     for (_, scene) in SCENES {
-        assert_eq!(measured()[&(scene.into(), "static memory".into())], 0.0);
+        assert_eq!(measured(scene, Quantity::StaticMemory), 0.0);
     }
 }
 
@@ -199,7 +187,7 @@ fn errors_of_fixed_cost_are_the_tested_ones() {
         let test = tests.split("#[test]").find(|test| test.contains(method)).unwrap();
         let bound = test.split_once("error < ").unwrap().1.split_once(',').unwrap().0;
         assert!(README.contains(&format!("{row} {bound} |")), "README.md lacks: {row} {bound}");
-        let error = measured()[&(scene.into(), "error".into())];
+        let error = measured(scene, Quantity::Error);
         assert!(error < bound.parse::<f64>().unwrap() + added, "{scene}: {error:e} on the board");
     }
 }
