@@ -45,7 +45,7 @@ impl<const N: usize> FixedCost<N> {
     /// assert!(microimpact::simulation::FixedCost::<5>::new(0).is_err());
     /// ```
     pub fn new(sweeps: u32) -> Result<Self, InputError> {
-        Parameter::Sweeps.check(f64::from(sweeps))?;
+        Parameter::Iterations.check(f64::from(sweeps))?;
         Ok(Self { sweeps })
     }
 
