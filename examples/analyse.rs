@@ -4,7 +4,7 @@
 
 use std::error::Error;
 
-use microimpact::calibrate::{Rebound, RestitutionFit};
+use microimpact::measure::{MeasuredRebound, RestitutionFit};
 use microimpact::rigid::{Departure, infer_assuming_rolling};
 use microimpact::{CriticalSpeed, NormalMotion, SpeedRestitution, Sphere};
 
@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // Several: approach and rebound speed in m/s.
     let speeds = [(2.0, 1.1), (2.8, 2.09), (4.0, 3.43), (6.0, 5.46), (9.0, 8.25), (14.0, 12.5), (20.0, 17.2)];
-    let rebounds = speeds.map(|(approach, rebound)| Rebound::from_speeds(approach, rebound));
+    let rebounds = speeds.map(|(approach, rebound)| MeasuredRebound::from_speeds(approach, rebound));
     let fit = RestitutionFit::of(&sphere, &rebounds.into_iter().collect::<Result<Vec<_>, _>>()?)?;
     let (k, work) = (fit.restitution_speed, fit.work_of_adhesion);
     println!("k = {:.0} ± {:.0} m/s", k.value, k.standard_error);

@@ -2,8 +2,8 @@
 //!
 //! `cargo run --example boundary`. The command line writes such a table for firmware: `cargo microimpact table`.
 
-use microimpact::boundary::{BoundaryTable, Verdict};
-use microimpact::simulation::{Collocation, Simulation};
+use microimpact::table::{BoundaryTable, TableOutcome};
+use microimpact::contact::{Collocation, Contact};
 use microimpact::{InputError, NormalMotion, Sphere, Stiffness};
 
 fn main() -> Result<(), InputError> {
@@ -11,7 +11,7 @@ fn main() -> Result<(), InputError> {
     // Twelve cells of a quarter of an octave each, from a radius of 2 um on.
     let table = BoundaryTable::<12>::new(2e-6, |radius| {
         let sphere = Sphere::solid(radius, 2600.0)?;
-        Simulation::new(sphere, Stiffness::new(7.5e10)?)
+        Contact::hertz(sphere, Stiffness::new(7.5e10)?)
             .with_damping(10.5)?
             .with_ring(250.0, 6.25)?
             .critical_speed(&method)
@@ -21,10 +21,10 @@ fn main() -> Result<(), InputError> {
     // Looked up in single precision, as firmware does.
     for (radius, speed) in [(2.5e-6_f32, 2.8), (2.5e-6, 5.1596), (5.06e-6, 2.8), (1e-3, 2.8)] {
         let verdict = match table.classify(radius, &NormalMotion::new(speed)?) {
-            Verdict::Rebound => "rebound",
-            Verdict::Capture => "capture",
-            Verdict::TooCloseToCall => "too close to the critical speed",
-            Verdict::OutsideTable => "the table does not reach this radius",
+            TableOutcome::Rebound => "rebound",
+            TableOutcome::Capture => "capture",
+            TableOutcome::TooCloseToCall => "too close to the critical speed",
+            TableOutcome::OutsideTable => "the table does not reach this radius",
         };
         println!("radius {radius:e} m, {speed} m/s: {verdict}");
     }

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --example classify`. The command line does the same for tables: `cargo microimpact classify`.
 
-use microimpact::simulation::{Adaptive, Simulation};
+use microimpact::contact::{Adaptive, Contact};
 use microimpact::{InputError, NormalMotion, RigidBody, SpeedRestitution, Sphere, Stiffness};
 
 fn main() -> Result<(), InputError> {
@@ -12,7 +12,7 @@ fn main() -> Result<(), InputError> {
     let rigid_body =
         RigidBody::new(sphere, SpeedRestitution::new(130.0)?).with_work_of_adhesion(2.22e-12)?.with_friction(0.1)?;
     // K in Pa; zeta_H; f0 in N/m and zeta_A.
-    let contact = Simulation::new(sphere, Stiffness::new(7.5e10)?)
+    let contact = Contact::hertz(sphere, Stiffness::new(7.5e10)?)
         .with_damping(10.5)?
         .with_ring(250.0, 6.25)?
         .with_friction(0.1)?;
@@ -29,7 +29,7 @@ fn main() -> Result<(), InputError> {
             None => println!(),
         }
 
-        let impact = contact.impact(&method, &before)?;
+        let impact = contact.solve(&before, &method)?;
         match impact.class() {
             Some(class) => println!("  simulation: {class}, e = {:.4}", impact.normal.overall_restitution()),
             None => println!("  simulation: no result within its budget"),

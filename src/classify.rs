@@ -1,8 +1,8 @@
-//! The class of an impact, and how far it is from the neighbouring class.
+//! Classes of impacts, and the margins between them.
 
 use core::fmt;
 
-/// What became of the sphere along the normal.
+/// Outcome of an impact: rebound or capture.
 ///
 /// ```
 /// use microimpact::{ConstantRestitution, NormalMotion, Outcome, RigidBody, Sphere};
@@ -21,7 +21,7 @@ pub enum Outcome {
     Capture,
 }
 
-/// How the contact point moves when the impact is over.
+/// Motion of the contact point when the impact is over.
 ///
 /// ```
 /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere, SurfaceMotion};
@@ -39,9 +39,9 @@ pub enum Outcome {
 pub enum SurfaceMotion {
     /// The contact point slips over the surface.
     Sliding,
-    /// The contact point is at rest and the sphere turns.
+    /// The contact point is at rest, and the sphere turns.
     Rolling,
-    /// Nothing moves: the impact has used up all kinetic energy.
+    /// The sphere is at rest. All kinetic energy is lost.
     Resting,
 }
 
@@ -60,15 +60,15 @@ pub enum SurfaceMotion {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Class {
-    /// Leaves the surface while its contact point slips.
+    /// The sphere leaves the surface while its contact point slips.
     ReboundSliding,
-    /// Leaves the surface rolling: the slip has ended during contact.
+    /// The sphere leaves the surface rolling. The slip ended during contact.
     ReboundRolling,
-    /// Captured, and slides on along the surface.
+    /// The sphere is captured and slides along the surface.
     CapturedSliding,
-    /// Captured, and rolls on along the surface.
+    /// The sphere is captured and rolls along the surface.
     CapturedRolling,
-    /// Captured and at rest: full capture.
+    /// The sphere is captured and at rest.
     CapturedResting,
 }
 
@@ -97,7 +97,7 @@ impl fmt::Display for Class {
     }
 }
 
-/// The approach speed that separates capture from rebound, m/s.
+/// Critical speed: the approach speed that separates capture from rebound, m/s.
 ///
 /// ```
 /// use microimpact::{ConstantRestitution, CriticalSpeed, RigidBody, Sphere};
@@ -110,15 +110,15 @@ impl fmt::Display for Class {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum CriticalSpeed<T> {
-    /// No approach is too slow to rebound.
+    /// Spheres of every speed rebound.
     AlwaysRebounds,
-    /// This and every lower speed is captured.
+    /// Spheres of this speed and of every lower speed are captured.
     At(T),
-    /// No approach is fast enough to rebound.
+    /// Spheres of every speed are captured.
     NeverRebounds,
 }
 
-/// The class of an impact and its margins: `C` is `()` without friction and [`ContactClass`] with it.
+/// Class of an impact with its margins. `C` is `()` without friction and [`ContactClass`] with it.
 ///
 /// ```
 /// use microimpact::{Class, NormalMotion, RigidBody, Sphere, SpeedRestitution};
@@ -138,13 +138,13 @@ pub enum CriticalSpeed<T> {
 pub struct Classification<T, C> {
     /// Rebound or capture.
     pub outcome: Outcome,
-    /// Approach speed over the critical speed: above one for a rebound. `None` where every speed has this outcome.
+    /// Approach speed divided by the critical speed, above one for a rebound. `None` if every speed has the same outcome.
     pub speed_over_critical: Option<T>,
-    /// How the contact point moves, where friction takes part.
+    /// Motion of the contact point; `()` without friction.
     pub contact: C,
 }
 
-/// The tangential side of a [`Classification`].
+/// The part of a [`Classification`] that describes the motion along the surface.
 ///
 /// ```
 /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -160,14 +160,15 @@ pub struct Classification<T, C> {
 pub struct ContactClass<T> {
     /// Sliding, rolling or resting.
     pub motion: SurfaceMotion,
-    /// f over the size of mu_0: one or more rolls, less slides. `None` where nothing slips, so that any friction rolls.
+    /// Friction coefficient f divided by |mu_0|: the sphere rolls from one on, and slides below. `None` without slip, where any
+    /// friction lets the sphere roll.
     ///
-    /// For a measured impact, whose f is not known, the size of mu over that of mu_0.
+    /// In a measured impact, f is unknown, and |mu| takes its place.
     pub friction_over_limit: Option<T>,
 }
 
 impl<T> Classification<T, ContactClass<T>> {
-    /// Outcome and motion along the surface in one word.
+    /// Outcome and motion along the surface, as one class.
     ///
     /// ```
     /// use microimpact::{Class, Classification, ContactClass, Outcome, SurfaceMotion};

@@ -1,184 +1,191 @@
-//! What can be wrong with an input, and the range each input must lie in.
+//! Errors of inputs, and the valid range of each input.
 
 use core::fmt;
+use core::hash::{Hash, Hasher};
 
 use crate::Real;
 
-/// A quantity that a caller supplies, with its unit and its valid range.
-///
-/// The range is one both number types can carry through every formula without overflow, and wide enough for
-/// particles from a nanometre to centimetres.
-///
-/// ```
-/// use microimpact::Parameter;
-///
-/// assert_eq!(Parameter::Radius.name(), "radius");
-/// assert_eq!(Parameter::Radius.unit(), "m");
-/// assert_eq!(Parameter::Radius.range(), (1e-10, 1.0));
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub enum Parameter {
-    /// Outer radius r of a sphere, m.
-    Radius,
-    /// Contact radius of a resting sphere over its radius.
-    ContactRadiusRatio,
-    /// Wall of a hollow sphere or coating of a coated one, m; at most the radius.
-    Thickness,
-    /// Density of a material, kg/m^3.
-    Density,
-    /// kappa = k^2/r^2, the squared radius of gyration over the squared radius.
-    GyrationRatio,
-    /// Young's modulus E, Pa.
-    YoungsModulus,
-    /// Poisson's ratio nu.
-    PoissonRatio,
-    /// Hertz stiffness K (B2), Pa.
-    Stiffness,
-    /// Size of the normal velocity before the impact, m/s. Zero or less is a particle that does not approach.
-    ApproachSpeed,
-    /// Tangential velocity, m/s.
-    TangentialVelocity,
-    /// Spin, rad/s.
-    Spin,
-    /// Spin times radius: the velocity at which the sphere's surface turns, m/s.
-    PeripheralVelocity,
-    /// Normal velocity after the impact, m/s. Below zero the particle would have passed through the surface.
-    ReboundSpeed,
-    /// Standard error of the measured velocities, m/s.
-    VelocityError,
-    /// Standard error of any input, in its own unit.
-    StandardError,
-    /// Kinetic restitution R, without adhesion.
-    Restitution,
-    /// Speed k of the restitution law R = k/(k + v), m/s.
-    RestitutionSpeed,
-    /// Adhesion coefficient rho.
-    AdhesionCoefficient,
-    /// Work of adhesion W_A, J.
-    WorkOfAdhesion,
-    /// Coulomb's coefficient f.
-    Friction,
-    /// Impulse ratio mu.
-    ImpulseRatio,
-    /// Rolling-dissipation coefficient times its moment arm, mu_m a_c, m.
-    RollingArm,
-    /// Impulse of an external force during one phase of the impact, N s.
-    ExternalImpulse,
-    /// Change of velocity that an external impulse makes, m/s.
-    VelocityChange,
-    /// Constant external force, N.
-    ExternalForce,
-    /// Duration of a contact, s.
-    Duration,
-    /// Strength zeta_H of the damping in the materials.
-    MaterialDamping,
-    /// Strength f0 of the adhesion ring, N/m.
-    AdhesionStrength,
-    /// Strength zeta_A of the damping of adhesion.
-    AdhesionDamping,
-    /// Strength lambda of the peeling moment, N m.
-    PeelingMoment,
-    /// Tolerance of a simulation.
-    Tolerance,
-    /// Sweeps of a method of fixed cost for each phase.
-    Sweeps,
-    /// Energy of a captured sphere at rest, above the bottom of the well, over the depth of the well.
-    RestEnergy,
-    /// Turning points up to which a captured sphere is followed.
-    TurningPoints,
-    /// (5/3) of the equilibrium indentation over the peak indentation of Hertz's impact: adhesion against inertia.
-    AdhesionRatio,
-    /// External force over elastic force at the peak indentation, times 5/4.
-    ForceRatio,
-    /// Damping c_H U or c_A U: what the largest speed U of the undamped motion adds to a force, over that force.
-    DampingRatio,
-    /// Critical speed in a table, m/s. Too small where every speed rebounds, too large where none does.
-    CriticalSpeed,
-    /// Relative margin of a boundary table.
-    BoundaryMargin,
-    /// Largest speed of a restitution table over the critical speed.
-    SpeedRatio,
-    /// Elastic impulse over the momentum before the impact, I/(m v).
-    ImpulseOverMomentum,
-    /// Strength p of adhesion, given as such or for fixed point.
-    DimensionlessAdhesion,
-    /// Damping for the unit of speed, given as such or for fixed point.
-    DimensionlessDamping,
-    /// Unit of speed for fixed point, m/s.
-    SpeedUnit,
-    /// Approach speed over the unit of speed, for fixed point.
-    SpeedInUnits,
-    /// Any other velocity over the unit of speed, for fixed point; of a work of adhesion the rebound that it takes.
-    VelocityInUnits,
-    /// Speed k of the restitution law over the unit of speed, for fixed point.
-    RestitutionSpeedInUnits,
-    /// Coulomb's coefficient for fixed point.
-    FixedPointFriction,
+/// Builds [`Parameter`] from one table: a line holds the name of the variant, the name of the quantity, its unit and its
+/// range.
+macro_rules! parameters {
+    (
+        physics {$($(#[doc = $text:literal])+ $physical:ident: $name:literal, $unit:literal, $smallest:literal to $largest:literal;)+}
+        settings {$($(#[doc = $note:literal])+ $setting:ident: $label:literal, $least:literal to $most:literal;)+}
+    ) => {
+        /// A quantity that a caller supplies, with its unit and its valid range.
+        ///
+        /// Most parameters are physical quantities. The others are settings of a solver or of a table
+        /// ([`is_setting`](Self::is_setting)). The ranges cover particles from a nanometre to centimetres, and within them
+        /// neither f32 nor f64 overflows in any formula.
+        ///
+        /// ```
+        /// use microimpact::Parameter;
+        ///
+        /// assert_eq!(Parameter::Radius.name(), "radius");
+        /// assert_eq!(Parameter::Radius.unit(), "m");
+        /// assert_eq!(Parameter::Radius.range(), (1e-10, 1.0));
+        /// ```
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[non_exhaustive]
+        pub enum Parameter {
+            $(
+                $(#[doc = $text])+
+                #[doc = concat!("\n\nRange: ", $smallest, " to ", $largest, ", unit ", $unit, ".")]
+                $physical,
+            )+
+            $(
+                $(#[doc = $note])+
+                #[doc = concat!("\n\nRange: ", $least, " to ", $most, ".")]
+                $setting,
+            )+
+        }
+
+        impl Parameter {
+            const COUNT: usize = [$(Self::$physical,)+ $(Self::$setting,)+].len();
+
+            /// Every parameter.
+            ///
+            /// ```
+            /// use microimpact::Parameter;
+            ///
+            /// assert!(Parameter::ALL.iter().all(|parameter| parameter.range().0 < parameter.range().1));
+            /// ```
+            pub const ALL: [Self; Self::COUNT] = [$(Self::$physical,)+ $(Self::$setting,)+];
+
+            /// Whether this is a setting of a solver or of a table, and not a physical quantity.
+            ///
+            /// ```
+            /// use microimpact::Parameter;
+            ///
+            /// assert!(Parameter::Tolerance.is_setting());
+            /// assert!(!Parameter::Radius.is_setting());
+            /// ```
+            pub const fn is_setting(self) -> bool {
+                matches!(self, $(Self::$setting)|+)
+            }
+
+            /// Name, unit and range.
+            const fn describe(self) -> (&'static str, &'static str, (f64, f64)) {
+                match self {
+                    $(Self::$physical => ($name, $unit, ($smallest, $largest)),)+
+                    $(Self::$setting => ($label, "1", ($least, $most)),)+
+                }
+            }
+        }
+    };
+}
+
+parameters! {
+    physics {
+        /// Outer radius r of a sphere.
+        Radius: "radius", "m", 1e-10 to 1.0;
+        /// Contact radius of a resting sphere, divided by its radius.
+        ContactRadiusRatio: "contact radius over radius", "1", 0.0 to 1.0;
+        /// Wall thickness of a hollow sphere or coating thickness of a coated one; at most the radius.
+        Thickness: "thickness", "m", 1e-12 to 1.0;
+        /// Density of a material.
+        Density: "density", "kg/m^3", 1e-2 to 1e6;
+        /// Gyration ratio kappa = k^2/r^2: the squared radius of gyration divided by the squared radius.
+        GyrationRatio: "gyration ratio", "1", 1e-3 to 1.0;
+        /// Young's modulus E.
+        YoungsModulus: "Young's modulus", "Pa", 1.0 to 1e16;
+        /// Poisson's ratio nu.
+        PoissonRatio: "Poisson's ratio", "1", -0.999 to 0.5;
+        /// Hertz stiffness K (B2).
+        Stiffness: "stiffness", "Pa", 1.0 to 1e16;
+        /// Normal velocity towards the surface before the impact, a positive number.
+        ApproachSpeed: "approach speed", "m/s", 1e-12 to 1e6;
+        /// Tangential velocity.
+        TangentialVelocity: "tangential velocity", "m/s", -1e7 to 1e7;
+        /// Spin.
+        Spin: "spin", "rad/s", -1e17 to 1e17;
+        /// Peripheral velocity of a spinning sphere: spin times radius.
+        PeripheralVelocity: "peripheral velocity", "m/s", -1e7 to 1e7;
+        /// Normal velocity away from the surface after the impact.
+        ReboundSpeed: "rebound speed", "m/s", 0.0 to 1e6;
+        /// Standard error of the measured velocities.
+        VelocityError: "velocity error", "m/s", 0.0 to 1e6;
+        /// Standard error of any input, in the unit of that input.
+        StandardError: "standard error", "in the unit of its quantity", 0.0 to 1e30;
+        /// Kinetic restitution R, without adhesion.
+        Restitution: "restitution", "1", 0.0 to 1.0;
+        /// Speed k of the restitution law R = k/(k + v).
+        RestitutionSpeed: "restitution speed", "m/s", 1e-6 to 1e12;
+        /// Adhesion coefficient rho.
+        AdhesionCoefficient: "adhesion coefficient", "1", 0.0 to 1.0;
+        /// Work of adhesion W_A.
+        WorkOfAdhesion: "work of adhesion", "J", 0.0 to 1e6;
+        /// Coulomb's friction coefficient f.
+        Friction: "friction coefficient", "1", 0.0 to 1e3;
+        /// Impulse ratio mu.
+        ImpulseRatio: "impulse ratio", "1", -1e3 to 1e3;
+        /// Rolling-dissipation coefficient times its moment arm, mu_m a_c.
+        RollingArm: "rolling-dissipation arm", "m", 0.0 to 1.0;
+        /// Impulse of an external force during one phase of the impact.
+        ExternalImpulse: "external impulse", "N s", -1e6 to 1e6;
+        /// Change of velocity by an external impulse.
+        VelocityChange: "velocity change by an external impulse", "m/s", -1e7 to 1e7;
+        /// Constant external force.
+        ExternalForce: "external force", "N", -1e6 to 1e6;
+        /// Duration of a contact.
+        Duration: "duration", "s", 0.0 to 1.0;
+        /// Strength zeta_H of the material damping.
+        MaterialDamping: "material damping", "1", 0.0 to 1e9;
+        /// Strength f0 of the adhesion ring.
+        AdhesionStrength: "adhesion strength", "N/m", 0.0 to 1e9;
+        /// Strength zeta_A of the adhesion damping.
+        AdhesionDamping: "adhesion damping", "1", 0.0 to 1e9;
+        /// Strength lambda of the peeling moment.
+        PeelingMoment: "peeling moment", "N m", 0.0 to 1e3;
+        /// Adhesion relative to inertia: 5/3 of the equilibrium indentation, divided by the peak indentation of Hertz's
+        /// impact.
+        AdhesionRatio: "adhesion over inertia", "1", 0.0 to 1e10;
+        /// External force relative to elasticity: 5/4 of the force, divided by the elastic force at the peak indentation.
+        ForceRatio: "external force over elasticity", "1", -1e6 to 1e6;
+        /// Damping relative to elasticity: c_H U or c_A U, where U is the largest speed of the undamped motion. The product
+        /// is the damping force divided by the force that it accompanies.
+        DampingRatio: "damping over elasticity", "1", 0.0 to 1e9;
+        /// Critical speed of a radius in a table. It is too small if every speed rebounds, and too large if no speed does.
+        CriticalSpeed: "critical speed", "m/s", 1e-12 to 1e6;
+        /// Elastic impulse divided by the momentum before the impact, I/(m v).
+        ImpulseOverMomentum: "elastic impulse over momentum", "1", 0.0 to 1e6;
+        /// Dimensionless strength p of adhesion.
+        DimensionlessAdhesion: "dimensionless strength of adhesion", "1", 0.0 to 0.999;
+        /// Dimensionless damping, at the unit of speed.
+        DimensionlessDamping: "dimensionless damping", "1", 0.0 to 0.5;
+        /// Approach speed divided by the unit of speed, in fixed point.
+        SpeedInUnits: "approach speed over the unit of speed", "1", 0.004 to 8.0;
+        /// Any other velocity divided by the unit of speed, in fixed point. For a work of adhesion, it is the rebound speed
+        /// whose energy equals that work.
+        VelocityInUnits: "velocity over the unit of speed", "1", -8.0 to 8.0;
+        /// Speed k of the restitution law divided by the unit of speed, in fixed point.
+        RestitutionSpeedInUnits: "restitution speed over the unit of speed", "1", 0.01 to 100.0;
+        /// Coulomb's friction coefficient in fixed point.
+        FixedPointFriction: "friction coefficient in fixed point", "1", 0.0 to 7.0;
+        /// Unit of speed for fixed point.
+        SpeedUnit: "unit of speed", "m/s", 1e-12 to 1e6;
+    }
+    settings {
+        /// Tolerance of a solver or of a search.
+        Tolerance: "tolerance", 1e-13 to 1e-2;
+        /// Number of iterations that a method of fixed cost spends on each phase.
+        Iterations: "number of iterations", 1.0 to 40.0;
+        /// Energy at which a captured sphere counts as resting: the energy above the bottom of the potential well, divided
+        /// by the depth of the well.
+        RestEnergy: "energy at rest over depth of the well", 1e-12 to 0.5;
+        /// Largest number of turning points that are computed for a captured sphere.
+        TurningPoints: "number of turning points", 1.0 to 1e5;
+        /// Relative error margin of a boundary table.
+        BoundaryMargin: "margin of a boundary table", 0.0 to 0.05;
+        /// Largest speed of a restitution table, divided by the critical speed.
+        SpeedRatio: "largest over critical speed", 1.1 to 1e4;
+    }
 }
 
 impl Parameter {
-    /// All of them.
-    ///
-    /// ```
-    /// use microimpact::Parameter;
-    ///
-    /// assert!(Parameter::ALL.iter().all(|parameter| parameter.range().0 < parameter.range().1));
-    /// ```
-    pub const ALL: [Self; 48] = [
-        Self::Radius,
-        Self::ContactRadiusRatio,
-        Self::Thickness,
-        Self::Density,
-        Self::GyrationRatio,
-        Self::YoungsModulus,
-        Self::PoissonRatio,
-        Self::Stiffness,
-        Self::ApproachSpeed,
-        Self::TangentialVelocity,
-        Self::Spin,
-        Self::PeripheralVelocity,
-        Self::ReboundSpeed,
-        Self::VelocityError,
-        Self::StandardError,
-        Self::Restitution,
-        Self::RestitutionSpeed,
-        Self::AdhesionCoefficient,
-        Self::WorkOfAdhesion,
-        Self::Friction,
-        Self::ImpulseRatio,
-        Self::RollingArm,
-        Self::ExternalImpulse,
-        Self::VelocityChange,
-        Self::ExternalForce,
-        Self::Duration,
-        Self::MaterialDamping,
-        Self::AdhesionStrength,
-        Self::AdhesionDamping,
-        Self::PeelingMoment,
-        Self::Tolerance,
-        Self::Sweeps,
-        Self::RestEnergy,
-        Self::TurningPoints,
-        Self::AdhesionRatio,
-        Self::ForceRatio,
-        Self::DampingRatio,
-        Self::CriticalSpeed,
-        Self::BoundaryMargin,
-        Self::SpeedRatio,
-        Self::ImpulseOverMomentum,
-        Self::DimensionlessAdhesion,
-        Self::DimensionlessDamping,
-        Self::SpeedUnit,
-        Self::SpeedInUnits,
-        Self::VelocityInUnits,
-        Self::RestitutionSpeedInUnits,
-        Self::FixedPointFriction,
-    ];
-
-    /// Name, in the words of the field.
+    /// Name of the quantity, as in the literature.
     ///
     /// ```
     /// assert_eq!(microimpact::Parameter::Friction.name(), "friction coefficient");
@@ -187,7 +194,7 @@ impl Parameter {
         self.describe().0
     }
 
-    /// Unit; "1" where the quantity is a ratio.
+    /// Unit; "1" for a ratio.
     ///
     /// ```
     /// assert_eq!(microimpact::Parameter::Stiffness.unit(), "Pa");
@@ -205,63 +212,10 @@ impl Parameter {
         self.describe().2
     }
 
-    const fn describe(self) -> (&'static str, &'static str, (f64, f64)) {
-        match self {
-            Self::Radius => ("radius", "m", (1e-10, 1.0)),
-            Self::ContactRadiusRatio => ("contact radius over radius", "1", (0.0, 1.0)),
-            Self::Thickness => ("thickness", "m", (1e-12, 1.0)),
-            Self::Density => ("density", "kg/m^3", (1e-2, 1e6)),
-            Self::GyrationRatio => ("gyration ratio", "1", (1e-3, 1.0)),
-            Self::YoungsModulus => ("Young's modulus", "Pa", (1.0, 1e16)),
-            Self::PoissonRatio => ("Poisson's ratio", "1", (-0.999, 0.5)),
-            Self::Stiffness => ("stiffness", "Pa", (1.0, 1e16)),
-            Self::ApproachSpeed => ("approach speed", "m/s", (1e-12, 1e6)),
-            Self::TangentialVelocity => ("tangential velocity", "m/s", (-1e7, 1e7)),
-            Self::Spin => ("spin", "rad/s", (-1e17, 1e17)),
-            Self::PeripheralVelocity => ("peripheral velocity", "m/s", (-1e7, 1e7)),
-            Self::ReboundSpeed => ("rebound speed", "m/s", (0.0, 1e6)),
-            Self::VelocityError => ("velocity error", "m/s", (0.0, 1e6)),
-            Self::StandardError => ("standard error", "in the unit of its quantity", (0.0, 1e30)),
-            Self::Restitution => ("restitution", "1", (0.0, 1.0)),
-            Self::RestitutionSpeed => ("restitution speed", "m/s", (1e-6, 1e12)),
-            Self::AdhesionCoefficient => ("adhesion coefficient", "1", (0.0, 1.0)),
-            Self::WorkOfAdhesion => ("work of adhesion", "J", (0.0, 1e6)),
-            Self::Friction => ("friction coefficient", "1", (0.0, 1e3)),
-            Self::ImpulseRatio => ("impulse ratio", "1", (-1e3, 1e3)),
-            Self::RollingArm => ("rolling-dissipation arm", "m", (0.0, 1.0)),
-            Self::ExternalImpulse => ("external impulse", "N s", (-1e6, 1e6)),
-            Self::VelocityChange => ("velocity change by an external impulse", "m/s", (-1e7, 1e7)),
-            Self::ExternalForce => ("external force", "N", (-1e6, 1e6)),
-            Self::Duration => ("duration", "s", (0.0, 1.0)),
-            Self::MaterialDamping => ("material damping", "1", (0.0, 1e9)),
-            Self::AdhesionStrength => ("adhesion strength", "N/m", (0.0, 1e9)),
-            Self::AdhesionDamping => ("adhesion damping", "1", (0.0, 1e9)),
-            Self::PeelingMoment => ("peeling moment", "N m", (0.0, 1e3)),
-            Self::Tolerance => ("tolerance", "1", (1e-13, 1e-2)),
-            Self::Sweeps => ("number of sweeps", "1", (1.0, 40.0)),
-            Self::RestEnergy => ("energy at rest over depth of the well", "1", (1e-12, 0.5)),
-            Self::TurningPoints => ("number of turning points", "1", (1.0, 1e5)),
-            Self::AdhesionRatio => ("adhesion over inertia", "1", (0.0, 1e10)),
-            Self::ForceRatio => ("external force over elasticity", "1", (-1e6, 1e6)),
-            Self::DampingRatio => ("damping over elasticity", "1", (0.0, 1e9)),
-            Self::CriticalSpeed => ("critical speed", "m/s", (1e-12, 1e6)),
-            Self::BoundaryMargin => ("margin of a boundary table", "1", (0.0, 0.05)),
-            Self::ImpulseOverMomentum => ("elastic impulse over momentum", "1", (0.0, 1e6)),
-            Self::DimensionlessAdhesion => ("dimensionless strength of adhesion", "1", (0.0, 0.999)),
-            Self::DimensionlessDamping => ("dimensionless damping", "1", (0.0, 0.5)),
-            Self::SpeedUnit => ("unit of speed", "m/s", (1e-12, 1e6)),
-            Self::SpeedInUnits => ("approach speed over the unit of speed", "1", (0.004, 8.0)),
-            Self::VelocityInUnits => ("velocity over the unit of speed", "1", (-8.0, 8.0)),
-            Self::RestitutionSpeedInUnits => ("restitution speed over the unit of speed", "1", (0.01, 100.0)),
-            Self::FixedPointFriction => ("friction coefficient in fixed point", "1", (0.0, 7.0)),
-            Self::SpeedRatio => ("largest over critical speed", "1", (1.1, 1e4)),
-        }
-    }
-
-    /// The value itself when it lies in the parameter's range.
+    /// Returns the value if it is in the range of this parameter.
     ///
     /// # Errors
-    /// [`InputError`] naming the parameter when the value is not a number or outside the range.
+    /// The value is not a number or is outside the range. The error names this parameter and contains the value.
     ///
     /// ```
     /// use microimpact::{Fault, Parameter};
@@ -273,10 +227,10 @@ impl Parameter {
     #[inline]
     pub fn check<T: Real>(self, value: T) -> Result<T, InputError> {
         let (smallest, largest) = self.range();
-        // A number type that has no number as small as the range begins with would take zero for valid.
-        let held = smallest <= 0.0 || T::constant(smallest) > T::ZERO;
+        // If the number type rounds the lower bound to zero, it would accept zero. Then no value is valid.
+        let represented = smallest <= 0.0 || T::constant(smallest) > T::ZERO;
         // Both comparisons fail for NaN.
-        if held && value >= T::constant(smallest) && value <= T::constant(largest) {
+        if represented && value >= T::constant(smallest) && value <= T::constant(largest) {
             Ok(value)
         } else {
             Err(self.refuse(value, T::constant(smallest)))
@@ -292,7 +246,7 @@ impl Parameter {
         } else {
             Fault::TooLarge
         };
-        InputError { parameter: self, fault }
+        InputError { parameter: self, fault, value: value.to_f64() }
     }
 }
 
@@ -308,67 +262,126 @@ impl Parameter {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Fault {
-    /// NaN or infinite.
+    /// The value is NaN or infinite.
     NotFinite,
-    /// Below the smallest valid value.
+    /// The value is below the smallest valid value.
     TooSmall,
-    /// Above the largest valid value.
+    /// The value is above the largest valid value.
     TooLarge,
-    /// A thickness that exceeds the radius of its sphere.
+    /// The thickness exceeds the radius of its sphere.
     ExceedsRadius,
 }
 
-/// An input that is not valid: which one, and how.
+/// An invalid input: the parameter, the value found, and how the value misses its range.
+///
+/// The message also gives the range with its unit and, for common mistakes, the remedy. Two errors are equal if their values
+/// are equal bit by bit, so that an error with NaN is equal to itself.
 ///
 /// ```
-/// use microimpact::{Parameter, Sphere};
+/// use microimpact::{NormalMotion, Parameter};
 ///
-/// let error = Sphere::solid(-1e-6, 2600.0).unwrap_err();
-/// assert_eq!(error.parameter, Parameter::Radius);
-/// assert_eq!(error.to_string(), "radius is below its range, 1e-10 to 1 m");
+/// let error = NormalMotion::new(-2.8).unwrap_err();
+/// assert_eq!((error.parameter, error.value), (Parameter::ApproachSpeed, -2.8));
+/// let message = "approach speed is -2.8 m/s, but must be 1e-12 to 1e6 m/s; enter -2.8 m/s as 2.8";
+/// assert_eq!(error.to_string(), message);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct InputError {
-    /// The quantity at fault.
+    /// The parameter that is invalid.
     pub parameter: Parameter,
-    /// What is wrong with it.
+    /// How the value misses its range.
     pub fault: Fault,
+    /// The value found, in the unit of the parameter.
+    pub value: f64,
+}
+
+impl PartialEq for InputError {
+    fn eq(&self, other: &Self) -> bool {
+        (self.parameter, self.fault, self.value.to_bits()) == (other.parameter, other.fault, other.value.to_bits())
+    }
+}
+
+impl Eq for InputError {}
+
+impl Hash for InputError {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        (self.parameter, self.fault, self.value.to_bits()).hash(state);
+    }
 }
 
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { parameter, fault, value } = *self;
+        let (smallest, largest) = parameter.range();
+        let unit = Unit(parameter.unit());
+        write!(f, "{} is {}", parameter.name(), Number(value))?;
+        if value.is_finite() {
+            write!(f, "{unit}")?;
+        }
+        f.write_str(", but must ")?;
+        match fault {
+            Fault::ExceedsRadius => f.write_str("not exceed the radius of the sphere"),
+            Fault::NotFinite => write!(f, "be a number from {} to {}{unit}", Number(smallest), Number(largest)),
+            Fault::TooSmall | Fault::TooLarge => {
+                write!(f, "be {} to {}{unit}", Number(smallest), Number(largest))?;
+                self.remedy(f)
+            }
+        }
+    }
+}
+
+impl InputError {
+    /// What to do about a common mistake: a wrong sign, or micrometres instead of metres.
+    fn remedy(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let value = Number(self.value);
+        let unit = Unit(self.parameter.unit());
         let (smallest, largest) = self.parameter.range();
-        let fault = match self.fault {
-            Fault::NotFinite => "is not a finite number",
-            Fault::TooSmall => "is below its range",
-            Fault::TooLarge => "is above its range",
-            Fault::ExceedsRadius => "exceeds the radius",
-        };
-        write!(f, "{} {fault}, {} to {}", self.parameter.name(), Bound(smallest), Bound(largest))?;
-        match self.parameter.unit() {
-            "1" => Ok(()),
-            unit => write!(f, " {unit}"),
+        match self.parameter {
+            Parameter::ApproachSpeed | Parameter::WorkOfAdhesion | Parameter::RollingArm | Parameter::PeelingMoment
+                if (smallest..=largest).contains(&-self.value) =>
+            {
+                write!(f, "; enter {value}{unit} as {}", Number(-self.value))
+            }
+            Parameter::Radius | Parameter::Thickness if self.fault == Fault::TooLarge && self.value < 1e4 => {
+                write!(f, "; enter {value} um as {value}e-6")
+            }
+            _ => Ok(()),
         }
     }
 }
 
 impl core::error::Error for InputError {}
 
-/// A bound of a range as a person writes it: with an exponent where it is far from one.
-struct Bound(f64);
+/// A number as a person writes it: with an exponent if it is very large or very small.
+struct Number(f64);
 
-impl fmt::Display for Bound {
+impl fmt::Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0.abs() {
-            size if size == 0.0 || (1e-3..1e4).contains(&size) => write!(f, "{}", self.0),
-            _ => write!(f, "{:e}", self.0),
+        let size = self.0.abs();
+        let plain = size == 0.0 || (1e-3..1e4).contains(&size) || !size.is_finite();
+        // An f32 that was stored as f64 has seven digits; the others come from the conversion.
+        let single = self.0 as f32;
+        match (plain, f64::from(single) == self.0) {
+            (true, true) => write!(f, "{single}"),
+            (true, false) => write!(f, "{}", self.0),
+            (false, true) => write!(f, "{single:e}"),
+            (false, false) => write!(f, "{:e}", self.0),
         }
     }
 }
 
-/// Velocities that no impact can have, or an input that is not valid at all.
+/// A unit after a number; nothing for a ratio.
+struct Unit(&'static str);
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0 == "1" { Ok(()) } else { write!(f, " {}", self.0) }
+    }
+}
+
+/// A measured impact that contradicts the model, or an invalid input.
 ///
 /// ```
 /// use microimpact::{ConstantRestitution, ImpactError, NormalImpact, NormalMotion};
@@ -386,13 +399,13 @@ impl fmt::Display for Bound {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum ImpactError {
-    /// An input lies outside its range.
+    /// An input is outside its range.
     Input(InputError),
-    /// The rebound is faster than the kinetic restitution R allows: the adhesion coefficient would be negative.
+    /// The rebound is faster than the kinetic restitution R allows. The adhesion coefficient would be negative.
     ReboundExceedsRestitution,
-    /// The impulse ratio lies outside its bounds, 0 to mu_0: friction would drive the slip or reverse it.
+    /// The impulse ratio is outside its bounds, 0 to mu_0. Friction would increase or reverse the slip.
     ImpulseRatioOutsideBounds,
-    /// The kinetic energy after the impact exceeds that before it.
+    /// The kinetic energy is larger after the impact than before it.
     EnergyGained,
 }
 
@@ -407,10 +420,17 @@ impl fmt::Display for ImpactError {
         f.write_str(match self {
             Self::Input(error) => return error.fmt(f),
             Self::ReboundExceedsRestitution => {
-                "rebound speed exceeds R times the approach speed: the adhesion coefficient would lie outside 0 to 1"
+                "rebound speed exceeds R times the approach speed, but the adhesion coefficient must be 0 to 1; check both \
+                 speeds and the restitution law"
             }
-            Self::ImpulseRatioOutsideBounds => "impulse ratio lies outside its bounds, 0 to mu_0",
-            Self::EnergyGained => "kinetic energy after the impact exceeds that before it, ratio above 1",
+            Self::ImpulseRatioOutsideBounds => {
+                "impulse ratio is outside its bounds, 0 to mu_0; check the tangential velocities and the spin, or enter a \
+                 larger velocity error"
+            }
+            Self::EnergyGained => {
+                "kinetic energy after the impact exceeds that before it, but their ratio must be at most 1; check the \
+                 velocities and the spins"
+            }
         })
     }
 }

@@ -4,36 +4,29 @@
 #![forbid(unsafe_code)]
 #![warn(clippy::panic, clippy::unwrap_used, clippy::expect_used, clippy::indexing_slicing)]
 
-pub mod boundary;
-pub mod calibrate;
+mod bodies;
 mod classify;
 pub mod contact;
-mod dual;
 mod error;
-#[cfg(feature = "fixed")]
-mod fixed;
-mod hertz;
 #[cfg(feature = "instrument")]
 pub mod instrument;
+pub mod measure;
 mod motion;
-mod real;
+mod numbers;
 pub mod rigid;
+mod rolling;
 mod scene;
-mod sphere;
-mod surface;
-pub mod uncertainty;
+pub mod table;
 
-#[cfg(feature = "fixed")]
-pub use crate::fixed::{FixedPoint, InFixedPoint};
+pub use bodies::{Hertz, Material, Sphere, Stiffness};
 pub use classify::{Class, Classification, ContactClass, CriticalSpeed, Outcome, SurfaceMotion};
-pub use dual::Dual;
 pub use error::{Fault, ImpactError, InputError, Parameter};
-pub use hertz::Hertz;
 pub use motion::{Approach, NormalMotion, Oblique, ObliqueMotion, PlanarMotion};
-pub use real::Real;
+pub use numbers::{Dual, Real};
+#[cfg(feature = "fixed")]
+pub use numbers::{FixedPoint, InFixedPoint};
 pub use rigid::{
     ConstantRestitution, Impact, NormalImpact, RestitutionLaw, RigidBody, SpeedRestitution, TangentialImpact,
 };
+pub use rolling::Separation;
 pub use scene::{Coulomb, NoAdhesion, NoFriction};
-pub use sphere::Sphere;
-pub use surface::{Material, Stiffness};

@@ -1,11 +1,11 @@
-//! How the sphere moves before the impact: normal, tangential and spinning.
+//! The motion of the sphere before the impact: normal velocity, tangential velocity and spin.
 //!
-//! The normal points out of the surface; an approaching sphere has v_n < 0 and its *approach speed* is -v_n.
-//! Spin is carried as the *peripheral velocity* r w, so that all of a motion is in m/s.
+//! The normal points out of the surface. So an approaching sphere has v_n < 0, and its *approach speed* is -v_n. The spin w
+//! is stored as the *peripheral velocity* r w, so that all parts of a motion are in m/s.
 
 use crate::{InputError, Parameter, Real, Sphere};
 
-/// A motion towards the surface.
+/// A motion towards the surface: any type of motion before an impact.
 ///
 /// ```
 /// use microimpact::{Approach, NormalMotion};
@@ -19,11 +19,11 @@ use crate::{InputError, Parameter, Real, Sphere};
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 pub trait Approach<T> {
-    /// The part of the motion along the normal.
+    /// Normal part of the motion.
     fn normal(&self) -> NormalMotion<T>;
 }
 
-/// A motion that also has a component along the surface.
+/// A motion with a component along the surface.
 ///
 /// ```
 /// use microimpact::{NormalMotion, Oblique};
@@ -39,11 +39,11 @@ pub trait Oblique<T: Real>: Approach<T> {
     /// Peripheral velocity r w, m/s.
     fn peripheral(&self) -> T;
 
-    /// Velocity of the contact point v_ct = v_t - r w, m/s; zero when rolling.
+    /// Slip velocity v_ct = v_t - r w of the contact point, m/s. It is zero if the sphere rolls.
     fn slip(&self) -> T;
 }
 
-/// Straight towards the surface, without tangential velocity or spin.
+/// Motion along the normal, without tangential velocity and spin.
 ///
 /// ```
 /// use microimpact::NormalMotion;
@@ -60,10 +60,10 @@ pub struct NormalMotion<T> {
 }
 
 impl<T: Real> NormalMotion<T> {
-    /// A motion with an approach `speed` -v_n > 0, m/s.
+    /// Creates a motion with the approach `speed` -v_n, a positive number in m/s.
     ///
     /// # Errors
-    /// A speed outside its range; a speed of zero or less belongs to a particle that rests or recedes.
+    /// The speed is outside its range. A particle with a speed of zero or less rests or recedes.
     ///
     /// ```
     /// use microimpact::{NormalMotion, Parameter};
@@ -75,10 +75,10 @@ impl<T: Real> NormalMotion<T> {
         Ok(Self { speed: Parameter::ApproachSpeed.check(speed)? })
     }
 
-    /// A motion with a signed normal velocity v_n < 0, m/s.
+    /// Creates a motion from the normal velocity v_n, a negative number in m/s.
     ///
     /// # Errors
-    /// As [`NormalMotion::new`], for -v_n.
+    /// The approach speed -v_n is outside its range.
     ///
     /// ```
     /// use microimpact::NormalMotion;
@@ -91,10 +91,10 @@ impl<T: Real> NormalMotion<T> {
         Self::new(-normal_velocity)
     }
 
-    /// The same motion with a tangential velocity v_t (m/s), without spin.
+    /// Adds the tangential `velocity` v_t, m/s.
     ///
     /// # Errors
-    /// A velocity outside its range.
+    /// The velocity is outside its range.
     ///
     /// ```
     /// use microimpact::{NormalMotion, Oblique};
@@ -126,7 +126,7 @@ impl<T: Real> Approach<T> for NormalMotion<T> {
     }
 }
 
-/// At an angle to the surface, without spin.
+/// Motion with normal and tangential velocity, without spin.
 ///
 /// ```
 /// use microimpact::{NormalMotion, Oblique};
@@ -144,10 +144,10 @@ pub struct ObliqueMotion<T> {
 }
 
 impl<T: Real> ObliqueMotion<T> {
-    /// The same motion of a given `sphere` with a spin w, rad/s.
+    /// Adds the `spin` w (rad/s) of a given `sphere`.
     ///
     /// # Errors
-    /// A spin, or a peripheral velocity r w, outside its range.
+    /// The spin or the peripheral velocity r w is outside its range.
     ///
     /// ```
     /// use microimpact::{NormalMotion, Oblique, Sphere};
@@ -162,10 +162,10 @@ impl<T: Real> ObliqueMotion<T> {
         self.with_peripheral_velocity(sphere.radius() * Parameter::Spin.check(spin)?)
     }
 
-    /// The same motion with a spin given by the peripheral velocity r w, m/s.
+    /// Adds the spin, given by the peripheral `velocity` r w, m/s.
     ///
     /// # Errors
-    /// A velocity outside its range.
+    /// The velocity is outside its range.
     ///
     /// ```
     /// use microimpact::{NormalMotion, Oblique};
@@ -204,7 +204,7 @@ impl<T: Real> Oblique<T> for ObliqueMotion<T> {
     }
 }
 
-/// At an angle to the surface and spinning: the whole planar motion.
+/// Motion with normal velocity, tangential velocity and spin: the complete planar motion.
 ///
 /// ```
 /// use microimpact::{NormalMotion, Oblique};

@@ -1,8 +1,8 @@
-//! Which physics takes part in an impact, as types: an absent term has size zero and no code.
+//! Terms that both models share. The type of a scene tells which terms take part. An absent term has size zero and no code.
 
 use crate::{InputError, Parameter, Real};
 
-/// No adhesion: nothing holds the sphere back on rebound.
+/// No adhesion.
 ///
 /// ```
 /// assert_eq!(size_of::<microimpact::NoAdhesion>(), 0);
@@ -12,7 +12,7 @@ use crate::{InputError, Parameter, Real};
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NoAdhesion;
 
-/// No friction: the tangential motion and the spin stay as they are and are neither read nor computed.
+/// No friction: the models neither read nor compute tangential velocity and spin.
 ///
 /// ```
 /// assert_eq!(size_of::<microimpact::NoFriction>(), 0);
@@ -22,7 +22,7 @@ pub struct NoAdhesion;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NoFriction;
 
-/// Coulomb's friction between sphere and surface.
+/// Coulomb friction between sphere and surface.
 ///
 /// ```
 /// use microimpact::Coulomb;
@@ -39,10 +39,10 @@ pub struct Coulomb<T> {
 }
 
 impl<T: Real> Coulomb<T> {
-    /// Friction with coefficient f >= 0.
+    /// Creates friction with the `coefficient` f, zero or positive.
     ///
     /// # Errors
-    /// A coefficient outside its range.
+    /// The coefficient is outside its range.
     ///
     /// ```
     /// assert!(microimpact::Coulomb::new(f32::INFINITY).is_err());
@@ -52,7 +52,7 @@ impl<T: Real> Coulomb<T> {
         Ok(Self { coefficient: Parameter::Friction.check(coefficient)? })
     }
 
-    /// Coefficient f.
+    /// Friction coefficient f.
     ///
     /// ```
     /// assert_eq!(microimpact::Coulomb::new(0.25)?.coefficient(), 0.25);

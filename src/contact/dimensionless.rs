@@ -98,7 +98,7 @@ impl<T: Real> DimensionlessImpact<T> {
     /// A group outside its range.
     ///
     /// ```
-    /// use microimpact::{Fault, Parameter, simulation::DimensionlessImpact};
+    /// use microimpact::{Fault, Parameter, contact::DimensionlessImpact};
     ///
     /// let error = DimensionlessImpact::new(0.0, 3.0, 0.0).unwrap_err();
     /// assert_eq!((error.parameter, error.fault), (Parameter::DimensionlessDamping, Fault::TooLarge));

@@ -59,7 +59,7 @@ pub type HertzScene<T, S = NoFriction> = Contact<T, HertzLaw<T, HystereticDampin
 /// let scene: RingScene<f32> = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?)
 ///     .with_damping(10.5)?
 ///     .with_ring(250.0, 6.25)?;
-/// assert_eq!(size_of_val(&scene), 7 * size_of::<f32>());
+/// assert_eq!(size_of_val(&scene), 8 * size_of::<f32>());
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 pub type RingScene<T, S = NoFriction> = Contact<T, HertzLaw<T, HystereticDamping<T>, Ring<T>>, S>;

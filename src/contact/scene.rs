@@ -52,7 +52,7 @@ impl<T: Real, L> Contact<T, L> {
     /// use microimpact::{Sphere, Stiffness, contact::{Contact, HertzLaw}};
     ///
     /// let law = HertzLaw::new(Stiffness::new(1e10_f32)?);
-    /// let scene = Contact::new(Sphere::solid(1e-6, 1000.0)?, law);
+    /// let scene = Contact::new(Sphere::solid(1e-6_f32, 1000.0)?, law);
     /// assert_eq!(size_of_val(&scene), size_of::<Sphere<f32>>() + size_of::<f32>());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
@@ -222,7 +222,7 @@ impl<T: Real> AnyScene<T> {
     /// use microimpact::{Sphere, Stiffness};
     ///
     /// let (sphere, stiffness) = (Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
-    /// let with_peeling = |law| Contact::new(sphere, law).with_friction(0.1)?.with_peeling(1e-12);
+    /// let with_peeling = |law: AnyLaw<f64>| Contact::new(sphere, law).with_friction(0.1)?.with_peeling(1e-12);
     /// assert!(with_peeling(AnyLaw::ring(stiffness, 10.0, 1.0)?).is_ok());
     /// assert!(with_peeling(AnyLaw::hertz(stiffness)).is_err());
     /// # Ok::<(), microimpact::InputError>(())
@@ -231,7 +231,7 @@ impl<T: Real> AnyScene<T> {
         let Self { sphere, law, surface } = self;
         let surface = Peeling::new(surface, lambda)?;
         if lambda > T::ZERO && !matches!(law, AnyLaw::Ring(_)) {
-            return Err(InputError { parameter: Parameter::PeelingMoment, fault: Fault::TooLarge });
+            return Err(InputError { parameter: Parameter::PeelingMoment, fault: Fault::TooLarge, value: lambda.to_f64() });
         }
         Ok(Contact { sphere, law, surface })
     }

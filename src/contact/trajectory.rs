@@ -252,8 +252,8 @@ impl<T: Real, const N: usize> Observer<T> for Recorder<T, N> {
         T: Nodes<M>,
     {
         let (samples, thinning) = (self.samples.as_mut_view(), &mut self.thinning);
-        let (begin, duration) = (thinning.now, dot(&T::WHOLE, &interval.rate));
-        let running = integrals(&T::RUNNING, &interval.rate);
+        let (begin, duration) = (thinning.now, dot(&T::WEIGHTS, &interval.rate));
+        let running = integrals(&T::INTEGRATION, &interval.rate);
         let nodes = running.iter().zip(interval.s.iter().zip(&interval.y));
         // The last node is the end of the interval, or its beginning where it is written against time.
         if interval.forward {
@@ -284,7 +284,7 @@ impl<T: Real, const N: usize> Observer<T> for Recorder<T, N> {
     ) where
         T: Nodes<M>,
     {
-        let end = self.thinning.now + dot(&T::WHOLE, &whole.rate);
+        let end = self.thinning.now + dot(&T::WEIGHTS, &whole.rate);
         self.observe(law, before, rebound);
         self.thinning.roll = self.thinning.mark(&mut self.samples, -late);
         self.observe(law, &after(), rebound);

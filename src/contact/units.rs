@@ -14,7 +14,7 @@ use crate::Real;
 /// let (sphere, stiffness) = (Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
 /// let (_, units) = HertzLaw::new(stiffness).in_units(&sphere, 2.0)?;
 /// let hertz = Hertz::new(&sphere, stiffness, &NormalMotion::new(2.0)?);
-/// assert!((units.length / hertz.indentation - 1.0).abs() < 1e-14);
+/// assert!((units.length / hertz.indentation - 1.0_f64).abs() < 1e-14);
 /// assert!((units.energy - 0.5_f64).abs() < 1e-15);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```

@@ -1,9 +1,9 @@
-//! The classes that a classifier tells apart.
+//! Sets of classes.
 
-use crate::boundary::Verdict;
+use crate::table::TableOutcome;
 use crate::{Class, Outcome};
 
-/// A set of classes, counted from zero: [`Outcome`] without friction, [`Class`] with it, [`Verdict`] of a table.
+/// A set of classes with indices from zero: [`Outcome`] without friction, [`Class`] with friction, [`TableOutcome`] for a table.
 ///
 /// ```
 /// use microimpact::instrument::ClassSet;
@@ -15,10 +15,10 @@ use crate::{Class, Outcome};
 pub trait ClassSet: Copy + Eq + 'static {
     /// Number of classes.
     const COUNT: usize;
-    /// All classes, each at its index.
+    /// All classes, in the order of their indices.
     const ALL: &'static [Self];
 
-    /// Place of this class in the set, below [`COUNT`](Self::COUNT).
+    /// Index of this class, below [`COUNT`](Self::COUNT).
     fn index(self) -> usize;
 }
 
@@ -57,7 +57,7 @@ impl ClassSet for Class {
     }
 }
 
-impl ClassSet for Verdict {
+impl ClassSet for TableOutcome {
     const COUNT: usize = Self::ALL.len();
     const ALL: &'static [Self] = &[Self::Rebound, Self::Capture, Self::TooCloseToCall, Self::OutsideTable];
 

@@ -1,4 +1,4 @@
-//! What turns a motion into a class: the rigid body, the simulation, a [table](super::Tabulated), or what a user brings.
+//! Classifiers: a rigid-body model, a simulation, a [table](super::Tabulated) or a type of your own.
 
 use core::fmt;
 
@@ -9,7 +9,7 @@ use crate::{
     Approach, Class, Classification, ContactClass, InputError, Outcome, Real, RestitutionLaw, RigidBody,
 };
 
-/// Gives the class of a motion `M`, in numbers of type `T`.
+/// A classifier for motions `M` with numbers `T`.
 ///
 /// ```
 /// use microimpact::instrument::{Classifier, Verdict};
@@ -21,13 +21,13 @@ use crate::{
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 pub trait Classifier<T, M> {
-    /// What it tells apart.
+    /// The classes that the classifier distinguishes.
     type Class: ClassSet;
 
-    /// Class and restitution of an impact.
+    /// Classifies an impact.
     ///
     /// # Errors
-    /// An impact that cannot be classified, with the reason.
+    /// The reason why the impact cannot be classified.
     ///
     /// ```
     /// use microimpact::instrument::{Classifier, Rejection, Simulated};
@@ -42,7 +42,7 @@ pub trait Classifier<T, M> {
     fn verdict(&self, motion: &M) -> Result<Verdict<T, Self::Class>, Rejection>;
 }
 
-/// What a classifier says of an impact.
+/// Result of a classifier: class and restitution of an impact.
 ///
 /// ```
 /// use microimpact::instrument::{Classifier, Verdict};
@@ -57,9 +57,9 @@ pub trait Classifier<T, M> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Verdict<T, C> {
-    /// What became of the sphere.
+    /// Class of the impact.
     pub class: C,
-    /// Overall restitution e, zero for a capture; `None` from a classifier that knows the class alone.
+    /// Overall restitution e, zero for a capture. `None` if the classifier determines the class only.
     pub restitution: Option<T>,
 }
 
@@ -69,16 +69,19 @@ pub struct Verdict<T, C> {
 /// use microimpact::instrument::{NormalReading, Reading, Rejection};
 ///
 /// let rejection = Rejection::from(NormalReading { approach: -1.0 }.motion().unwrap_err());
-/// assert_eq!(rejection.to_string(), "approach speed is below its range, 1e-12 to 1e6 m/s");
+/// assert_eq!(
+///     rejection.to_string(),
+///     "approach speed is -1 m/s, but must be 1e-12 to 1e6 m/s; enter -1 m/s as 1"
+/// );
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Rejection {
-    /// A value that no particle can have, or a ratio of forces that cannot be represented.
+    /// A value or a ratio of forces is outside its range.
     Input(InputError),
-    /// The method did not come to a solution.
+    /// The method did not converge.
     Unsolved,
 }
 
@@ -92,7 +95,7 @@ impl fmt::Display for Rejection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Input(error) => error.fmt(f),
-            Self::Unsolved => f.write_str("the method did not come to a solution"),
+            Self::Unsolved => f.write_str("the method did not converge"),
         }
     }
 }
@@ -106,7 +109,7 @@ impl core::error::Error for Rejection {
     }
 }
 
-/// A [`Classification`] whose class is one word: an [`Outcome`] without friction, a [`Class`] with it.
+/// A [`Classification`] that has one class: an [`Outcome`] without friction, a [`Class`] with friction.
 ///
 /// ```
 /// use microimpact::instrument::Classified;
@@ -116,7 +119,7 @@ impl core::error::Error for Rejection {
 /// assert_eq!(Classified::class(&classification), Outcome::Capture);
 /// ```
 pub trait Classified {
-    /// What is told apart.
+    /// The classes that are distinguished.
     type Class: ClassSet;
 
     /// The class.
@@ -141,17 +144,17 @@ impl<T> Classified for Classification<T, ContactClass<T>> {
     }
 }
 
-impl<T, M, L, A, F, D, E, S> Classifier<T, M> for RigidBody<T, L, A, F, D, E>
+impl<T, M, L, A, S, X, C> Classifier<T, M> for RigidBody<T, L, A, S, X>
 where
     T: Real,
     M: Approach<T>,
     L: RestitutionLaw<T>,
     A: ReboundAdhesion<T>,
-    F: TangentialTerm<T, M, D, Impact: TangentialOutcome<T, Class = S>>,
-    E: MicroforceTerm<T>,
-    Classification<T, S>: Classified,
+    S: TangentialTerm<T, M, Impact: TangentialOutcome<T, Class = C>>,
+    X: MicroforceTerm<T>,
+    Classification<T, C>: Classified,
 {
-    type Class = <Classification<T, S> as Classified>::Class;
+    type Class = <Classification<T, C> as Classified>::Class;
 
     #[inline]
     fn verdict(&self, motion: &M) -> Result<Verdict<T, Self::Class>, Rejection> {
@@ -161,8 +164,9 @@ where
     }
 }
 
-/// A simulated scene and the method that solves it: any method without friction, one that
-/// follows the tangential motion with it.
+/// A simulated scene and the method that solves it.
+///
+/// Without friction, any method is possible. With friction, the method must compute the motion along the surface too.
 ///
 /// ```
 /// use microimpact::instrument::{Classifier, Simulated};

@@ -1,4 +1,4 @@
-//! Lines that tell other electronics the class: one for each, high for the latest impact.
+//! Class lines: digital outputs that show the class of the latest impact.
 
 use core::convert::Infallible;
 
@@ -6,7 +6,7 @@ use embedded_hal::digital::OutputPin;
 
 use super::ClassSet;
 
-/// Shows the class of the latest impact to the outside.
+/// An output that shows the class of the latest impact.
 ///
 /// ```
 /// use core::convert::Infallible;
@@ -26,13 +26,13 @@ use super::ClassSet;
 /// assert_eq!(counter.0, 1);
 /// ```
 pub trait Signal<C> {
-    /// Why a class cannot be shown.
+    /// Error of the output.
     type Error;
 
-    /// Shows a class, or that the latest reading has none.
+    /// Shows a class; `None` if the latest reading has no class.
     ///
     /// # Errors
-    /// An output that does not switch.
+    /// An output does not switch.
     ///
     /// ```
     /// use microimpact::Outcome;
@@ -43,7 +43,7 @@ pub trait Signal<C> {
     fn show(&mut self, class: Option<C>) -> Result<(), Self::Error>;
 }
 
-/// No lines.
+/// No class lines.
 ///
 /// ```
 /// assert_eq!(size_of::<microimpact::instrument::NoLines>(), 0);
@@ -61,7 +61,7 @@ impl<C> Signal<C> for NoLines {
     }
 }
 
-/// A line for each class, in the order of [`ClassSet::ALL`]; never two are high at a time.
+/// One line for each class, in the order of [`ClassSet::ALL`]. Two lines are never high at the same time.
 ///
 /// ```
 /// use embedded_hal::digital::{ErrorType, OutputPin};
@@ -93,7 +93,7 @@ pub struct ClassLines<P, const CLASSES: usize> {
 }
 
 impl<P, const CLASSES: usize> ClassLines<P, CLASSES> {
-    /// Lines on these pins, which may be `&mut dyn OutputPin` where their types differ.
+    /// Creates lines from pins. Pins of different types can be passed as `&mut dyn OutputPin`.
     ///
     /// ```
     /// assert_eq!(microimpact::instrument::ClassLines::new([0, 1]).release(), [0, 1]);
@@ -102,7 +102,7 @@ impl<P, const CLASSES: usize> ClassLines<P, CLASSES> {
         Self { pins }
     }
 
-    /// The pins.
+    /// Returns the pins.
     ///
     /// ```
     /// assert_eq!(microimpact::instrument::ClassLines::new(["a", "b"]).release(), ["a", "b"]);
@@ -115,9 +115,10 @@ impl<P, const CLASSES: usize> ClassLines<P, CLASSES> {
 impl<C: ClassSet, P: OutputPin, const CLASSES: usize> Signal<C> for ClassLines<P, CLASSES> {
     type Error = P::Error;
 
-    /// Switches off first, so that no two lines are high at any time; one that fails keeps none of the others from switching.
+    /// Switches lines off before it switches one on, so that two lines are never high. If a line fails, the others still
+    /// switch off.
     fn show(&mut self, class: Option<C>) -> Result<(), P::Error> {
-        const { assert!(CLASSES == C::COUNT, "there is a line for each class") };
+        const { assert!(CLASSES == C::COUNT, "there must be one line for each class") };
         let high = class.map(C::index);
         let mut result = Ok(());
         for (index, pin) in self.pins.iter_mut().enumerate() {
@@ -125,7 +126,7 @@ impl<C: ClassSet, P: OutputPin, const CLASSES: usize> Signal<C> for ClassLines<P
                 result = result.and(pin.set_low());
             }
         }
-        // With another line stuck high, this one would show a second class.
+        // If another line stays high, switching on this one would show two classes.
         result?;
         match high.and_then(|index| self.pins.get_mut(index)) {
             Some(pin) => pin.set_high(),

@@ -1,4 +1,4 @@
-//! From an interrupt to a class: what an instrument does with the impacts that its detector sees.
+//! Classification in an instrument: from the interrupt of a detector to a class and its statistics.
 //!
 //! ```text
 //!  interrupt        main loop
@@ -7,9 +7,10 @@
 //!              lost      refused     unsolved             └──> failed
 //! ```
 //!
-//! What goes wrong on the way is counted by name: a reading that finds the queue full, one that no particle can have, one
-//! that the classifier cannot solve, and a line that does not switch. The type of the classifier says whether a rigid body, a
-//! simulation or a table classifies. Needs the feature `instrument`.
+//! The instrument counts each kind of failure: a reading that finds the queue full (lost), a reading with an invalid value
+//! (refused), a motion for which the classifier does not converge (unsolved), and a class line that does not switch (failed).
+//! The type of the classifier decides whether a rigid-body model, a simulation or a table classifies the impacts. This module
+//! needs the feature `instrument`.
 
 mod classes;
 mod classifier;

@@ -1,9 +1,9 @@
-//! The main loop's part: a reading becomes a class, is counted and is shown.
+//! The instrument: it classifies readings, counts the classes and drives the class lines.
 
 use super::{ClassSet, Classifier, Reading, Rejection, Signal, SpeedBins, Tally, Verdict};
 use crate::{Approach, Real};
 
-/// A classifier `C`, class lines `S` and a tally.
+/// An instrument: a classifier `C`, class lines `S` and a tally.
 ///
 /// ```
 /// use microimpact::instrument::{Instrument, NoLines, PlanarReading, Queue, SpeedBins};
@@ -36,7 +36,7 @@ pub struct Instrument<C, S, T, const CLASSES: usize, const BINS: usize> {
 }
 
 impl<C, S, T: Real, const CLASSES: usize, const BINS: usize> Instrument<C, S, T, CLASSES, BINS> {
-    /// An instrument that has seen nothing yet.
+    /// Creates an instrument with an empty tally.
     ///
     /// ```
     /// use microimpact::instrument::{Instrument, NoLines, SpeedBins};
@@ -51,10 +51,11 @@ impl<C, S, T: Real, const CLASSES: usize, const BINS: usize> Instrument<C, S, T,
         Self { classifier, signal, tally: Tally::new(bins) }
     }
 
-    /// Classifies a reading, counts it and shows its class; lines that fail are counted and change no class.
+    /// Classifies a reading, counts its class and switches the class lines. A failure of the lines is counted; the class is
+    /// returned all the same.
     ///
     /// # Errors
-    /// A reading without a class, which is counted too, and leaves no line high.
+    /// The reading has no class. It is counted, and all lines go low.
     ///
     /// ```
     /// use microimpact::instrument::{Instrument, NoLines, NormalReading, SpeedBins, Verdict};
@@ -73,7 +74,7 @@ impl<C, S, T: Real, const CLASSES: usize, const BINS: usize> Instrument<C, S, T,
         C: Classifier<T, R::Motion>,
         S: Signal<C::Class>,
     {
-        const { assert!(CLASSES == C::Class::COUNT, "the instrument counts as many classes as its classifier has") };
+        const { assert!(CLASSES == C::Class::COUNT, "the instrument must have as many classes as its classifier") };
         let verdict = self.verdict(reading);
         match &verdict {
             Ok((speed, verdict)) => self.tally.record(*speed, verdict),
@@ -86,7 +87,7 @@ impl<C, S, T: Real, const CLASSES: usize, const BINS: usize> Instrument<C, S, T,
         verdict
     }
 
-    /// Approach speed and verdict.
+    /// Approach speed and verdict of a reading.
     #[inline]
     fn verdict<R>(&self, reading: &R) -> Result<(T, Verdict<T, C::Class>), Rejection>
     where
@@ -97,7 +98,7 @@ impl<C, S, T: Real, const CLASSES: usize, const BINS: usize> Instrument<C, S, T,
         Ok((motion.normal().speed(), self.classifier.verdict(&motion)?))
     }
 
-    /// What it has seen so far.
+    /// Statistics of all readings so far.
     ///
     /// ```
     /// use microimpact::instrument::{Instrument, NoLines, SpeedBins};

@@ -1,13 +1,13 @@
-//! The way from an interrupt to the main loop, which counts what finds no room.
+//! Event queue from an interrupt to the main loop. It counts lost events.
 
 use core::fmt;
 use core::sync::atomic::{AtomicU32, Ordering};
 
 use heapless::spsc;
 
-/// A queue with one sender and one receiver, for `N - 1` events at a time.
+/// A queue with one sender and one receiver, with room for `N - 1` events.
 ///
-/// Neither side waits for the other, and no critical section is needed.
+/// It is lock-free: neither side waits for the other, and no critical section is needed.
 ///
 /// ```
 /// use microimpact::instrument::Queue;
@@ -25,7 +25,7 @@ pub struct Queue<E, const N: usize> {
 }
 
 impl<E, const N: usize> Queue<E, N> {
-    /// An empty queue.
+    /// Creates an empty queue.
     ///
     /// ```
     /// use microimpact::instrument::Queue;
@@ -34,11 +34,11 @@ impl<E, const N: usize> Queue<E, N> {
     /// assert!(EMPTY.is_empty());
     /// ```
     pub const fn new() -> Self {
-        const { assert!(N > 1, "a queue has room for one event at least") };
+        const { assert!(N > 1, "a queue must have room for at least one event") };
         Self { events: spsc::Queue::new(), lost: AtomicU32::new(0) }
     }
 
-    /// Whether no event waits.
+    /// Whether the queue is empty.
     ///
     /// ```
     /// assert!(microimpact::instrument::Queue::<u8, 2>::new().is_empty());
@@ -47,7 +47,7 @@ impl<E, const N: usize> Queue<E, N> {
         self.events.is_empty()
     }
 
-    /// One end for the interrupt and one for the main loop.
+    /// Splits the queue into the end for the interrupt and the end for the main loop.
     ///
     /// ```
     /// let mut queue = microimpact::instrument::Queue::<u8, 2>::new();
@@ -68,7 +68,7 @@ impl<E, const N: usize> Default for Queue<E, N> {
     }
 }
 
-/// The end of a [`Queue`] that belongs to the interrupt.
+/// The end of a [`Queue`] for the interrupt.
 ///
 /// ```
 /// use microimpact::instrument::{Queue, Sender};
@@ -84,10 +84,10 @@ pub struct Sender<'a, E> {
 }
 
 impl<E> Sender<'_, E> {
-    /// Puts an event in the queue, or counts it as lost.
+    /// Puts an event into the queue. If the queue is full, the event counts as lost.
     ///
     /// # Errors
-    /// The event itself, if the queue is full.
+    /// The event, if the queue is full.
     ///
     /// ```
     /// let mut queue = microimpact::instrument::Queue::<u8, 2>::new();
@@ -98,13 +98,13 @@ impl<E> Sender<'_, E> {
     #[inline]
     pub fn send(&mut self, event: E) -> Result<(), E> {
         self.producer.enqueue(event).inspect_err(|_| {
-            // This end alone writes the count, so that a load and a store suffice where there is no atomic addition.
+            // Only the sender writes this count. So a load and a store suffice on processors without atomic addition.
             self.lost.store(self.lost.load(Ordering::Relaxed).saturating_add(1), Ordering::Relaxed);
         })
     }
 }
 
-/// The end of a [`Queue`] that belongs to the main loop.
+/// The end of a [`Queue`] for the main loop.
 ///
 /// ```
 /// use microimpact::instrument::{Queue, Receiver};
@@ -120,7 +120,7 @@ pub struct Receiver<'a, E> {
 }
 
 impl<E> Receiver<'_, E> {
-    /// Takes the oldest event, if there is one.
+    /// Takes the oldest event from the queue; `None` if the queue is empty.
     ///
     /// ```
     /// let mut queue = microimpact::instrument::Queue::<u8, 2>::new();
@@ -131,7 +131,7 @@ impl<E> Receiver<'_, E> {
         self.consumer.dequeue()
     }
 
-    /// Whether no event waits.
+    /// Whether the queue is empty.
     ///
     /// ```
     /// let mut queue = microimpact::instrument::Queue::<u8, 2>::new();
@@ -142,7 +142,7 @@ impl<E> Receiver<'_, E> {
         !self.consumer.ready()
     }
 
-    /// Events that found the queue full, since it was made; held at the largest number of its type.
+    /// Number of lost events since the queue was created. The count saturates.
     ///
     /// ```
     /// let mut queue = microimpact::instrument::Queue::<u8, 2>::new();

@@ -1,10 +1,10 @@
-//! What a detector measures of a particle: plain numbers, not yet checked.
+//! Readings of a detector: plain numbers that are not checked yet.
 
 use crate::{InputError, NormalMotion, ObliqueMotion, PlanarMotion, Real};
 
-/// Numbers that may be the motion of a particle before its impact.
+/// A reading of a detector: unchecked numbers that describe the motion of a particle before its impact.
 ///
-/// An interrupt only copies them; the main loop checks them.
+/// The interrupt only copies a reading. The main loop checks it.
 ///
 /// ```
 /// use microimpact::instrument::{NormalReading, Reading};
@@ -13,13 +13,13 @@ use crate::{InputError, NormalMotion, ObliqueMotion, PlanarMotion, Real};
 /// assert!(NormalReading { approach: f32::NAN }.motion().is_err());
 /// ```
 pub trait Reading {
-    /// The valid motion.
+    /// The motion that a valid reading describes.
     type Motion;
 
-    /// The motion, if a particle can have it.
+    /// Checks the reading and returns the motion.
     ///
     /// # Errors
-    /// A value outside its range.
+    /// A value is outside its range.
     ///
     /// ```
     /// use microimpact::instrument::{ObliqueReading, Reading};
@@ -31,7 +31,7 @@ pub trait Reading {
     fn motion(&self) -> Result<Self::Motion, InputError>;
 }
 
-/// The reading of a detector that sees the approach alone.
+/// Reading of a detector that measures the approach speed only.
 ///
 /// ```
 /// use microimpact::instrument::{NormalReading, Reading};
@@ -47,7 +47,7 @@ pub struct NormalReading<T> {
     pub approach: T,
 }
 
-/// The reading of a detector that sees the velocity in a plane.
+/// Reading of a detector that measures the velocity in a plane.
 ///
 /// ```
 /// use microimpact::Oblique;
@@ -66,7 +66,7 @@ pub struct ObliqueReading<T> {
     pub tangential: T,
 }
 
-/// The reading of a detector that sees the velocity in a plane and the spin.
+/// Reading of a detector that measures the velocity in a plane and the spin.
 ///
 /// ```
 /// use microimpact::Oblique;

@@ -1,12 +1,12 @@
-//! Mean and variance of a stream of numbers, by Welford's recurrence.
+//! Mean and variance of a stream of numbers by Welford's recurrence.
 
 use crate::Real;
 
-/// Count, mean and variance of numbers that come one by one.
+/// Count, mean and variance of numbers that arrive one by one.
 ///
-/// With delta = x - mean the recurrence is mean += delta/n and M2 += delta (x - mean), the latter with the new mean
-/// (B. P. Welford, Technometrics 4:419-420, 1962). Both sums carry what their rounding drops: in plain f32 they would
-/// stand still after some ten million numbers.
+/// The recurrence is delta = x - mean, mean += delta/n and M2 += delta (x - mean), where the last step uses the new mean
+/// (B. P. Welford, Technometrics 4:419-420, 1962). Both sums are compensated: each has a second number for its rounding error.
+/// Plain sums in f32 would stop changing after some ten million numbers.
 ///
 /// ```
 /// use microimpact::instrument::Statistics;
@@ -29,7 +29,7 @@ pub struct Statistics<T> {
 }
 
 impl<T: Real> Statistics<T> {
-    /// Statistics of no numbers.
+    /// Creates empty statistics.
     ///
     /// ```
     /// assert_eq!(microimpact::instrument::Statistics::<f64>::new().count(), 0);
@@ -38,7 +38,7 @@ impl<T: Real> Statistics<T> {
         Self { count: 0, mean: Sum::ZERO, squares: Sum::ZERO }
     }
 
-    /// Takes in a number, which must be finite.
+    /// Adds a number. It must be finite.
     ///
     /// ```
     /// let mut statistics = microimpact::instrument::Statistics::new();
@@ -52,7 +52,7 @@ impl<T: Real> Statistics<T> {
         self.squares.add(delta * self.mean.difference(x));
     }
 
-    /// Takes in all that `other` has seen (Chan, Golub and LeVeque, COMPSTAT 1982, 30-41).
+    /// Adds all numbers of `other` (Chan, Golub and LeVeque, COMPSTAT 1982, 30-41).
     ///
     /// ```
     /// use microimpact::instrument::Statistics;
@@ -76,7 +76,7 @@ impl<T: Real> Statistics<T> {
         self.squares.add(delta * delta * T::constant(own / (own + others) * others));
     }
 
-    /// How many numbers there were.
+    /// Number of numbers added.
     ///
     /// ```
     /// let mut statistics = microimpact::instrument::Statistics::new();
@@ -88,7 +88,7 @@ impl<T: Real> Statistics<T> {
         self.count
     }
 
-    /// Mean; zero of no numbers.
+    /// Mean; zero without numbers.
     ///
     /// ```
     /// assert_eq!(microimpact::instrument::Statistics::<f32>::new().mean(), 0.0);
@@ -98,7 +98,7 @@ impl<T: Real> Statistics<T> {
         self.mean.large
     }
 
-    /// Unbiased variance M2/(n - 1); `None` of less than two numbers.
+    /// Unbiased variance M2/(n - 1); `None` for fewer than two numbers.
     ///
     /// ```
     /// let mut statistics = microimpact::instrument::Statistics::<f64>::new();
@@ -119,7 +119,7 @@ impl<T: Real> Default for Statistics<T> {
     }
 }
 
-/// A sum in two numbers: the sum itself, and what it lacks because it is rounded.
+/// A compensated sum: the sum and its rounding error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -131,13 +131,13 @@ struct Sum<T> {
 impl<T: Real> Sum<T> {
     const ZERO: Self = Self { large: T::ZERO, small: T::ZERO };
 
-    /// `x` less this sum.
+    /// `x` minus this sum.
     #[inline]
     fn difference(&self, x: T) -> T {
         (x - self.large) - self.small
     }
 
-    /// Adds `x`, exactly but for the rounding of the smaller part (D. E. Knuth, The Art of Computer Programming 2, 4.2.2).
+    /// Adds `x`. Only the smaller part is rounded (D. E. Knuth, The Art of Computer Programming 2, 4.2.2).
     #[inline]
     fn add(&mut self, x: T) {
         let x = x + self.small;

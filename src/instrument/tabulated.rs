@@ -1,27 +1,28 @@
-//! Tables as classifiers: the class without a simulation.
+//! Tables as classifiers.
 
 use super::{ClassSet, Classifier, Rejection, Verdict};
-use crate::boundary::{self, BoundarySlice, BoundaryTable, Reading, RestitutionTable, Single};
+use crate::table::{BoundarySlice, BoundaryTable, Lookup, RestitutionTable, Single, TableOutcome};
 use crate::{Approach, Coulomb, NoFriction, Oblique, Sphere, SurfaceMotion};
 
-/// A table and the spheres that are classified by it: `B` is a [`BoundaryTable`], a [`BoundarySlice`] or a
-/// [`RestitutionTable`], the latter with friction or without.
+/// A classifier that looks up the impacts of a sphere in a table.
 ///
-/// What a table does not tell is a class of its own: too close to call, and outside the table.
+/// `B` is the type of the table: [`BoundaryTable`], [`BoundarySlice`] or [`RestitutionTable`]. Only the last one can be
+/// combined with friction. If the table does not determine the outcome, the class says so: too close to call, or outside the
+/// table.
 ///
 /// ```
-/// use microimpact::boundary::{self, BoundaryTable};
+/// use microimpact::table::{BoundaryTable, TableOutcome};
 /// use microimpact::instrument::{Instrument, NoLines, NormalReading, SpeedBins, Tabulated};
 /// use microimpact::{CriticalSpeed, NoFriction, Sphere};
 ///
-/// // A critical speed that falls with the radius, 1 m/s at 1 um.
+/// // A critical speed proportional to 1/r, 1 m/s at 1 um.
 /// let table = BoundaryTable::<4>::new(1e-6_f32, |radius| Ok(CriticalSpeed::At(1e-6 / radius)))?;
 /// let classifier = Tabulated { table, sphere: Sphere::solid(1.25e-6, 2600.0)?, friction: NoFriction };
 /// let mut instrument: Instrument<_, _, _, 4, 1> = Instrument::new(classifier, NoLines, SpeedBins::new([10.0])?);
 /// let mut class = |approach| instrument.process(&NormalReading { approach }).map(|verdict| verdict.class);
-/// assert_eq!(class(0.9), Ok(boundary::Verdict::Rebound));
-/// assert_eq!(class(0.7), Ok(boundary::Verdict::Capture));
-/// assert_eq!(class(0.8), Ok(boundary::Verdict::TooCloseToCall));
+/// assert_eq!(class(0.9), Ok(TableOutcome::Rebound));
+/// assert_eq!(class(0.7), Ok(TableOutcome::Capture));
+/// assert_eq!(class(0.8), Ok(TableOutcome::TooCloseToCall));
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,13 +31,13 @@ use crate::{Approach, Coulomb, NoFriction, Oblique, Sphere, SurfaceMotion};
 pub struct Tabulated<B, T, F = NoFriction> {
     /// The table.
     pub table: B,
-    /// The spheres.
+    /// The sphere.
     pub sphere: Sphere<T>,
-    /// Their friction.
+    /// The friction between sphere and surface.
     pub friction: F,
 }
 
-/// What a restitution table with friction tells apart. How a captured sphere moves on is not in it.
+/// Classes of a restitution table with friction. The table does not determine how a captured sphere moves.
 ///
 /// ```
 /// use microimpact::instrument::{ClassSet, TabulatedClass};
@@ -47,15 +48,15 @@ pub struct Tabulated<B, T, F = NoFriction> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum TabulatedClass {
-    /// Leaves the surface while its contact point slips.
+    /// The sphere leaves the surface while its contact point slips.
     ReboundSliding,
-    /// Leaves the surface rolling.
+    /// The sphere leaves the surface rolling.
     ReboundRolling,
     /// The surface holds the sphere.
     Capture,
-    /// The speed is closer to the critical one than the error of the table.
+    /// The speed is within the error margin of the critical speed.
     TooCloseToCall,
-    /// The table does not reach there.
+    /// The table does not cover this radius or this speed.
     OutsideTable,
 }
 
@@ -77,19 +78,19 @@ impl ClassSet for TabulatedClass {
 }
 
 impl<T: Single, M: Approach<T>> Classifier<T, M> for Tabulated<BoundarySlice<'_>, T> {
-    type Class = boundary::Verdict;
+    type Class = TableOutcome;
 
     #[inline]
-    fn verdict(&self, motion: &M) -> Result<Verdict<T, boundary::Verdict>, Rejection> {
+    fn verdict(&self, motion: &M) -> Result<Verdict<T, TableOutcome>, Rejection> {
         Ok(Verdict { class: self.table.classify(self.sphere.radius(), motion), restitution: None })
     }
 }
 
 impl<T: Single, M: Approach<T>, const N: usize> Classifier<T, M> for Tabulated<BoundaryTable<N>, T> {
-    type Class = boundary::Verdict;
+    type Class = TableOutcome;
 
     #[inline]
-    fn verdict(&self, motion: &M) -> Result<Verdict<T, boundary::Verdict>, Rejection> {
+    fn verdict(&self, motion: &M) -> Result<Verdict<T, TableOutcome>, Rejection> {
         Ok(Verdict { class: self.table.classify(self.sphere.radius(), motion), restitution: None })
     }
 }
@@ -100,15 +101,15 @@ where
     T: Single,
     M: Approach<T>,
 {
-    type Class = boundary::Verdict;
+    type Class = TableOutcome;
 
     #[inline]
-    fn verdict(&self, motion: &M) -> Result<Verdict<T, boundary::Verdict>, Rejection> {
-        let (class, restitution) = match self.table.read(self.sphere.radius(), motion) {
-            Reading::Rebound { rebound, .. } => (boundary::Verdict::Rebound, Some(rebound.restitution)),
-            Reading::Capture => (boundary::Verdict::Capture, Some(T::ZERO)),
-            Reading::TooCloseToCall => (boundary::Verdict::TooCloseToCall, None),
-            Reading::OutsideTable => (boundary::Verdict::OutsideTable, None),
+    fn verdict(&self, motion: &M) -> Result<Verdict<T, TableOutcome>, Rejection> {
+        let (class, restitution) = match self.table.look_up(self.sphere.radius(), motion) {
+            Lookup::Rebound { rebound, .. } => (TableOutcome::Rebound, Some(rebound.restitution)),
+            Lookup::Capture => (TableOutcome::Capture, Some(T::ZERO)),
+            Lookup::TooCloseToCall => (TableOutcome::TooCloseToCall, None),
+            Lookup::OutsideTable => (TableOutcome::OutsideTable, None),
         };
         Ok(Verdict { class, restitution })
     }
@@ -124,8 +125,8 @@ where
 
     #[inline]
     fn verdict(&self, motion: &M) -> Result<Verdict<T, TabulatedClass>, Rejection> {
-        let (class, restitution) = match self.table.read(self.sphere.radius(), motion) {
-            Reading::Rebound { rebound, .. } => {
+        let (class, restitution) = match self.table.look_up(self.sphere.radius(), motion) {
+            Lookup::Rebound { rebound, .. } => {
                 let after = rebound.separation(&self.friction, self.sphere.gyration_ratio(), motion);
                 let class = match after.motion {
                     SurfaceMotion::Sliding => TabulatedClass::ReboundSliding,
@@ -133,9 +134,9 @@ where
                 };
                 (class, Some(rebound.restitution))
             }
-            Reading::Capture => (TabulatedClass::Capture, Some(T::ZERO)),
-            Reading::TooCloseToCall => (TabulatedClass::TooCloseToCall, None),
-            Reading::OutsideTable => (TabulatedClass::OutsideTable, None),
+            Lookup::Capture => (TabulatedClass::Capture, Some(T::ZERO)),
+            Lookup::TooCloseToCall => (TabulatedClass::TooCloseToCall, None),
+            Lookup::OutsideTable => (TabulatedClass::OutsideTable, None),
         };
         Ok(Verdict { class, restitution })
     }

@@ -1,9 +1,9 @@
-//! What an instrument has seen so far: classes, restitution by speed, and what had no class.
+//! Statistics of an instrument: counts of the classes, restitution by speed, and rejected readings.
 
 use super::{ClassSet, Rejection, Statistics, Verdict};
 use crate::{Fault, InputError, Parameter, Real};
 
-/// Bins of approach speed, each from the edge before it up to its own; the first begins at zero.
+/// Bins of approach speed. Each bin ends below its edge and begins at the edge before it; the first begins at zero.
 ///
 /// ```
 /// use microimpact::instrument::SpeedBins;
@@ -28,10 +28,10 @@ pub struct SpeedBins<T, const BINS: usize> {
 }
 
 impl<T: Real, const BINS: usize> SpeedBins<T, BINS> {
-    /// Bins with these upper `edges`, m/s.
+    /// Creates bins from their upper `edges`, m/s.
     ///
     /// # Errors
-    /// An edge outside the range of approach speeds, or not above the one before it.
+    /// An edge is outside the range of approach speeds, or not above the edge before it.
     ///
     /// ```
     /// use microimpact::instrument::SpeedBins;
@@ -43,14 +43,15 @@ impl<T: Real, const BINS: usize> SpeedBins<T, BINS> {
         let mut before = T::ZERO;
         for edge in edges {
             if Parameter::ApproachSpeed.check(edge)? <= before {
-                return Err(InputError { parameter: Parameter::ApproachSpeed, fault: Fault::TooSmall });
+                let value = edge.to_f64();
+                return Err(InputError { parameter: Parameter::ApproachSpeed, fault: Fault::TooSmall, value });
             }
             before = edge;
         }
         Ok(Self { edges })
     }
 
-    /// Upper edges, m/s.
+    /// Upper edges of the bins, m/s.
     ///
     /// ```
     /// assert_eq!(microimpact::instrument::SpeedBins::new([1.0, 2.0])?.edges(), &[1.0, 2.0]);
@@ -61,7 +62,7 @@ impl<T: Real, const BINS: usize> SpeedBins<T, BINS> {
         &self.edges
     }
 
-    /// The bin of a speed; `None` beyond the last edge.
+    /// Index of the bin that contains a `speed` (m/s); `None` from the last edge on.
     ///
     /// ```
     /// assert_eq!(microimpact::instrument::SpeedBins::new([1.0, 2.0])?.bin(1.5), Some(1));
@@ -73,7 +74,7 @@ impl<T: Real, const BINS: usize> SpeedBins<T, BINS> {
     }
 }
 
-/// What may be [`SpeedBins`], from outside.
+/// Deserialized [`SpeedBins`] that are not checked yet.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
 #[serde(bound(deserialize = "T: serde::Deserialize<'de>"))]
@@ -91,7 +92,7 @@ impl<T: Real, const BINS: usize> TryFrom<Edges<T, BINS>> for SpeedBins<T, BINS> 
     }
 }
 
-/// Readings without a class, by reason.
+/// Counts of the readings without a class, by reason.
 ///
 /// ```
 /// use microimpact::instrument::Rejections;
@@ -102,14 +103,14 @@ impl<T: Real, const BINS: usize> TryFrom<Edges<T, BINS>> for SpeedBins<T, BINS> 
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Rejections {
-    /// Readings with a value that no particle can have, or that leads to forces beyond all range.
+    /// Readings with a value, or with a ratio of forces, outside its range.
     pub input: u64,
-    /// Motions that the method did not solve.
+    /// Motions for which the method did not converge.
     pub unsolved: u64,
 }
 
 impl Rejections {
-    /// All of them.
+    /// Number of all readings without a class.
     ///
     /// ```
     /// assert_eq!(microimpact::instrument::Rejections::default().total(), 0);
@@ -121,7 +122,7 @@ impl Rejections {
 
 /// Counts of `CLASSES` classes, and statistics of the restitution in `BINS` bins of speed.
 ///
-/// Captures count in their class and not in the restitution, which they would pull towards zero.
+/// A capture counts in its class. It does not count in the statistics of the restitution.
 ///
 /// ```
 /// use microimpact::Outcome;
@@ -153,7 +154,7 @@ pub struct Tally<T, const CLASSES: usize, const BINS: usize> {
 }
 
 impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
-    /// A tally of nothing.
+    /// Creates an empty tally.
     ///
     /// ```
     /// use microimpact::instrument::{SpeedBins, Tally};
@@ -173,7 +174,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
         }
     }
 
-    /// Takes in the verdict on an impact at an approach `speed`, m/s.
+    /// Counts the verdict on an impact with an approach `speed`, m/s.
     ///
     /// ```
     /// use microimpact::Outcome;
@@ -185,7 +186,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn record<C: ClassSet>(&mut self, speed: T, verdict: &Verdict<T, C>) {
-        const { assert!(CLASSES == C::COUNT, "the tally counts as many classes as there are") };
+        const { assert!(CLASSES == C::COUNT, "the tally must have as many classes as the classifier") };
         if let Some(count) = self.classes.get_mut(verdict.class.index()) {
             *count = count.saturating_add(1);
         }
@@ -195,7 +196,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
         }
     }
 
-    /// Takes in a reading without a class.
+    /// Counts a reading without a class.
     ///
     /// ```
     /// use microimpact::instrument::{Rejection, SpeedBins, Tally};
@@ -213,7 +214,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
         *count = count.saturating_add(1);
     }
 
-    /// Takes in a class line that did not switch.
+    /// Counts a class line that did not switch.
     ///
     /// ```
     /// use microimpact::instrument::{SpeedBins, Tally};
@@ -227,7 +228,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
         self.signal_failures = self.signal_failures.saturating_add(1);
     }
 
-    /// Impacts of a class.
+    /// Number of impacts of a class.
     ///
     /// ```
     /// use microimpact::Outcome;
@@ -237,11 +238,11 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn count<C: ClassSet>(&self, class: C) -> u64 {
-        const { assert!(CLASSES == C::COUNT, "the tally counts as many classes as there are") };
+        const { assert!(CLASSES == C::COUNT, "the tally must have as many classes as the classifier") };
         self.classes.get(class.index()).copied().unwrap_or(0)
     }
 
-    /// Impacts of all classes.
+    /// Number of impacts of all classes.
     ///
     /// ```
     /// use microimpact::instrument::{SpeedBins, Tally};
@@ -266,7 +267,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
         &self.bins
     }
 
-    /// Overall restitution of the rebounds in each bin of speed.
+    /// Statistics of the overall restitution of the rebounds in each bin.
     ///
     /// ```
     /// use microimpact::instrument::{SpeedBins, Tally};
@@ -279,7 +280,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
         &self.restitution
     }
 
-    /// Overall restitution of the rebounds faster than the last bin.
+    /// Statistics of the overall restitution of the rebounds beyond the last bin.
     ///
     /// ```
     /// use microimpact::Outcome;
@@ -295,7 +296,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
         &self.beyond
     }
 
-    /// Readings without a class.
+    /// Counts of the readings without a class.
     ///
     /// ```
     /// use microimpact::instrument::{SpeedBins, Tally};
@@ -308,7 +309,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
         self.rejections
     }
 
-    /// How often the class lines did not switch.
+    /// Number of times that the class lines did not switch.
     ///
     /// ```
     /// use microimpact::instrument::{SpeedBins, Tally};

@@ -1,8 +1,10 @@
-//! What adhesion leaves of the rebound.
+//! Adhesion in the rigid-body model.
 
 use crate::{InputError, NoAdhesion, Parameter, Real, Sphere};
 
-/// How adhesion slows a sphere that its body throws back at `body_rebound` = R v.
+/// An adhesion term: how adhesion slows the rebound.
+///
+/// Without adhesion, the sphere would leave with the body rebound speed R v.
 ///
 /// ```
 /// use microimpact::{NoAdhesion, rigid::ReboundAdhesion};
@@ -10,11 +12,12 @@ use crate::{InputError, NoAdhesion, Parameter, Real, Sphere};
 /// assert_eq!(NoAdhesion.departure(1.5), 1.5);
 /// ```
 pub trait ReboundAdhesion<T> {
-    /// Speed left after adhesion, m/s: (1 - rho) R v; zero when adhesion holds the sphere.
+    /// Speed after adhesion has acted, m/s: (1 - rho) R v. It is zero if adhesion holds the sphere.
     fn departure(&self, body_rebound: T) -> T;
 
-    /// The largest body rebound speed that still leaves a departure of at most `pull` >= 0, both m/s; `None` if
-    /// adhesion holds every rebound.
+    /// Largest body rebound speed (m/s) for which the departure speed is at most `pull` (m/s, zero or positive).
+    ///
+    /// `None` if adhesion holds every rebound.
     fn holding_speed(&self, pull: T) -> Option<T>;
 }
 
@@ -30,7 +33,7 @@ impl<T: Real> ReboundAdhesion<T> for NoAdhesion {
     }
 }
 
-/// Adhesion that takes the share rho of the body's rebound impulse (A14).
+/// Adhesion that cancels the fraction rho of the body's rebound impulse (A14).
 ///
 /// ```
 /// use microimpact::rigid::{AdhesionCoefficient, ReboundAdhesion};
@@ -46,10 +49,10 @@ pub struct AdhesionCoefficient<T> {
 }
 
 impl<T: Real> AdhesionCoefficient<T> {
-    /// A coefficient rho from 0, no adhesion, to 1, capture.
+    /// Creates adhesion from its coefficient rho: 0 means no adhesion, and 1 means capture.
     ///
     /// # Errors
-    /// A value outside its range.
+    /// The value is outside its range.
     ///
     /// ```
     /// assert!(microimpact::rigid::AdhesionCoefficient::new(-0.1).is_err());
@@ -72,7 +75,7 @@ impl<T: Real> ReboundAdhesion<T> for AdhesionCoefficient<T> {
     }
 }
 
-/// Adhesion that takes a fixed work W_A from the rebound: e^2 = R^2 - B with B = 2 W_A/(m v_n^2) (A33, A34).
+/// Adhesion that takes a fixed work W_A from the rebound: e^2 = R^2 - B, where B = 2 W_A/(m v_n^2) (A33, A34).
 ///
 /// ```
 /// use microimpact::{Sphere, rigid::{ReboundAdhesion, WorkOfAdhesion}};
@@ -87,15 +90,15 @@ impl<T: Real> ReboundAdhesion<T> for AdhesionCoefficient<T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct WorkOfAdhesion<T> {
-    /// sqrt(2 W_A/m): the rebound whose whole energy adhesion takes, m/s.
+    /// Rebound speed whose energy equals the work of adhesion, sqrt(2 W_A/m), m/s.
     pub(crate) speed: T,
 }
 
 impl<T: Real> WorkOfAdhesion<T> {
-    /// A work W_A >= 0 (J) on a given sphere.
+    /// Creates adhesion from its `work` W_A (J, zero or positive) on a given `sphere`.
     ///
     /// # Errors
-    /// A value outside its range.
+    /// The value is outside its range.
     ///
     /// ```
     /// use microimpact::{Sphere, rigid::WorkOfAdhesion};
@@ -116,7 +119,7 @@ impl<T: Real> ReboundAdhesion<T> for WorkOfAdhesion<T> {
         if body_rebound <= self.speed {
             return T::ZERO;
         }
-        // The factors keep the digits that a difference of squares loses close to capture.
+        // A difference of squares loses digits close to capture. The product of the factors does not.
         (body_rebound - self.speed).geometric_mean(body_rebound + self.speed)
     }
 

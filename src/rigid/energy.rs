@@ -1,8 +1,8 @@
-//! Where the kinetic energy goes (A29 to A34).
+//! The energy balance of an impact (A29 to A34).
 
 use crate::{Impact, NormalImpact, Real, Sphere, TangentialImpact};
 
-/// Works of the normal impulses (A31), J: positive where the sphere gains.
+/// Works of the normal impulses (A31), J. A positive work increases the energy of the sphere.
 ///
 /// ```
 /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -21,20 +21,20 @@ use crate::{Impact, NormalImpact, Real, Sphere, TangentialImpact};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NormalWorks<T> {
-    /// Of the body's impulse during approach.
+    /// Work of the body impulse during approach.
     pub body_approach: T,
-    /// Of the body's impulse during rebound.
+    /// Work of the body impulse during rebound.
     pub body_rebound: T,
-    /// Of the adhesion impulse.
+    /// Work of the adhesion impulse.
     pub adhesion: T,
-    /// Of the external microforce.
+    /// Work of the external microforce.
     pub external: T,
 }
 
-/// Kinetic energy before and after an impact, and what took the difference, J.
+/// Energy balance: kinetic energy before and after an impact, and each loss, J.
 ///
-/// The losses add up to the difference, to rounding. In single precision the energy of a slow nanometre sphere
-/// falls below the smallest normal number, 1e-38 J; double precision holds it.
+/// The losses add up to the difference of the energies, except for rounding. Use f64 for slow nanometre spheres: their energy
+/// is below 1e-38 J, the smallest normal number of f32.
 ///
 /// ```
 /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -54,24 +54,24 @@ pub struct NormalWorks<T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EnergyLedger<T> {
-    /// Kinetic energy before, J. Without friction only that of the normal motion counts, before and after.
+    /// Kinetic energy before the impact, J. Without friction, both energies include the normal motion only.
     pub before: T,
-    /// Kinetic energy after, J.
+    /// Kinetic energy after the impact, J.
     pub after: T,
-    /// Lost in the materials; (1 - R^2) m v_n^2/2 of a rigid body.
+    /// Loss in the materials; (1 - R^2) m v_n^2/2 for a rigid body.
     pub material: T,
-    /// Lost to adhesion; (R^2 - e^2) m v_n^2/2 of a rigid body (A33).
+    /// Loss to adhesion; (R^2 - e^2) m v_n^2/2 for a rigid body (A33).
     pub adhesion: T,
-    /// Lost to friction on the slip.
+    /// Loss to friction while the contact point slips.
     pub friction: T,
-    /// Lost to rolling dissipation, or to the peeling moment of a simulation.
+    /// Loss to rolling dissipation, or to the peeling moment of a simulation.
     pub rolling: T,
-    /// Given to the external microforce; negative where it drives the sphere.
+    /// Loss to the external microforce; negative if it drives the sphere.
     pub external: T,
 }
 
 impl<T: Real> EnergyLedger<T> {
-    /// Sum of all losses T_L, J.
+    /// Sum T_L of all losses, J.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -87,14 +87,14 @@ impl<T: Real> EnergyLedger<T> {
     }
 }
 
-/// Half the mass times a difference of squares.
+/// Difference of two kinetic energies: half the mass times the difference of the squared velocities.
 #[inline]
 fn kinetic<T: Real>(mass: T, faster: T, slower: T) -> T {
     mass * (faster - slower) * (faster + slower) / T::constant(2.0)
 }
 
 impl<T: Real> NormalImpact<T> {
-    /// The works of the normal impulses on a given sphere.
+    /// Works of the normal impulses on a given `sphere`, J.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -107,7 +107,7 @@ impl<T: Real> NormalImpact<T> {
     /// ```
     pub fn works(&self, sphere: &Sphere<T>) -> NormalWorks<T> {
         let impulses = self.impulses(sphere);
-        // An impulse that grows in proportion to the others works at the mean of the velocities it acts between.
+        // All impulses of a phase grow in proportion. So each one works at the mean of the velocities before and after it.
         let approach = -self.approach_speed() / T::constant(2.0);
         let rebound = self.rebound_speed() / T::constant(2.0);
         NormalWorks {
@@ -133,7 +133,7 @@ impl<T: Real> NormalImpact<T> {
 }
 
 impl<T: Real> Impact<T, ()> {
-    /// The energy of this impact on a given sphere.
+    /// Energy balance of this impact on a given `sphere`, J.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -150,7 +150,7 @@ impl<T: Real> Impact<T, ()> {
 }
 
 impl<T: Real> Impact<T, TangentialImpact<T>> {
-    /// The energy of this impact on a given sphere.
+    /// Energy balance of this impact on a given `sphere`, J.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -167,19 +167,19 @@ impl<T: Real> Impact<T, TangentialImpact<T>> {
         let normal = self.normal.ledger(mass);
         let tangential = &self.tangential;
         let (friction, rolling) = tangential.losses();
-        let along_surface = |tangential_velocity, peripheral| {
-            kinetic(mass, tangential_velocity, T::ZERO) + sphere.gyration_ratio() * kinetic(mass, peripheral, T::ZERO)
+        let along_surface = |velocity, peripheral| {
+            kinetic(mass, velocity, T::ZERO) + sphere.gyration_ratio() * kinetic(mass, peripheral, T::ZERO)
         };
         EnergyLedger {
-            before: normal.before + along_surface(tangential.tangential_before, tangential.peripheral_before),
-            after: normal.after + along_surface(tangential.tangential, tangential.peripheral),
+            before: normal.before + along_surface(tangential.velocity_before, tangential.peripheral_before),
+            after: normal.after + along_surface(tangential.velocity, tangential.peripheral),
             friction: mass * friction,
             rolling: mass * rolling,
             ..normal
         }
     }
 
-    /// Energy loss 2 T_L/(m v_n^2) in terms of the coefficients (A29).
+    /// Energy loss 2 T_L/(m v_n^2), computed from the coefficients (A29).
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -196,7 +196,7 @@ impl<T: Real> Impact<T, TangentialImpact<T>> {
         let impact = &self.tangential;
         let e = self.normal.overall_restitution();
         let (mu, eta) = (impact.impulse_ratio(), impact.velocity_ratio());
-        let arm = impact.couple / impact.normal_impulse;
+        let arm = impact.moment / impact.normal_impulse;
         let whole = T::ONE + e;
         let rotation = (mu - arm) * whole;
         let normal = (T::ONE - e) * whole;
@@ -207,19 +207,20 @@ impl<T: Real> Impact<T, TangentialImpact<T>> {
 }
 
 impl<T: Real> TangentialImpact<T> {
-    /// Work that friction and the resisting moment take, per unit mass: impulse times mean velocity in each of the
-    /// two stretches of constant friction.
+    /// Losses to friction and to the resisting moment, per unit mass.
+    ///
+    /// Friction is constant in each of two intervals. There, the work is the impulse times the mean velocity.
     fn losses(&self) -> (T, T) {
         let two = T::constant(2.0);
-        let share = self.sliding_share();
-        let first_friction = self.sliding_friction * share;
-        let first_couple = self.couple * share;
-        let turning = self.peripheral_before + (first_couple - first_friction) / self.gyration_ratio;
-        let slipping = self.tangential_before + first_friction - turning;
+        let fraction = self.sliding_fraction();
+        let first_friction = self.sliding_friction * fraction;
+        let first_moment = self.moment * fraction;
+        let turning = self.peripheral_before + (first_moment - first_friction) / self.gyration_ratio;
+        let slipping = self.velocity_before + first_friction - turning;
         let friction = first_friction * (self.slip_before + slipping)
             + (self.friction - first_friction) * (slipping + self.slip());
-        let rolling = first_couple * (self.peripheral_before + turning)
-            + (self.couple - first_couple) * (turning + self.peripheral);
+        let rolling = first_moment * (self.peripheral_before + turning)
+            + (self.moment - first_moment) * (turning + self.peripheral);
         (-friction / two, -rolling / two)
     }
 }

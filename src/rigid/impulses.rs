@@ -1,8 +1,8 @@
-//! The impulses of approach and rebound, in SI units (A5 to A16).
+//! Impulses during approach and rebound, in SI units (A5 to A16).
 
 use crate::{NormalImpact, Real, Sphere, TangentialImpact};
 
-/// A quantity of the two phases of an impact: up to the deepest point, and from there to separation.
+/// A quantity for each phase of an impact: approach, up to the deepest point, and rebound, from there to separation.
 ///
 /// ```
 /// use microimpact::rigid::Phases;
@@ -13,14 +13,14 @@ use crate::{NormalImpact, Real, Sphere, TangentialImpact};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Phases<T> {
-    /// During approach.
+    /// Value for the approach.
     pub approach: T,
-    /// During rebound.
+    /// Value for the rebound.
     pub rebound: T,
 }
 
 impl<T: Real> Phases<T> {
-    /// Over the whole impact.
+    /// Sum over the whole impact.
     ///
     /// ```
     /// assert_eq!(microimpact::rigid::Phases { approach: 3.0, rebound: -1.0 }.total(), 2.0);
@@ -54,15 +54,15 @@ impl<T: Real> Phases<T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NormalImpulses<T> {
-    /// P_D of the body's deformation (A5, A11).
+    /// Impulse P_D of the body's deformation (A5, A11).
     pub body: Phases<T>,
-    /// P_A of adhesion; that of the approach is zero (A14).
+    /// Impulse P_A of adhesion during rebound; it is zero during approach (A14).
     pub adhesion_rebound: T,
-    /// P_E of the external microforce, as far as it acts within the impact.
+    /// Impulse P_E of the external microforce, for the time that the impact lasts.
     pub external: Phases<T>,
 }
 
-/// Tangential impulses (N s) and moment impulses (N m s).
+/// Friction impulses (N s) and moment impulses (N m s).
 ///
 /// ```
 /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -78,14 +78,14 @@ pub struct NormalImpulses<T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TangentialImpulses<T> {
-    /// P_t of friction (A6, A9, A12, A13).
+    /// Impulse P_t of friction (A6, A9, A12, A13).
     pub friction: Phases<T>,
-    /// M of the moment that resists the spin (A7, A10, A15, A16).
+    /// Impulse M of the moment that resists the spin (A7, A10, A15, A16).
     pub moment: Phases<T>,
 }
 
 impl<T: Real> NormalImpact<T> {
-    /// The impulses of this impact on a given sphere.
+    /// Normal impulses on a given `sphere`.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -108,14 +108,15 @@ impl<T: Real> NormalImpact<T> {
 }
 
 impl<T: Real> TangentialImpact<T> {
-    /// The impulses of this impact on a given sphere. Friction acts until the slip ends, wherever that is.
+    /// Impulses along the surface on a given `sphere`. Friction acts until the slip ends, which may be in either phase.
     ///
-    /// Of an impact whose friction is not known (given by its ratio, or measured) both phases have the same ratio.
+    /// If the impact was measured or is given by its impulse ratio, the friction coefficient is unknown. Then both phases have
+    /// the same impulse ratio.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
     ///
-    /// // Strong friction stops the slip early: nothing is left for the rebound.
+    /// // Strong friction stops the slip during approach, so that the rebound has no friction impulse.
     /// let sphere = Sphere::solid(1e-6, 1000.0)?;
     /// let scene = RigidBody::new(sphere, ConstantRestitution::new(0.5)?).with_friction(1.0)?;
     /// let impulses = scene.impact(&NormalMotion::new(1.0)?.with_tangential(1.0)?).tangential.impulses(&sphere);
@@ -133,7 +134,7 @@ impl<T: Real> TangentialImpact<T> {
         }
     }
 
-    /// Tangential velocity (m/s) and peripheral velocity (m/s) at the deepest point, between approach and rebound.
+    /// Tangential and peripheral velocity at the deepest point, between approach and rebound, m/s.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -148,20 +149,20 @@ impl<T: Real> TangentialImpact<T> {
     pub fn at_deepest_point(&self) -> (T, T) {
         let phases = self.phases();
         (
-            self.tangential_before + phases.friction.approach,
+            self.velocity_before + phases.friction.approach,
             self.peripheral_before + (phases.moment.approach - phases.friction.approach) / self.gyration_ratio,
         )
     }
 
-    /// Impulses per unit mass: friction, and moment over radius.
+    /// Impulses per unit mass. The moment impulse is divided by the radius.
     fn phases(&self) -> TangentialImpulses<T> {
-        let approach_share = self.approach / self.normal_impulse;
-        let sliding = self.sliding_share().min(approach_share);
-        let friction = self.sliding_friction * sliding + self.holding_friction * (approach_share - sliding);
-        let moment = self.couple * approach_share;
+        let approach_fraction = self.approach / self.normal_impulse;
+        let sliding = self.sliding_fraction().min(approach_fraction);
+        let friction = self.sliding_friction * sliding + self.holding_friction * (approach_fraction - sliding);
+        let moment = self.moment * approach_fraction;
         TangentialImpulses {
             friction: Phases { approach: friction, rebound: self.friction - friction },
-            moment: Phases { approach: moment, rebound: self.couple - moment },
+            moment: Phases { approach: moment, rebound: self.moment - moment },
         }
     }
 }

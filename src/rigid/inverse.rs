@@ -1,13 +1,12 @@
-//! From measured motion to coefficients: the model used backwards.
+//! The inverse model: from measured velocities to coefficients.
 //!
-//! Each function returns the same [`Impact`] as the forward model, so e, rho, mu, the energy split and the class
-//! are read from it in the same way.
+//! Each function returns an [`Impact`], like the forward model. Its methods give e, rho, mu, the energy balance and the class.
 
 use super::tangential::TangentialImpact;
 use crate::rigid::RestitutionLaw;
 use crate::{Impact, ImpactError, NormalImpact, Oblique, ObliqueMotion, Parameter, PlanarMotion, Real, Sphere};
 
-/// A measured motion away from the surface, m/s.
+/// Measured velocities after an impact, m/s.
 ///
 /// ```
 /// use microimpact::rigid::Departure;
@@ -19,18 +18,18 @@ use crate::{Impact, ImpactError, NormalImpact, Oblique, ObliqueMotion, Parameter
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Departure<T> {
-    /// Normal velocity V_n, zero for a captured sphere.
+    /// Normal velocity V_n; zero for a captured sphere.
     pub normal: T,
     /// Tangential velocity V_t.
     pub tangential: T,
 }
 
-/// Coefficients of an impact whose spin was not measured, on the assumption that the sphere rolls at separation.
+/// Infers an impact whose spin was not measured, on the assumption that the sphere rolls at separation.
 ///
-/// The spin that mu = mu_0 implies is [`TangentialImpact::spin_before`].
+/// The assumption means mu = mu_0, which determines the spin before the impact ([`TangentialImpact::spin_before`]).
 ///
 /// # Errors
-/// A velocity outside its range, or a rebound faster than R allows.
+/// A velocity is outside its range, or the rebound is faster than R allows.
 ///
 /// ```
 /// use microimpact::rigid::{Departure, infer_assuming_rolling};
@@ -57,14 +56,14 @@ pub fn infer_assuming_rolling<T: Real>(
     measured(sphere, law, &before, &after, after.tangential, T::ZERO)
 }
 
-/// Coefficients of an impact whose spin before it was measured as well.
+/// Infers an impact whose spin before the impact was measured.
 ///
-/// `velocity_error` (m/s) is the standard error of the velocities along the surface: a slip below it counts as rolling, and an
-/// impulse ratio that violates its bounds by less is taken as it is, so that mu may lie a little outside 0 to mu_0 and the
-/// work of friction a little below zero. The bound on the rebound, e <= R, has no such tolerance.
+/// `velocity_error` (m/s) is the standard error of the velocities along the surface. A smaller slip counts as rolling. An
+/// impulse ratio that violates its bounds by less is accepted. Then mu can be slightly outside 0 to mu_0, and the work of
+/// friction slightly below zero. The bound on the rebound, e <= R, has no such tolerance.
 ///
 /// # Errors
-/// A value outside its range, a rebound faster than R allows, or an impulse ratio outside 0 to mu_0.
+/// A value is outside its range, the rebound is faster than R allows, or the impulse ratio is outside 0 to mu_0.
 ///
 /// ```
 /// use microimpact::rigid::{Departure, infer};
@@ -91,13 +90,13 @@ pub fn infer<T: Real>(
     measured(sphere, law, before, &after, peripheral, velocity_error)
 }
 
-/// Coefficients of an impact whose spin was measured before and after it, `spin_after` in rad/s.
+/// Infers an impact whose spin was measured before and after it; `spin_after` is in rad/s.
 ///
-/// What friction does not account for in the change of spin is put down to rolling dissipation
+/// The part of the change of spin that friction does not explain is attributed to rolling dissipation
 /// ([`TangentialImpact::rolling_arm`]).
 ///
 /// # Errors
-/// As [`infer`], or more kinetic energy after the impact than before it.
+/// Those of [`infer`], or the kinetic energy is larger after the impact than before it.
 ///
 /// ```
 /// use microimpact::rigid::{Departure, infer_with_spins};
@@ -124,7 +123,7 @@ pub fn infer_with_spins<T: Real>(
     measured(sphere, law, before, &after, Parameter::PeripheralVelocity.check(peripheral)?, velocity_error)
 }
 
-/// The impact between two whole motions.
+/// The impact from the complete motions before and after it.
 fn measured<T: Real>(
     sphere: &Sphere<T>,
     law: &impl RestitutionLaw<T>,
@@ -140,7 +139,7 @@ fn measured<T: Real>(
     let tolerance = Parameter::VelocityError.check(velocity_error)? + rounding;
 
     let friction = after.tangential - before.tangential();
-    let couple = friction + kappa * (peripheral - before.peripheral());
+    let moment = friction + kappa * (peripheral - before.peripheral());
     let (slip_before, slip_after) = (before.slip(), after.tangential - peripheral);
     let drives = (slip_before > T::ZERO && friction > tolerance) || (slip_before < T::ZERO && -friction > tolerance);
     let reverses =
@@ -154,17 +153,17 @@ fn measured<T: Real>(
         contact_inertia,
         approach: normal.approach_speed(),
         normal_impulse: normal.impulse(),
-        tangential_before: before.tangential(),
+        velocity_before: before.tangential(),
         peripheral_before: before.peripheral(),
         slip_before,
-        tangential: after.tangential,
+        velocity: after.tangential,
         peripheral,
         rolls,
         friction,
         sliding_friction: friction,
         holding_friction: T::ZERO,
-        rolling_friction: contact_inertia * (couple / kappa - slip_before),
-        couple,
+        rolling_friction: contact_inertia * (moment / kappa - slip_before),
+        moment,
     };
     if !conserves_energy(&normal, &tangential, tolerance) {
         return Err(ImpactError::EnergyGained);
@@ -172,12 +171,12 @@ fn measured<T: Real>(
     Ok(Impact { normal, tangential })
 }
 
-/// Whether the kinetic energy per unit mass does not grow by more than the velocities' tolerance allows.
+/// Whether the kinetic energy per unit mass grows by no more than the tolerance of the velocities allows.
 fn conserves_energy<T: Real>(normal: &NormalImpact<T>, impact: &TangentialImpact<T>, tolerance: T) -> bool {
     let gain = |before: T, after: T| (after - before) * (after + before);
     let scale = |before: T, after: T| before.abs() + after.abs();
     let (n_before, n_after) = (normal.approach_speed(), normal.rebound_speed());
-    let (t_before, t_after) = (impact.tangential_before, impact.tangential);
+    let (t_before, t_after) = (impact.velocity_before, impact.velocity);
     let (u_before, u_after) = (impact.peripheral_before, impact.peripheral);
     let gained = gain(n_before, n_after) + gain(t_before, t_after) + impact.gyration_ratio * gain(u_before, u_after);
     gained <= tolerance * (scale(n_before, n_after) + scale(t_before, t_after) + scale(u_before, u_after))

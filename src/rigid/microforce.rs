@@ -1,8 +1,10 @@
-//! Other microforces (gravity, an electric field): known external impulses along the normal.
+//! Microforces other than adhesion, such as gravity or an electric field: known external impulses along the normal.
 
 use crate::{InputError, Parameter, Real, Sphere};
 
-/// What an external impulse does to the normal motion; per unit mass it is a change of velocity, m/s.
+/// A microforce term: how external impulses change the normal motion.
+///
+/// Per unit mass, an impulse is a change of velocity (m/s).
 ///
 /// ```
 /// use microimpact::rigid::{MicroforceTerm, NoMicroforce};
@@ -11,16 +13,17 @@ use crate::{InputError, Parameter, Real, Sphere};
 /// assert_eq!(NoMicroforce.rebound(1.5), 1.5);
 /// ```
 pub trait MicroforceTerm<T> {
-    /// The part of an approach speed that the body has to stop (A5).
+    /// Part of the approach `speed` that the body has to stop (A5).
     fn body_approach(&self, speed: T) -> T;
 
-    /// The approach speed whose body part is `body_approach`: the inverse of the above.
+    /// Approach speed for which the body has to stop `body_approach`: the inverse of [`body_approach`](Self::body_approach).
     fn approach_speed(&self, body_approach: T) -> T;
 
-    /// Rebound speed of a sphere that leaves body and adhesion at `departure`; zero when it is held (A8).
+    /// Rebound speed of a sphere with the speed `departure` after body and adhesion (A8). It is zero if the microforce holds
+    /// the sphere.
     fn rebound(&self, departure: T) -> T;
 
-    /// The departure speed that the microforce takes back, zero or more; `None` when it pushes the sphere away.
+    /// Largest departure speed that the microforce stops, zero or more. `None` if it pushes the sphere away.
     fn pull(&self) -> Option<T>;
 }
 
@@ -58,8 +61,8 @@ impl<T: Real> MicroforceTerm<T> for NoMicroforce {
 
 /// External impulses during approach and rebound, positive out of the surface.
 ///
-/// An impulse that would stop the approach before the body does counts only up to that point, and one that
-/// pulls the rebound back counts until the sphere rests: it is then captured.
+/// If an impulse would stop the approach before the body does, only the part up to that point acts. If an impulse stops the
+/// rebound, it acts until the sphere rests, and the sphere is captured.
 ///
 /// ```
 /// use microimpact::{Sphere, rigid::{Microforce, MicroforceTerm}};
@@ -79,10 +82,10 @@ pub struct Microforce<T> {
 }
 
 impl<T: Real> Microforce<T> {
-    /// Impulses during `approach` and `rebound` (N s) on a given sphere.
+    /// Creates a microforce from its impulses during `approach` and `rebound` (N s) on a given `sphere`.
     ///
     /// # Errors
-    /// An impulse, or the change of velocity it makes, outside its range.
+    /// An impulse, or the change of velocity by it, is outside its range.
     ///
     /// ```
     /// use microimpact::{Sphere, rigid::Microforce};

@@ -1,8 +1,8 @@
 //! The rigid-body model (Appendix A): impulses and coefficients instead of forces and time.
 //!
-//! A scene is a sphere, a restitution law and the terms that take part. Per unit mass an impulse is a change
-//! of velocity, so the model computes in m/s throughout; mass enters only with a work of adhesion, an external
-//! impulse, or where a result in N s or J is asked for.
+//! A scene is a [`RigidBody`]: a sphere, a restitution law and the terms that take part. The model computes in m/s, because
+//! an impulse per unit mass is a change of velocity. The mass matters only for a work of adhesion, for an external impulse,
+//! and for results in N s or J.
 
 mod adhesion;
 mod energy;
@@ -20,17 +20,17 @@ pub use inverse::{Departure, infer, infer_assuming_rolling, infer_with_spins};
 pub use microforce::{Microforce, MicroforceTerm, NoMicroforce};
 pub use normal::NormalImpact;
 pub use restitution::{ConstantRestitution, RestitutionLaw, SpeedRestitution};
-pub use tangential::{
-    NoRollingDissipation, RollingDissipation, RollingTerm, TangentialImpact, TangentialOutcome, TangentialTerm,
-};
+pub use tangential::{RollingDissipation, TangentialImpact, TangentialOutcome, TangentialTerm};
 
 use crate::{
     Approach, Classification, Coulomb, CriticalSpeed, ImpactError, InputError, NoAdhesion, NoFriction, Oblique,
     Outcome, Parameter, Real, Sphere,
 };
 
-/// A sphere and the physics of its impacts: `L` restitution law, `A` adhesion, `F` friction, `D` rolling
-/// dissipation, `E` external microforce. A term that is not named has size zero and costs nothing.
+/// A rigid-body scene: a sphere and the physics of its impacts.
+///
+/// The type parameters are the number type `T`, the restitution law `L`, the adhesion `A`, what happens along the surface `S`,
+/// and the external microforce `X`. An absent term has size zero and costs nothing.
 ///
 /// ```
 /// use microimpact::{Class, ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -44,7 +44,7 @@ use crate::{
 ///
 /// let impact = scene.impact(&before);
 /// assert!((impact.normal.rebound_speed() - 2.09_f64).abs() < 0.005);
-/// assert!((impact.tangential.tangential() - 0.21).abs() < 0.005);
+/// assert!((impact.tangential.velocity() - 0.21).abs() < 0.005);
 /// assert!((impact.tangential.spin(&sphere) - 4.16e4).abs() < 0.03e4);
 /// assert_eq!(scene.classify(&before).class(), Class::ReboundRolling);
 /// # Ok::<(), microimpact::InputError>(())
@@ -52,16 +52,15 @@ use crate::{
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct RigidBody<T, L, A = NoAdhesion, F = NoFriction, D = NoRollingDissipation, E = NoMicroforce> {
+pub struct RigidBody<T, L, A = NoAdhesion, S = NoFriction, X = NoMicroforce> {
     pub(crate) sphere: Sphere<T>,
     pub(crate) restitution: L,
     pub(crate) adhesion: A,
-    pub(crate) friction: F,
-    pub(crate) rolling: D,
-    pub(crate) microforce: E,
+    pub(crate) surface: S,
+    pub(crate) microforce: X,
 }
 
-/// The result of an impact; `X` is `()` without friction and [`TangentialImpact`] with it.
+/// The result of an impact. `G` is `()` without friction and [`TangentialImpact`] with it.
 ///
 /// ```
 /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -74,15 +73,15 @@ pub struct RigidBody<T, L, A = NoAdhesion, F = NoFriction, D = NoRollingDissipat
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Impact<T, X> {
-    /// Along the normal.
+pub struct Impact<T, G> {
+    /// Result along the normal.
     pub normal: NormalImpact<T>,
-    /// Along the surface, where friction takes part.
-    pub tangential: X,
+    /// Result along the surface, `()` without friction.
+    pub tangential: G,
 }
 
 impl<T: Real, L: RestitutionLaw<T>> RigidBody<T, L> {
-    /// A scene of a sphere and a restitution law, with no other physics.
+    /// Creates a scene from a sphere and a restitution law, without other physics.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, RigidBody, Sphere};
@@ -93,23 +92,16 @@ impl<T: Real, L: RestitutionLaw<T>> RigidBody<T, L> {
     /// ```
     #[inline]
     pub fn new(sphere: Sphere<T>, restitution: L) -> Self {
-        Self {
-            sphere,
-            restitution,
-            adhesion: NoAdhesion,
-            friction: NoFriction,
-            rolling: NoRollingDissipation,
-            microforce: NoMicroforce,
-        }
+        Self { sphere, restitution, adhesion: NoAdhesion, surface: NoFriction, microforce: NoMicroforce }
     }
 }
 
-/// Adding terms.
-impl<T: Real, L, A, F, D, E> RigidBody<T, L, A, F, D, E> {
-    /// The same scene with adhesion given by its coefficient rho, 0 to 1.
+/// Methods that add a term.
+impl<T: Real, L, A, S, X> RigidBody<T, L, A, S, X> {
+    /// Adds adhesion with the coefficient rho, 0 to 1.
     ///
     /// # Errors
-    /// A coefficient outside its range.
+    /// The coefficient is outside its range.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -123,14 +115,14 @@ impl<T: Real, L, A, F, D, E> RigidBody<T, L, A, F, D, E> {
     pub fn with_adhesion_coefficient(
         self,
         coefficient: T,
-    ) -> Result<RigidBody<T, L, AdhesionCoefficient<T>, F, D, E>, InputError> {
+    ) -> Result<RigidBody<T, L, AdhesionCoefficient<T>, S, X>, InputError> {
         Ok(self.with_adhesion(AdhesionCoefficient::new(coefficient)?))
     }
 
-    /// The same scene with adhesion given by its work W_A, J (A34).
+    /// Adds adhesion with the `work` W_A, J (A34).
     ///
     /// # Errors
-    /// A work outside its range.
+    /// The work is outside its range.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, CriticalSpeed, RigidBody, Sphere};
@@ -142,36 +134,15 @@ impl<T: Real, L, A, F, D, E> RigidBody<T, L, A, F, D, E> {
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     #[inline]
-    pub fn with_work_of_adhesion(self, work: T) -> Result<RigidBody<T, L, WorkOfAdhesion<T>, F, D, E>, InputError> {
+    pub fn with_work_of_adhesion(self, work: T) -> Result<RigidBody<T, L, WorkOfAdhesion<T>, S, X>, InputError> {
         let adhesion = WorkOfAdhesion::new(work, &self.sphere)?;
         Ok(self.with_adhesion(adhesion))
     }
 
-    /// The same scene with Coulomb friction of `coefficient` f >= 0.
+    /// Adds an external microforce with these impulses during approach and rebound, in N s, positive out of the surface.
     ///
     /// # Errors
-    /// A coefficient outside its range.
-    ///
-    /// ```
-    /// use microimpact::{Class, ConstantRestitution, NormalMotion, RigidBody, Sphere};
-    ///
-    /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.8)?).with_friction(0.3)?;
-    /// let motion = NormalMotion::new(1.0)?.with_tangential(0.5)?;
-    /// assert_eq!(scene.classify(&motion).class(), Class::ReboundRolling);
-    /// # Ok::<(), microimpact::InputError>(())
-    /// ```
-    #[inline]
-    pub fn with_friction(self, coefficient: T) -> Result<RigidBody<T, L, A, Coulomb<T>, D, E>, InputError> {
-        let Self { sphere, restitution, adhesion, rolling, microforce, .. } = self;
-        let friction = Coulomb::new(coefficient)?;
-        Ok(RigidBody { sphere, restitution, adhesion, friction, rolling, microforce })
-    }
-
-    /// The same scene with an external microforce that gives these impulses (N s, positive out of the surface)
-    /// during approach and rebound.
-    ///
-    /// # Errors
-    /// An impulse outside its range.
+    /// An impulse is outside its range.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -188,17 +159,18 @@ impl<T: Real, L, A, F, D, E> RigidBody<T, L, A, F, D, E> {
         self,
         approach: T,
         rebound: T,
-    ) -> Result<RigidBody<T, L, A, F, D, Microforce<T>>, InputError> {
-        let Self { sphere, restitution, adhesion, friction, rolling, .. } = self;
+    ) -> Result<RigidBody<T, L, A, S, Microforce<T>>, InputError> {
+        let Self { sphere, restitution, adhesion, surface, .. } = self;
         let microforce = Microforce::from_impulses(approach, rebound, &sphere)?;
-        Ok(RigidBody { sphere, restitution, adhesion, friction, rolling, microforce })
+        Ok(RigidBody { sphere, restitution, adhesion, surface, microforce })
     }
 
-    /// The same scene with a constant external force (N, positive out of the surface) over a contact of
-    /// `duration` (s), half of it approach, half rebound.
+    /// Adds a constant external `force` (N, positive out of the surface) that acts for the `duration` (s) of the contact.
+    ///
+    /// Approach and rebound take half of the duration each.
     ///
     /// # Errors
-    /// A force or a duration outside its range.
+    /// The force or the duration is outside its range.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -214,7 +186,7 @@ impl<T: Real, L, A, F, D, E> RigidBody<T, L, A, F, D, E> {
         self,
         force: T,
         duration: T,
-    ) -> Result<RigidBody<T, L, A, F, D, Microforce<T>>, InputError> {
+    ) -> Result<RigidBody<T, L, A, S, Microforce<T>>, InputError> {
         let force = Parameter::ExternalForce.check(force)?;
         let impulse = force * Parameter::Duration.check(duration)? / T::constant(2.0);
         self.with_external_impulses(impulse, impulse)
@@ -235,17 +207,39 @@ impl<T: Real, L, A, F, D, E> RigidBody<T, L, A, F, D, E> {
     }
 
     #[inline]
-    fn with_adhesion<B>(self, adhesion: B) -> RigidBody<T, L, B, F, D, E> {
-        let Self { sphere, restitution, friction, rolling, microforce, .. } = self;
-        RigidBody { sphere, restitution, adhesion, friction, rolling, microforce }
+    fn with_adhesion<B>(self, adhesion: B) -> RigidBody<T, L, B, S, X> {
+        let Self { sphere, restitution, surface, microforce, .. } = self;
+        RigidBody { sphere, restitution, adhesion, surface, microforce }
     }
 }
 
-impl<T: Real, L, A, D, E> RigidBody<T, L, A, Coulomb<T>, D, E> {
-    /// The same scene with a moment mu_m a_c P_n (mu_m a_c in m, given without sign) that resists the spin (A15, A16).
+impl<T: Real, L, A, X> RigidBody<T, L, A, NoFriction, X> {
+    /// Adds Coulomb friction with the `coefficient` f, zero or positive.
     ///
     /// # Errors
-    /// An arm outside its range.
+    /// The coefficient is outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Class, ConstantRestitution, NormalMotion, RigidBody, Sphere};
+    ///
+    /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.8)?).with_friction(0.3)?;
+    /// let motion = NormalMotion::new(1.0)?.with_tangential(0.5)?;
+    /// assert_eq!(scene.classify(&motion).class(), Class::ReboundRolling);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn with_friction(self, coefficient: T) -> Result<RigidBody<T, L, A, Coulomb<T>, X>, InputError> {
+        let Self { sphere, restitution, adhesion, microforce, .. } = self;
+        let surface = Coulomb::new(coefficient)?;
+        Ok(RigidBody { sphere, restitution, adhesion, surface, microforce })
+    }
+}
+
+impl<T: Real, L, A, X> RigidBody<T, L, A, Coulomb<T>, X> {
+    /// Adds a moment mu_m a_c P_n that resists the spin (A15, A16); the `arm` mu_m a_c (m) is zero or positive.
+    ///
+    /// # Errors
+    /// The arm is outside its range.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -254,50 +248,47 @@ impl<T: Real, L, A, D, E> RigidBody<T, L, A, Coulomb<T>, D, E> {
     /// let resisted = scene.with_rolling_dissipation(2e-8)?;
     /// let motion = NormalMotion::new(1.0)?.with_tangential(0.5)?;
     /// let (free, slowed) = (scene.impact(&motion).tangential, resisted.impact(&motion).tangential);
-    /// assert!(slowed.tangential() < free.tangential());
+    /// assert!(slowed.velocity() < free.velocity());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     #[inline]
-    pub fn with_rolling_dissipation(
-        self,
-        arm: T,
-    ) -> Result<RigidBody<T, L, A, Coulomb<T>, RollingDissipation<T>, E>, InputError> {
-        let Self { sphere, restitution, adhesion, friction, microforce, .. } = self;
-        let rolling = RollingDissipation::new(arm, &sphere)?;
-        Ok(RigidBody { sphere, restitution, adhesion, friction, rolling, microforce })
+    pub fn with_rolling_dissipation(self, arm: T) -> Result<RigidBody<T, L, A, RollingDissipation<T>, X>, InputError> {
+        let Self { sphere, restitution, adhesion, surface, microforce } = self;
+        let surface = RollingDissipation::new(surface, arm, &sphere)?;
+        Ok(RigidBody { sphere, restitution, adhesion, surface, microforce })
     }
 }
 
-/// What happens in an impact.
-impl<T, L, A, F, D, E> RigidBody<T, L, A, F, D, E>
+/// Methods that compute an impact.
+impl<T, L, A, S, X> RigidBody<T, L, A, S, X>
 where
     T: Real,
     L: RestitutionLaw<T>,
     A: ReboundAdhesion<T>,
-    E: MicroforceTerm<T>,
+    X: MicroforceTerm<T>,
 {
-    /// The impact of a sphere that arrives with `motion`.
+    /// Computes the impact of a sphere that arrives with `motion`.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
     ///
     /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.8)?).with_friction(0.1)?;
     /// let impact = scene.impact(&NormalMotion::new(1.0)?.with_tangential(5.0)?);
-    /// assert!((impact.tangential.tangential() - 4.82_f64).abs() < 1e-12);
+    /// assert!((impact.tangential.velocity() - 4.82_f64).abs() < 1e-12);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     #[inline]
-    pub fn impact<M>(&self, motion: &M) -> Impact<T, F::Impact>
+    pub fn impact<M>(&self, motion: &M) -> Impact<T, S::Impact>
     where
         M: Approach<T>,
-        F: TangentialTerm<T, M, D>,
+        S: TangentialTerm<T, M>,
     {
         let normal = NormalImpact::of(&self.restitution, &self.adhesion, &self.microforce, &motion.normal());
-        let tangential = self.friction.impact(&self.sphere, motion, &normal, &self.rolling);
+        let tangential = self.surface.impact(&self.sphere, motion, &normal);
         Impact { normal, tangential }
     }
 
-    /// The class of the impact of a sphere that arrives with `motion`, and its margins.
+    /// Classifies the impact of a sphere that arrives with `motion`, with the margins to the other classes.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, Outcome, RigidBody, Sphere};
@@ -310,15 +301,15 @@ where
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     #[inline]
-    pub fn classify<M>(&self, motion: &M) -> Classification<T, <F::Impact as TangentialOutcome<T>>::Class>
+    pub fn classify<M>(&self, motion: &M) -> Classification<T, <S::Impact as TangentialOutcome<T>>::Class>
     where
         M: Approach<T>,
-        F: TangentialTerm<T, M, D>,
+        S: TangentialTerm<T, M>,
     {
         self.classify_impact(&self.impact(motion))
     }
 
-    /// The class of an impact that this scene has computed, or that was measured on it.
+    /// Classifies an impact that this scene computed, or that was measured.
     ///
     /// ```
     /// use microimpact::{Class, ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -330,7 +321,7 @@ where
     /// # Ok::<(), microimpact::ImpactError>(())
     /// ```
     #[inline]
-    pub fn classify_impact<X: TangentialOutcome<T>>(&self, impact: &Impact<T, X>) -> Classification<T, X::Class> {
+    pub fn classify_impact<G: TangentialOutcome<T>>(&self, impact: &Impact<T, G>) -> Classification<T, G::Class> {
         let outcome = if impact.normal.is_capture() { Outcome::Capture } else { Outcome::Rebound };
         let speed_over_critical = match self.critical_speed() {
             CriticalSpeed::At(critical) => Some(impact.normal.approach_speed().saturating_div(critical)),
@@ -339,9 +330,9 @@ where
         Classification { outcome, speed_over_critical, contact: impact.tangential.classify(outcome) }
     }
 
-    /// The approach speed that separates capture from rebound.
+    /// Critical speed: the approach speed that separates capture from rebound.
     ///
-    /// With a work of adhesion it follows from e^2 = R^2 - B (A34) at e = 0.
+    /// For a work of adhesion, it is the speed at which e^2 = R^2 - B (A34) is zero.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, CriticalSpeed, RigidBody, Sphere};
@@ -365,17 +356,17 @@ where
     }
 }
 
-impl<T, L, A, E> RigidBody<T, L, A, NoFriction, NoRollingDissipation, E>
+impl<T, L, A, X> RigidBody<T, L, A, NoFriction, X>
 where
     T: Real,
     L: RestitutionLaw<T>,
     A: ReboundAdhesion<T>,
-    E: MicroforceTerm<T>,
+    X: MicroforceTerm<T>,
 {
-    /// The impact of a sphere whose impulse ratio mu = P_t/P_n is known, whatever the tangential process.
+    /// Computes an impact with a known impulse `ratio` mu = P_t/P_n, for a tangential process of any kind.
     ///
     /// # Errors
-    /// A ratio outside its range, or outside its bounds for this impact: from 0 to mu_0 (A27).
+    /// The ratio is outside its range, or outside its bounds for this impact, 0 to mu_0 (A27).
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, ImpactError, NormalMotion, RigidBody, Sphere};
@@ -383,7 +374,7 @@ where
     /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(1.0)?);
     /// let motion = NormalMotion::new(1.0)?.with_tangential(-0.7)?;
     /// let impact = scene.impact_with_ratio(&motion, 0.05)?;
-    /// assert!((impact.tangential.tangential() + 0.6_f64).abs() < 1e-12);
+    /// assert!((impact.tangential.velocity() + 0.6_f64).abs() < 1e-12);
     /// assert_eq!(scene.impact_with_ratio(&motion, 0.11), Err(ImpactError::ImpulseRatioOutsideBounds));
     /// # Ok::<(), ImpactError>(())
     /// ```

@@ -1,9 +1,11 @@
-//! The impact along the normal: body, adhesion and microforce, per unit mass.
+//! The impact along the normal, per unit mass: body, adhesion and microforce.
 
 use crate::rigid::{MicroforceTerm, ReboundAdhesion, RestitutionLaw};
 use crate::{Approach, ImpactError, NormalMotion, Parameter, Real};
 
-/// The normal part of an impact. Speeds are sizes; per unit mass they are impulses too.
+/// The normal part of an impact.
+///
+/// All speeds are positive or zero. Per unit mass, they are impulses too.
 ///
 /// ```
 /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -28,7 +30,7 @@ pub struct NormalImpact<T> {
 }
 
 impl<T: Real> NormalImpact<T> {
-    /// A5, A8, A11 and A14 in turn.
+    /// Applies A5, A11, A14 and A8 in this order.
     #[inline]
     pub(crate) fn of(
         law: &impl RestitutionLaw<T>,
@@ -45,12 +47,12 @@ impl<T: Real> NormalImpact<T> {
         Self { approach, restitution, body_approach, body_rebound, departure, rebound }
     }
 
-    /// The impact that was measured: `rebound_speed` (m/s) after a given approach, under a restitution law.
+    /// Creates the impact from a measured `rebound_speed` (m/s) and a restitution law.
     ///
-    /// What the rebound lacks against R v is put down to adhesion: rho = 1 - e/R.
+    /// The difference between R v and the rebound speed is attributed to adhesion: rho = 1 - e/R.
     ///
     /// # Errors
-    /// A rebound speed outside its range, or one above R v.
+    /// The rebound speed is outside its range or above R v.
     ///
     /// ```
     /// use microimpact::{NormalImpact, NormalMotion, SpeedRestitution};
@@ -75,7 +77,7 @@ impl<T: Real> NormalImpact<T> {
         Ok(Self { approach, restitution, body_approach: approach, body_rebound, departure: rebound, rebound })
     }
 
-    /// Whether the surface holds the sphere: e = 0.
+    /// Whether the sphere is captured: e = 0.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -104,7 +106,7 @@ impl<T: Real> NormalImpact<T> {
         self.approach
     }
 
-    /// Rebound speed V_n = -R(1 - rho) v_n (A21), m/s; zero for a capture.
+    /// Rebound speed V_n = -R(1 - rho) v_n (A21), m/s. It is zero for a capture.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -119,7 +121,7 @@ impl<T: Real> NormalImpact<T> {
         self.rebound
     }
 
-    /// Kinetic restitution R of the materials at the speed of this impact.
+    /// Kinetic restitution R of the materials in this impact.
     ///
     /// ```
     /// use microimpact::{NormalMotion, RigidBody, Sphere, SpeedRestitution};
@@ -133,7 +135,7 @@ impl<T: Real> NormalImpact<T> {
         self.restitution
     }
 
-    /// Overall restitution e = -V_n/v_n; R(1 - rho) where no microforce acts.
+    /// Overall restitution e = -V_n/v_n. It is R(1 - rho) without a microforce.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -148,8 +150,8 @@ impl<T: Real> NormalImpact<T> {
         self.rebound / self.approach
     }
 
-    /// Adhesion coefficient rho: adhesion impulse over body impulse during rebound (A14). Zero where there is
-    /// no body impulse.
+    /// Adhesion coefficient rho: adhesion impulse divided by body impulse during rebound (A14). It is zero without a body
+    /// impulse.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -166,8 +168,9 @@ impl<T: Real> NormalImpact<T> {
         if self.body_rebound > T::ZERO { (self.body_rebound - self.departure) / self.body_rebound } else { T::ZERO }
     }
 
-    /// Energy loss parameter B = R^2 - e^2 of adhesion (A34), over the kinetic energy m v_n^2/2. Of a capture
-    /// it tells what adhesion took, not what it could have taken.
+    /// Energy loss B = R^2 - e^2 to adhesion (A34), divided by the kinetic energy m v_n^2/2.
+    ///
+    /// For a capture, it is the energy that adhesion has taken, not the energy that it could take.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
@@ -184,25 +187,25 @@ impl<T: Real> NormalImpact<T> {
         (self.body_rebound - self.departure) / speed * ((self.body_rebound + self.departure) / speed)
     }
 
-    /// Body impulse of the approach, over m.
+    /// Body impulse of the approach, per unit mass.
     #[inline]
     pub(crate) fn body_approach(&self) -> T {
         self.body_approach
     }
 
-    /// Body impulse of the rebound, over m.
+    /// Body impulse of the rebound, per unit mass.
     #[inline]
     pub(crate) fn body_rebound(&self) -> T {
         self.body_rebound
     }
 
-    /// Speed after body and adhesion.
+    /// Speed after body and adhesion have acted.
     #[inline]
     pub(crate) fn departure(&self) -> T {
         self.departure
     }
 
-    /// Whole normal impulse P_n of the surface and the microforce, over m (A17).
+    /// Total normal impulse P_n of the surface and the microforce, per unit mass (A17).
     #[inline]
     pub(crate) fn impulse(&self) -> T {
         self.approach + self.rebound

@@ -1,16 +1,16 @@
-//! Kinetic restitution R of the materials, without adhesion (A11).
+//! Restitution laws: the kinetic restitution R of the materials, without adhesion (A11).
 
 use crate::{InputError, Parameter, Real};
 
-/// How the kinetic restitution R depends on the approach speed.
+/// A restitution law: how the kinetic restitution R depends on the approach speed v.
 ///
-/// A law of your own needs R between 0 and 1, and R(v) v that does not fall as v grows, so that capture and
-/// rebound are separated by one speed.
+/// You can implement your own law. R must be between 0 and 1, and R(v) v must not decrease with v, so that one critical speed
+/// separates capture from rebound.
 ///
 /// ```
 /// use microimpact::{ConstantRestitution, CriticalSpeed, NormalMotion, RestitutionLaw, RigidBody, Sphere};
 ///
-/// /// R = (v_y/v)^(1/4) above the speed v_y = 1 m/s at which the material yields.
+/// /// R = (v_y/v)^(1/4) above the speed v_y = 1 m/s, at which the material starts to yield.
 /// struct Yielding;
 ///
 /// impl RestitutionLaw<f64> for Yielding {
@@ -28,14 +28,14 @@ use crate::{InputError, Parameter, Real};
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 pub trait RestitutionLaw<T> {
-    /// R at an approach speed in m/s.
+    /// Kinetic restitution R at an approach `speed` (m/s).
     fn restitution(&self, speed: T) -> T;
 
-    /// The approach speed (m/s) whose body rebound speed R(v) v is `body_rebound`; `None` if none is fast enough.
+    /// Approach speed v (m/s) for which R(v) v is `body_rebound` (m/s). `None` if no speed is fast enough.
     fn approach_speed(&self, body_rebound: T) -> Option<T>;
 }
 
-/// The same R at every speed.
+/// A law with the same R at every speed.
 ///
 /// ```
 /// use microimpact::{ConstantRestitution, RestitutionLaw};
@@ -53,10 +53,10 @@ pub struct ConstantRestitution<T> {
 }
 
 impl<T: Real> ConstantRestitution<T> {
-    /// A law with R from 0 to 1.
+    /// Creates a law from R, 0 to 1.
     ///
     /// # Errors
-    /// A value outside its range.
+    /// The value is outside its range.
     ///
     /// ```
     /// assert!(microimpact::ConstantRestitution::new(1.01).is_err());
@@ -79,7 +79,9 @@ impl<T: Real> RestitutionLaw<T> for ConstantRestitution<T> {
     }
 }
 
-/// R = k/(k + v): restitution falls with speed. k is about 130 m/s for silver-coated glass on steel.
+/// The law R = k/(k + v): restitution decreases with speed.
+///
+/// For silver-coated glass on steel, k is about 130 m/s.
 ///
 /// ```
 /// use microimpact::{RestitutionLaw, SpeedRestitution};
@@ -98,10 +100,10 @@ pub struct SpeedRestitution<T> {
 }
 
 impl<T: Real> SpeedRestitution<T> {
-    /// A law with k in m/s: the speed at which R is one half.
+    /// Creates a law from k, the `speed` (m/s) at which R is one half.
     ///
     /// # Errors
-    /// A value outside its range.
+    /// The value is outside its range.
     ///
     /// ```
     /// assert!(microimpact::SpeedRestitution::new(0.0).is_err());
@@ -120,7 +122,7 @@ impl<T: Real> RestitutionLaw<T> for SpeedRestitution<T> {
 
     #[inline]
     fn approach_speed(&self, body_rebound: T) -> Option<T> {
-        // R(v) v approaches k from below, so no speed gives a rebound of k or more.
+        // R(v) v is always below k.
         (body_rebound < self.speed).then(|| body_rebound * (self.speed / (self.speed - body_rebound)))
     }
 }

@@ -1,6 +1,6 @@
 //! The contact simulation.
 
-use microimpact::simulation::{Collocation, HystereticDamping, Ring, SimulatedImpact, Simulation, TangentialContact};
+use microimpact::contact::{Collocation, HystereticDamping, Ring, SimulatedImpact, Contact, TangentialContact};
 use microimpact::{Coulomb, CriticalSpeed, InputError, Sphere, Stiffness};
 
 use crate::memory;
@@ -43,7 +43,7 @@ impl ContactScene {
 
     /// The scene without friction.
     pub(crate) fn surface(self) -> Result<(Surface, Method), InputError> {
-        let scene = Simulation::new(Sphere::solid(self.radius, self.density)?, Stiffness::new(self.stiffness)?)
+        let scene = Contact::hertz(Sphere::solid(self.radius, self.density)?, Stiffness::new(self.stiffness)?)
             .with_damping(self.material_damping)?
             .with_ring(self.adhesion_strength, self.adhesion_damping)?;
         Ok((scene, Collocation::new(self.tolerance)?))

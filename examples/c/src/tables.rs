@@ -1,7 +1,7 @@
 //! Tables: capture or rebound, restitution, and sliding or rolling, without a simulation.
 
-use microimpact::boundary::{self, BoundarySlice, Reading, Rebound};
-use microimpact::simulation::{ContactImpulses, SimulatedImpact};
+use microimpact::table::{self, BoundarySlice, Reading, Rebound};
+use microimpact::contact::{ContactImpulses, SimulatedImpact};
 use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, Sphere};
 
 use crate::memory;

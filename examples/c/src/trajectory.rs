@@ -1,6 +1,6 @@
 //! The course of a simulated impact.
 
-use microimpact::simulation::{self, SimulatedImpact, TangentialContact, Trajectory};
+use microimpact::contact::{self, SimulatedImpact, TangentialContact, Trajectory};
 
 use crate::memory;
 use crate::simulation::{Contact, ContactScene, contact};

@@ -5,7 +5,7 @@
 
 use clap::Args;
 use comfy_table::Cell;
-use microimpact::simulation::{Collocation, Nodes, Simulation};
+use microimpact::contact::{Collocation, Nodes, Contact};
 use microimpact::{CriticalSpeed, InputError, Sphere, Stiffness};
 use sheet::{Row, Scalar, reason};
 
@@ -79,7 +79,7 @@ impl<T: Scalar + Nodes<8> + Nodes<12>> Critical<T> {
         let stiffness = Stiffness::new(row.required("stiffness_pa")?).map_err(reason)?;
         let (adhesion, force) = (row.or_zero("adhesion_n_m")?, row.or_zero("external_force_n")?);
         let (zeta_h, zeta_a) = (row.or_zero("zeta_h")?, row.or_zero("zeta_a")?);
-        let scene = Simulation::new(sphere, stiffness)
+        let scene = Contact::hertz(sphere, stiffness)
             .with_damping(zeta_h)
             .and_then(|scene| scene.with_ring(adhesion, zeta_a))
             .and_then(|scene| scene.with_external_force(force))

@@ -7,8 +7,8 @@ use std::error::Error;
 use std::io::{self, Write};
 
 use clap::{Args, ValueEnum};
-use microimpact::boundary::BoundaryTable;
-use microimpact::simulation::{Collocation, Simulation};
+use microimpact::table::BoundaryTable;
+use microimpact::contact::{Collocation, Contact};
 use microimpact::{InputError, Sphere, Stiffness};
 
 use crate::Streams;
@@ -81,7 +81,7 @@ impl Options {
         let method = Collocation::<9, f64>::new(1e-9)?;
         let table = BoundaryTable::<N>::new(self.smallest_radius, |radius| {
             let sphere = Sphere::solid(radius, self.density)?;
-            Simulation::new(sphere, Stiffness::new(self.stiffness)?)
+            Contact::hertz(sphere, Stiffness::new(self.stiffness)?)
                 .with_damping(self.zeta_h)?
                 .with_ring(self.adhesion, self.zeta_a)?
                 .critical_speed(&method)
@@ -129,8 +129,8 @@ fn rust(to: &mut dyn Write, parts: &Parts, subject: &str) -> io::Result<()> {
     let Parts { smallest, margin, cells, .. } = parts;
     let count = cells.len();
     writeln!(to, "/// Critical speeds: {subject}.")?;
-    writeln!(to, "const BOUNDARY: microimpact::boundary::BoundaryTable<{count}> =")?;
-    writeln!(to, "    match microimpact::boundary::BoundaryTable::from_parts({smallest:e}, {margin}, [")?;
+    writeln!(to, "const BOUNDARY: microimpact::table::BoundaryTable<{count}> =")?;
+    writeln!(to, "    match microimpact::table::BoundaryTable::from_parts({smallest:e}, {margin}, [")?;
     for [constant, linear, square, cube] in cells {
         writeln!(to, "        [{constant}, {linear}, {square}, {cube}],")?;
     }

@@ -6,7 +6,7 @@
 
 use core::hint::black_box;
 
-use microimpact::boundary::Single;
+use microimpact::table::Single;
 use microimpact::rigid::{
     AdhesionCoefficient, Departure, Microforce, MicroforceTerm, NoMicroforce, NoRollingDissipation, Phases,
     ReboundAdhesion, RollingDissipation, RollingTerm, TangentialOutcome, TangentialTerm, WorkOfAdhesion, infer,
@@ -29,7 +29,7 @@ mod simulation;
 /// Calls everything, with one number type.
 pub fn call_all<T>()
 where
-    T: simulation::AnyNodes + Single + microimpact::uncertainty::NormalDistribution + Into<f64>,
+    T: simulation::AnyNodes + Single + microimpact::measure::NormalDistribution + Into<f64>,
 {
     call_rigid_body::<T>();
     keep(boundary::call_all::<T>());

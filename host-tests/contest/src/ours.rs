@@ -2,9 +2,9 @@
 
 use std::hint::black_box;
 
-use microimpact::simulation::{
+use microimpact::contact::{
     Adaptive, Collocation, ContactImpulses, ContactTimes, FixedCost, HystereticDamping, Method, NoPeeling, Nodes,
-    Output, PhaseNodes, Ring, RungeKuttaGill, SimulatedImpact, Simulation, Tangential, TangentialScene,
+    Output, PhaseNodes, Ring, RungeKuttaGill, SimulatedImpact, Contact, Tangential, TangentialScene,
 };
 use microimpact::{Approach, Real, Stiffness};
 use reference::Case;

@@ -1,6 +1,6 @@
 //! Scenes of normal motion, from rows of the reference.
 
-use microimpact::simulation::{HystereticDamping, Ring, Simulation, Status};
+use microimpact::contact::{HystereticDamping, Ring, Contact, Status};
 use microimpact::{NormalMotion, Real, Sphere, Stiffness};
 use reference::Case;
 
@@ -13,7 +13,7 @@ pub type NormalScene<T> = Simulation<T, HystereticDamping<T>, Ring<T>>;
 pub fn normal_scene<T: Real>(case: &Case) -> (NormalScene<T>, NormalMotion<T>) {
     let number = |column| T::constant(case.number(column));
     let sphere = Sphere::solid(number("radius_m"), number("density_kg_m3")).unwrap();
-    let scene = Simulation::new(sphere, Stiffness::new(number("stiffness_pa")).unwrap())
+    let scene = Contact::hertz(sphere, Stiffness::new(number("stiffness_pa")).unwrap())
         .with_damping(number("zeta_h"))
         .unwrap()
         .with_ring(number("adhesion_n_m"), number("zeta_a"))

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use microimpact::boundary::{BoundarySlice, BoundaryTable, Reading, Rebound, RestitutionTable};
-use microimpact::simulation::{
-    Collocation, ContactImpulses, HystereticDamping, Ring, Sample, SimulatedImpact, Simulation, TangentialContact,
+use microimpact::table::{BoundarySlice, BoundaryTable, Reading, Rebound, RestitutionTable};
+use microimpact::contact::{
+    Collocation, ContactImpulses, HystereticDamping, Ring, Sample, SimulatedImpact, Contact, TangentialContact,
     Trajectory,
 };
 use microimpact::{
@@ -97,7 +97,7 @@ fn trajectories() -> Result<String, InputError> {
     let contact = surface(c(RADIUS_M))?.with_friction(c(FRICTION))?;
     let sphere = Sphere::solid(c(RADIUS_M), c(DENSITY_KG_M3))?;
     // Absent terms are strengths of zero in C.
-    let elastic = Simulation::new(sphere, Stiffness::new(c(STIFFNESS_PA))?)
+    let elastic = Contact::hertz(sphere, Stiffness::new(c(STIFFNESS_PA))?)
         .with_damping(0.0)?
         .with_ring(0.0, 0.0)?
         .with_friction(0.0)?;
@@ -134,7 +134,7 @@ type Surface<T> = Simulation<T, HystereticDamping<T>, Ring<T>>;
 fn surface<T: Real>(radius: T) -> Result<Surface<T>, InputError> {
     let c = T::constant;
     let sphere = Sphere::solid(radius, c(DENSITY_KG_M3))?;
-    Simulation::new(sphere, Stiffness::new(c(STIFFNESS_PA))?)
+    Contact::hertz(sphere, Stiffness::new(c(STIFFNESS_PA))?)
         .with_damping(c(MATERIAL_DAMPING))?
         .with_ring(c(RING_N_M), c(RING_DAMPING))
 }

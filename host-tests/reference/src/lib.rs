@@ -2,7 +2,7 @@
 
 pub mod c_results;
 
-use microimpact::simulation::{HystereticDamping, Ring, Simulation};
+use microimpact::contact::{HystereticDamping, Ring, Contact};
 use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, Real, Sphere, Stiffness};
 
 const CASES: &str = include_str!("../../data/cases.csv");
@@ -87,7 +87,7 @@ impl Case {
     /// # Errors
     /// A value that the number type cannot hold.
     pub fn scene<T: Real>(&self) -> Result<Scene<T>, InputError> {
-        Simulation::new(self.sphere()?, Stiffness::new(self.scalar("stiffness_pa"))?)
+        Contact::hertz(self.sphere()?, Stiffness::new(self.scalar("stiffness_pa"))?)
             .with_damping(self.scalar("zeta_h"))?
             .with_ring(self.scalar("adhesion_n_m"), self.scalar("zeta_a"))?
             .with_friction(self.scalar("friction"))

@@ -4,13 +4,13 @@ use std::thread;
 
 use embedded_hal_mock::eh1::MockError;
 use embedded_hal_mock::eh1::digital::{Mock, State, Transaction};
-use microimpact::boundary::{self, BoundaryTable, Rebound, RestitutionTable};
+use microimpact::table::{self, BoundaryTable, Rebound, RestitutionTable};
 use microimpact::instrument::{
     ClassLines, ClassSet, Classifier, Instrument, NoLines, NormalReading, ObliqueReading, PlanarReading, Queue,
     Reading, Rejection, Simulated, SpeedBins, Statistics, Tabulated, TabulatedClass, Tally, Verdict,
 };
-use microimpact::simulation::{
-    Collocation, ContactImpulses, FixedCost, HystereticDamping, Ring, SimulatedImpact, Simulation,
+use microimpact::contact::{
+    Collocation, ContactImpulses, FixedCost, HystereticDamping, Ring, SimulatedImpact, Contact,
 };
 use microimpact::{
     Class, Coulomb, Dual, Fault, FixedPoint, InputError, NoFriction, NormalMotion, Outcome, Parameter, RigidBody,
@@ -125,7 +125,7 @@ fn events_cross_threads_in_order_or_are_counted_as_lost() {
 #[test]
 fn classifiers_answer_for_their_scenes() {
     let sphere = Sphere::solid(5.06e-6, 2600.0).unwrap();
-    let normal = Simulation::new(sphere, Stiffness::new(7.5e10).unwrap());
+    let normal = Contact::hertz(sphere, Stiffness::new(7.5e10).unwrap());
     let normal = normal.with_damping(10.5).unwrap().with_ring(250.0, 6.25).unwrap();
     let oblique = normal.with_friction(0.1).unwrap();
     let exact = Collocation::<9, f64>::new(1e-9).unwrap();
@@ -134,7 +134,7 @@ fn classifiers_answer_for_their_scenes() {
     let mut classes = Vec::new();
     for speed in [0.3, 0.8, 1.7, 2.8, 9.0] {
         let straight = NormalReading { approach: speed }.motion().unwrap();
-        let contact = normal.normal_impact(&fixed, &straight).unwrap();
+        let contact = normal.solve_normal(&straight, &fixed).unwrap();
         let verdict = Simulated { scene: normal, method: fixed }.verdict(&straight).unwrap();
         assert_eq!(
             verdict,
@@ -161,7 +161,7 @@ type Contact = Simulation<f64, HystereticDamping<f64>, Ring<f64>>;
 
 /// The paper's surface.
 fn contact(radius: f64) -> Result<Contact, InputError> {
-    Simulation::new(Sphere::solid(radius, 2600.0)?, Stiffness::new(7.5e10)?).with_damping(10.5)?.with_ring(250.0, 6.25)
+    Contact::hertz(Sphere::solid(radius, 2600.0)?, Stiffness::new(7.5e10)?).with_damping(10.5)?.with_ring(250.0, 6.25)
 }
 
 /// Radii of 2 to 8 um, up to ten times the critical speed.
@@ -256,7 +256,7 @@ fn an_instrument_with_a_table_counts_what_it_cannot_tell() {
 #[test]
 fn what_cannot_be_solved_is_rejected_by_name() {
     let sphere = Sphere::solid(1e-6, 1000.0).unwrap();
-    let scene = Simulation::new(sphere, Stiffness::new(1e10).unwrap()).with_damping(1e4).unwrap();
+    let scene = Contact::hertz(sphere, Stiffness::new(1e10).unwrap()).with_damping(1e4).unwrap();
     let overdamped = Simulated { scene, method: FixedCost::<5>::new(3).unwrap() };
     let mut instrument: Instrument<_, _, _, 2, 3> = Instrument::new(overdamped, NoLines, bins());
     assert_eq!(instrument.process(&NormalReading { approach: 1.0 }), Err(Rejection::Unsolved));
@@ -380,7 +380,7 @@ fn results_and_scenes_can_be_written() {
     let reading = PlanarReading { approach: 2.8, tangential: 1.0, peripheral: 0.0 };
     let motion = reading.motion().unwrap();
     let impact = scene.impact(&motion);
-    let simulation = Simulation::new(*scene.sphere(), Stiffness::new(7.5e10).unwrap()).with_friction(0.1).unwrap();
+    let simulation = Contact::hertz(*scene.sphere(), Stiffness::new(7.5e10).unwrap()).with_friction(0.1).unwrap();
     let contact = simulation.impact(&Collocation::<9, f64>::new(1e-9).unwrap(), &motion).unwrap();
     assert_eq!(written(&scene)["sphere"]["radius"], 5.06e-6);
     assert_eq!(written(&simulation)["friction"]["coefficient"], 0.1);

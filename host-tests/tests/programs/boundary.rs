@@ -3,9 +3,9 @@
 use std::process::Command;
 
 use crate::microimpact;
-use microimpact::boundary::{BoundarySlice, BoundaryTable, Reading, Rebound, RestitutionTable, Single, Verdict};
-use microimpact::simulation::{
-    Collocation, ContactImpulses, HystereticDamping, Nodes, Ring, SimulatedImpact, Simulation, TangentialContact,
+use microimpact::table::{BoundarySlice, BoundaryTable, Reading, Rebound, RestitutionTable, Single, Verdict};
+use microimpact::contact::{
+    Collocation, ContactImpulses, HystereticDamping, Nodes, Ring, SimulatedImpact, Contact, TangentialContact,
 };
 use microimpact::{
     Coulomb, CriticalSpeed, Fault, InputError, NormalMotion, Outcome, Parameter, Real, RigidBody, SpeedRestitution,
@@ -31,7 +31,7 @@ const PAPER: Material = Material { density: 2600.0, stiffness: 7.5e10, adhesion:
 impl Material {
     fn scene<T: Real>(&self, radius: T) -> Result<Simulation<T, HystereticDamping<T>, Ring<T>>, InputError> {
         let sphere = Sphere::solid(radius, T::constant(self.density))?;
-        Simulation::new(sphere, Stiffness::new(T::constant(self.stiffness))?)
+        Contact::hertz(sphere, Stiffness::new(T::constant(self.stiffness))?)
             .with_damping(T::constant(self.zeta_h))?
             .with_ring(T::constant(self.adhesion), T::constant(self.zeta_a))
     }

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use boards::REFERENCE_CORE;
 use boards::figures::{Quantity, Stored, largest};
-use microimpact::simulation::Collocation;
+use microimpact::contact::Collocation;
 
 const README: &str = include_str!("../../../README.md");
 static STORED: LazyLock<Stored> = LazyLock::new(|| Stored::read(&Stored::path()).unwrap());

@@ -1,7 +1,7 @@
 //! What a scene does not use takes no room in it.
 
 use microimpact::rigid::{NoMicroforce, NoRollingDissipation};
-use microimpact::simulation::{ContactWorks, SimulatedImpact, Simulation};
+use microimpact::contact::{ContactWorks, SimulatedImpact, Contact};
 use microimpact::{
     Classification, ConstantRestitution, ContactClass, Impact, NoAdhesion, NoFriction, NormalImpact, NormalMotion,
     ObliqueMotion, PlanarMotion, RigidBody, Sphere, Stiffness,
@@ -32,7 +32,7 @@ fn each_term_adds_its_own_numbers() {
 #[test]
 fn absent_terms_of_a_simulation() {
     let sphere = Sphere::solid(1e-6_f32, 1000.0).unwrap();
-    let scene = Simulation::new(sphere, Stiffness::new(1e10).unwrap());
+    let scene = Contact::hertz(sphere, Stiffness::new(1e10).unwrap());
     let bare = size_of::<Sphere<f32>>() + NUMBER;
     assert_eq!(size_of_val(&scene), bare);
     assert_eq!(size_of_val(&scene.with_damping(1.0).unwrap()), bare + NUMBER);

@@ -1,11 +1,11 @@
 //! From measurements back to parameters: the paper's values, there and back again, reasons, outliers and coverage.
 
-use microimpact::calibrate::{
+use microimpact::measure::{
     CalibrationError, Estimate, ImpulseRatios, Location, Rebound, RestitutionFit, adhesion_damping, estimate, friction,
     material_damping, parameter, ring_strength, rolling_motion,
 };
 use microimpact::rigid::{Departure, infer_assuming_rolling};
-use microimpact::simulation::{Collocation, FixedCost, HystereticDamping, Ring, Simulation};
+use microimpact::contact::{Collocation, FixedCost, HystereticDamping, Ring, Contact};
 use microimpact::{
     CriticalSpeed, Dual, Fault, InputError, NormalMotion, Oblique, Parameter, Real, RestitutionLaw, RigidBody,
     SpeedRestitution, Sphere, Stiffness,
@@ -20,7 +20,7 @@ type Scene<T> = Simulation<T, HystereticDamping<T>, Ring<T>>;
 
 fn bare<T: Real>(radius: f64) -> Simulation<T> {
     let sphere = Sphere::solid(T::constant(radius), T::constant(2600.0)).unwrap();
-    Simulation::new(sphere, Stiffness::new(T::constant(7.5e10)).unwrap())
+    Contact::hertz(sphere, Stiffness::new(T::constant(7.5e10)).unwrap())
 }
 
 fn scene(radius: f64, f0: f64, zeta_h: f64, zeta_a: f64) -> Scene<f64> {
@@ -394,7 +394,7 @@ fn sensitive(which: usize, value: f64, speed: f64) -> Dual<f64, 2> {
     inputs[which] = parameter;
     let [f0, zeta_h, zeta_a, radius] = inputs;
     let sphere = Sphere::solid(radius, fixed(2600.0)).unwrap();
-    let scene = Simulation::new(sphere, Stiffness::new(fixed(7.5e10)).unwrap());
+    let scene = Contact::hertz(sphere, Stiffness::new(fixed(7.5e10)).unwrap());
     let scene = scene.with_damping(zeta_h).unwrap().with_ring(f0, zeta_a).unwrap();
     let method = Collocation::<9, Dual<f64, 2>>::new(fixed(1e-9)).unwrap();
     scene.normal_impact(&method, &NormalMotion::new(speed).unwrap()).unwrap().overall_restitution()

@@ -1,10 +1,10 @@
 //! Every input has a range, and every value outside it is an error that names the input.
 
-use microimpact::boundary::{BoundaryTable, Rebound, RestitutionTable, Single};
-use microimpact::calibrate::ring_strength;
+use microimpact::table::{BoundaryTable, Rebound, RestitutionTable, Single};
+use microimpact::measure::ring_strength;
 use microimpact::rigid::{AdhesionCoefficient, Departure, WorkOfAdhesion, infer, infer_with_spins};
-use microimpact::simulation::{Collocation, DimensionlessImpact, FixedCost, RestCriterion, Simulation};
-use microimpact::uncertainty::{NormalDistribution, rebound_probability};
+use microimpact::contact::{Collocation, DimensionlessImpact, FixedCost, RestCriterion, Contact};
+use microimpact::measure::{NormalDistribution, rebound_probability};
 use microimpact::{
     ConstantRestitution, Coulomb, CriticalSpeed, Dual, Fault, ImpactError, InFixedPoint, InputError, Material,
     NormalMotion, Parameter, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
@@ -95,10 +95,10 @@ fn supply<T: Single + NormalDistribution + Into<f64>>(parameter: Parameter, valu
             RigidBody::new(sphere, perfect()).with_external_force(value, c(1e-3)).map(drop)
         }
         Parameter::Duration => scene.with_external_force(c(0.0), value).map(drop),
-        Parameter::MaterialDamping => Simulation::new(sphere(), stiffness()).with_damping(value).map(drop),
-        Parameter::AdhesionStrength => Simulation::new(sphere(), stiffness()).with_ring(value, c(1.0)).map(drop),
-        Parameter::AdhesionDamping => Simulation::new(sphere(), stiffness()).with_ring(c(1.0), value).map(drop),
-        Parameter::PeelingMoment => Simulation::new(sphere(), stiffness())
+        Parameter::MaterialDamping => Contact::hertz(sphere(), stiffness()).with_damping(value).map(drop),
+        Parameter::AdhesionStrength => Contact::hertz(sphere(), stiffness()).with_ring(value, c(1.0)).map(drop),
+        Parameter::AdhesionDamping => Contact::hertz(sphere(), stiffness()).with_ring(c(1.0), value).map(drop),
+        Parameter::PeelingMoment => Contact::hertz(sphere(), stiffness())
             .with_ring(c(1.0), c(1.0))
             .and_then(|scene| scene.with_friction(c(0.1)))
             .and_then(|scene| scene.with_peeling(value))
@@ -185,7 +185,7 @@ fn ratios_of_forces() {
     let soft = Stiffness::new(1e3).unwrap();
     let sphere = Sphere::solid(1e-6, 1000.0).unwrap();
     let motion = |speed: f64| NormalMotion::new(speed).unwrap();
-    let scene = Simulation::new(sphere, soft);
+    let scene = Contact::hertz(sphere, soft);
     assert_eq!(
         scene.with_damping(1e9).unwrap().normal_impact(&method, &motion(10.0)).err(),
         fault(Parameter::DampingRatio, Fault::TooLarge)

@@ -1,6 +1,6 @@
 //! The adaptive method delivers the error that was asked for: neither more, nor so little that the cost was wasted.
 
-use microimpact::simulation::{Adaptive, Collocation, SimulatedImpact, Simulation, Status, TangentialContact};
+use microimpact::contact::{Adaptive, Collocation, SimulatedImpact, Contact, Status, TangentialContact};
 use microimpact::{NormalMotion, Outcome, Sphere, Stiffness};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -96,7 +96,7 @@ fn restitution_has_the_error_asked_for() {
         let rebounds = cases.iter().filter(|case| case.text("outcome") == "rebound");
         beyond.extend(outside(rebounds, tolerance, |case| {
             let (scene, motion) = (case.scene::<f64>().unwrap(), case.motion().unwrap());
-            let contact = scene.normal_impact(&method, &motion).unwrap();
+            let contact = scene.solve_normal(&motion, &method).unwrap();
             (contact.overall_restitution().powi(2) - case.number("restitution").powi(2)).abs()
         }));
     }
@@ -112,9 +112,9 @@ fn damping_of_any_strength() {
     let mut most = 0;
     for step in 0..=100 {
         let d = 10f64.powf(f64::from(step) / 100.0 * 9.0 - 3.0);
-        let unit = Simulation::new(sphere, stiffness).with_damping(1.0).unwrap();
+        let unit = Contact::hertz(sphere, stiffness).with_damping(1.0).unwrap();
         let zeta = d / unit.groups(&motion).unwrap().material_damping;
-        let scene = Simulation::new(sphere, stiffness).with_damping(zeta).unwrap();
+        let scene = Contact::hertz(sphere, stiffness).with_damping(zeta).unwrap();
         let impact = scene.impact(&method, &motion).unwrap();
         let e = impact.normal.overall_restitution();
         assert_eq!(impact.run.status, Status::Solved, "{d}");
@@ -137,7 +137,7 @@ fn random_scenes_agree_with_stretches() {
         let (radius, stiffness, strength) = (decades(-9.0, -2.0), decades(3.0, 14.0), decades(-4.0, 5.0));
         let (material, adhesion, speed) = (decades(-4.0, 4.0), decades(-4.0, 4.0), decades(-9.0, 4.0));
         let tolerance = decades(-12.0, -3.0);
-        let scene = Simulation::new(Sphere::solid(radius, 2600.0).unwrap(), Stiffness::new(stiffness).unwrap())
+        let scene = Contact::hertz(Sphere::solid(radius, 2600.0).unwrap(), Stiffness::new(stiffness).unwrap())
             .with_damping(material)
             .and_then(|scene| scene.with_ring(strength, adhesion))
             .unwrap();
@@ -145,7 +145,7 @@ fn random_scenes_agree_with_stretches() {
         let Ok(impact) = scene.impact(&Adaptive::new(tolerance).unwrap(), &motion) else {
             continue;
         };
-        let reference = scene.normal_impact(&exact, &motion).unwrap();
+        let reference = scene.solve_normal(&motion, &exact).unwrap();
         let square = |e: f64| e * e;
         let found = impact.normal.overall_restitution();
         let difference = (square(found) - square(reference.overall_restitution())).abs();

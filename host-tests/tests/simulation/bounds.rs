@@ -4,7 +4,7 @@ use std::thread;
 
 use crate::checking::{Checked, DOWN, EXACT, NEAREST, SINGLE, take_largest};
 use microimpact::Outcome;
-use microimpact::simulation::{Collocation, DimensionlessImpact, FixedCost};
+use microimpact::contact::{Collocation, DimensionlessImpact, FixedCost};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use reference::cases;

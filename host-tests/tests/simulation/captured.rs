@@ -2,9 +2,9 @@
 
 use core::f64::consts::PI;
 
-use microimpact::simulation::{
+use microimpact::contact::{
     Collocation, ContactImpulses, ContactWorks, Everything, MotionToRest, Nodes, RestCriterion, SettledImpact,
-    SimulatedImpact, Simulation, Status, TangentialContact, Trajectory,
+    SimulatedImpact, Contact, Status, TangentialContact, Trajectory,
 };
 use microimpact::{NormalMotion, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
 
@@ -57,14 +57,14 @@ impl Scene {
         self.force * 2.0 * PI * self.strength * (radius * self.equilibrium()).sqrt()
     }
 
-    fn run<T: Nodes<N>, const N: usize, O: microimpact::simulation::Output<T>>(
+    fn run<T: Nodes<N>, const N: usize, O: microimpact::contact::Output<T>>(
         &self,
         tolerance: f64,
         share: f64,
         turning_points: u32,
     ) -> SettledImpact<T, (), O> {
         let c = T::constant;
-        let scene = Simulation::new(sphere(), Stiffness::new(c(STIFFNESS)).unwrap());
+        let scene = Contact::hertz(sphere(), Stiffness::new(c(STIFFNESS)).unwrap());
         let scene = scene.with_damping(c(self.material)).unwrap();
         let scene = scene.with_ring(c(self.strength), c(self.adhesion)).unwrap();
         let scene = scene.with_external_force(c(self.external_force())).unwrap();
@@ -279,7 +279,7 @@ fn a_turning_point_next_to_the_equilibrium_spends_no_budget() {
     let sphere = Sphere::solid(5.06e-6, DENSITY).unwrap();
     for step in 0..100 {
         let stiffness = Stiffness::new(4e9 * 1.008_f64.powi(step)).unwrap();
-        let scene = Simulation::new(sphere, stiffness).with_damping(10.5).unwrap().with_ring(250.0, 6.25).unwrap();
+        let scene = Contact::hertz(sphere, stiffness).with_damping(10.5).unwrap().with_ring(250.0, 6.25).unwrap();
         let impact = |method: &Collocation<14, f64>| -> SimulatedImpact<f64, ()> {
             scene.observe(method, &NormalMotion::new(0.329_034_456_231).unwrap()).unwrap()
         };
@@ -320,7 +320,7 @@ fn spent_turning_points_are_reported() {
 /// A rebound is the same with and without the wish to follow a capture.
 #[test]
 fn rebound_is_not_followed() {
-    let scene = Simulation::new(sphere(), Stiffness::new(STIFFNESS).unwrap());
+    let scene = Contact::hertz(sphere(), Stiffness::new(STIFFNESS).unwrap());
     let scene = scene.with_damping(10.5).unwrap().with_ring(250.0, 6.25).unwrap();
     let (method, motion) = (Collocation::<9, f64>::new(1e-9).unwrap(), NormalMotion::new(8.0).unwrap());
     let settled: SettledImpact<_, _> =
@@ -333,7 +333,7 @@ fn rebound_is_not_followed() {
 #[test]
 fn friction_acts_until_rest() {
     let sphere = sphere();
-    let scene = Simulation::new(sphere, Stiffness::new(STIFFNESS).unwrap());
+    let scene = Contact::hertz(sphere, Stiffness::new(STIFFNESS).unwrap());
     let scene = scene.with_damping(10.5).unwrap().with_ring(250.0, 6.25).unwrap().with_friction(0.1).unwrap();
     let (method, criterion) = (Collocation::<12, f64>::new(1e-12).unwrap(), RestCriterion::new(1e-6, 1000).unwrap());
     for (tangential, peripheral) in

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use microimpact::simulation::{Nodes, PhaseNodes, Share};
+use microimpact::contact::{Nodes, PhaseNodes, Share};
 use microimpact::{FixedPoint, Real};
 
 /// Rounding to f64 alone.

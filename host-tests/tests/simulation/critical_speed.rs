@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use microimpact::simulation::{Collocation, ConstantForce, HystereticDamping, NoPeeling, Nodes, Ring, Simulation};
+use microimpact::contact::{Collocation, ConstantForce, HystereticDamping, NoPeeling, Nodes, Ring, Contact};
 use microimpact::{CriticalSpeed, InputError, NoFriction, NormalMotion, Outcome, Parameter, Real, Sphere, Stiffness};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -37,7 +37,7 @@ const FIGURE_6: Inputs = Inputs {
 impl Inputs {
     fn scene<T: Real>(&self) -> Result<Scene<T>, InputError> {
         let sphere = Sphere::solid(T::constant(self.radius), T::constant(self.density))?;
-        Simulation::new(sphere, Stiffness::new(T::constant(self.stiffness))?)
+        Contact::hertz(sphere, Stiffness::new(T::constant(self.stiffness))?)
             .with_damping(T::constant(self.zeta_h))?
             .with_ring(T::constant(self.adhesion), T::constant(self.zeta_a))?
             .with_external_force(T::constant(self.force))

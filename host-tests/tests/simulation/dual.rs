@@ -1,7 +1,7 @@
 //! Derivatives by dual numbers against differences of plain runs, and the rules of differentiation by themselves.
 
-use microimpact::simulation::{
-    Collocation, FixedCost, HystereticDamping, Method, Nodes, NormalContact, Ring, Simulation,
+use microimpact::contact::{
+    Collocation, FixedCost, HystereticDamping, Method, Nodes, NormalContact, Ring, Contact,
 };
 use microimpact::{
     CriticalSpeed, Dual, InputError, NormalMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
@@ -15,7 +15,7 @@ type Contact<T> = Simulation<T, HystereticDamping<T>, Ring<T>>;
 
 fn scene<T: Real>(inputs: [T; 7]) -> Result<Contact<T>, InputError> {
     let [_, radius, density, stiffness, strength, zeta_h, zeta_a] = inputs;
-    Simulation::new(Sphere::solid(radius, density)?, Stiffness::new(stiffness)?)
+    Contact::hertz(Sphere::solid(radius, density)?, Stiffness::new(stiffness)?)
         .with_damping(zeta_h)?
         .with_ring(strength, zeta_a)
 }

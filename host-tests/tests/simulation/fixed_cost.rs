@@ -1,7 +1,7 @@
 //! The method of fixed cost: its error over the paper's and random scenes, and its honesty where it does not serve.
 
-use microimpact::simulation::{
-    Collocation, ContactImpulses, FixedCost, Method, PhaseSamples, SimulatedImpact, Simulation, Status,
+use microimpact::contact::{
+    Collocation, ContactImpulses, FixedCost, Method, PhaseSamples, SimulatedImpact, Contact, Status,
     TangentialVelocities,
 };
 use microimpact::{NormalMotion, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
@@ -98,13 +98,13 @@ fn strong_damping_is_reported() {
     let mut unsolved = 0;
     for step in 0..200 {
         let zeta = 10f64.powf(f64::from(step) / 25.0);
-        let scene = Simulation::new(sphere, Stiffness::new(7.5e10).unwrap()).with_damping(zeta).unwrap();
-        let contact = scene.normal_impact(&quick, &motion).unwrap();
+        let scene = Contact::hertz(sphere, Stiffness::new(7.5e10).unwrap()).with_damping(zeta).unwrap();
+        let contact = scene.solve_normal(&motion, &quick).unwrap();
         if contact.status() != Status::Solved {
             unsolved += 1;
             continue;
         }
-        let e = scene.normal_impact(&exact, &motion).unwrap().overall_restitution();
+        let e = scene.solve_normal(&motion, &exact).unwrap().overall_restitution();
         assert_eq!(contact.outcome(), Some(Outcome::Rebound), "{zeta}");
         assert!(
             (contact.overall_restitution() - e).abs() < 0.02,

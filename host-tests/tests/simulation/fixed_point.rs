@@ -1,6 +1,6 @@
 //! The simulation in fixed point: its error over the paper's and random scenes, its refusals, and its bounds.
 
-use microimpact::simulation::{DimensionlessImpact, FixedCost, Status};
+use microimpact::contact::{DimensionlessImpact, FixedCost, Status};
 use microimpact::{Fault, FixedPoint, InputError, NormalMotion, Outcome, Parameter, Real, Sphere};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};

@@ -1,7 +1,7 @@
 //! The energy ledger closes to rounding, however strong the damping.
 
-use microimpact::simulation::{
-    Adaptive, Collocation, ContactWorks, Method, Output, SimulatedImpact, Simulation, Status,
+use microimpact::contact::{
+    Adaptive, Collocation, ContactWorks, Method, Output, SimulatedImpact, Contact, Status,
 };
 use microimpact::{InputError, NormalMotion, Real, Sphere, Stiffness};
 
@@ -15,9 +15,9 @@ where
     let sphere = Sphere::solid(c(5e-6), c(2600.0))?;
     let motion = NormalMotion::new(c(1.0))?;
     // zeta_H of h = 1.
-    let unit = Simulation::new(Sphere::solid(5e-6, 2600.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
+    let unit = Contact::hertz(Sphere::solid(5e-6, 2600.0)?, Stiffness::new(1e10)?).with_damping(1.0)?;
     let material = damping / unit.groups(&NormalMotion::new(1.0)?)?.material_damping;
-    let scene = Simulation::new(sphere, Stiffness::new(c(1e10))?)
+    let scene = Contact::hertz(sphere, Stiffness::new(c(1e10))?)
         .with_damping(c(material))?
         .with_ring(c(strength), c(0.5 * material))?;
     let impact: SimulatedImpact<T, (), ContactWorks<T>> = scene.observe(method, &motion)?;

@@ -1,6 +1,6 @@
 //! What the approximate functions of micromath do to both models: the reason why the library does not offer them.
 
-use microimpact::simulation::{DimensionlessContact, FixedCost, PhaseNodes};
+use microimpact::contact::{DimensionlessContact, FixedCost, PhaseNodes};
 use microimpact::{CriticalSpeed, Outcome, Real, RigidBody, SpeedRestitution, Sphere};
 use microimpact_scenes::approximate::Approximate;
 use reference::{Case, cases};

@@ -1,7 +1,7 @@
 //! The paper's own method: how fast it converges, and the numbers that the paper prints, from it and from collocation.
 
-use microimpact::simulation::{
-    Collocation, Everything, Nodes, NormalContact, RungeKuttaGill, SimulatedImpact, Simulation, Status,
+use microimpact::contact::{
+    Collocation, Everything, Nodes, NormalContact, RungeKuttaGill, SimulatedImpact, Contact, Status,
     TangentialContact,
 };
 use microimpact::{InputError, NormalMotion, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
@@ -186,7 +186,7 @@ type Scene = reference::Scene<f64>;
 type Motion = microimpact::PlanarMotion<f64>;
 
 fn scene(radius: f64, strength: f64, zeta_h: f64, zeta_a: f64) -> Scene {
-    Simulation::new(Sphere::solid(radius, 2600.0).unwrap(), Stiffness::new(7.5e10).unwrap())
+    Contact::hertz(Sphere::solid(radius, 2600.0).unwrap(), Stiffness::new(7.5e10).unwrap())
         .with_damping(zeta_h)
         .unwrap()
         .with_ring(strength, zeta_a)

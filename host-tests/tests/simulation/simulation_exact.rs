@@ -3,8 +3,8 @@
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;
 
-use microimpact::simulation::{
-    Adaptive, Collocation, Everything, FixedCost, Method, Output, Peeling, Ring, SimulatedImpact, Simulation, Status,
+use microimpact::contact::{
+    Adaptive, Collocation, Everything, FixedCost, Method, Output, Peeling, Ring, SimulatedImpact, Contact, Status,
     TangentialContact, TangentialScene,
 };
 use microimpact::{
@@ -35,7 +35,7 @@ fn damping_unit(sphere: &Sphere<f64>, stiffness: Stiffness<f64>, speed: f64) -> 
 /// The ring force is conservative, so without damping nothing is lost or captured, at any speed.
 #[test]
 fn no_damping_returns_everything() {
-    let free = Simulation::new(sphere(), stiffness());
+    let free = Contact::hertz(sphere(), stiffness());
     let held = free.with_ring(250.0, 0.0).unwrap();
     for decade in -4..=4 {
         let motion = NormalMotion::new(10f64.powi(decade)).unwrap();
@@ -56,7 +56,7 @@ fn hunt_crossley() {
         for (d, e) in exact {
             let speed = 3.0;
             let zeta = d / (speed * damping_unit(&sphere, stiffness, speed));
-            let scene = Simulation::new(sphere, stiffness).with_damping(zeta).unwrap();
+            let scene = Contact::hertz(sphere, stiffness).with_damping(zeta).unwrap();
             let contact = scene.normal_impact(&method(), &NormalMotion::new(speed).unwrap()).unwrap();
             let found = contact.overall_restitution();
             assert!((found - e).abs() < 6e-10, "{d}: {found}");
@@ -72,7 +72,7 @@ fn strong_damping_has_no_cliff() {
     for decade in 0..=6 {
         let d = 10f64.powi(decade);
         let zeta = d / damping_unit(&sphere(), stiffness(), 1.0);
-        let scene = Simulation::new(sphere(), stiffness()).with_damping(zeta).unwrap();
+        let scene = Contact::hertz(sphere(), stiffness()).with_damping(zeta).unwrap();
         let impact = scene.impact(&method(), &NormalMotion::new(1.0).unwrap()).unwrap();
         assert_eq!(impact.run.status, Status::Solved);
         assert_eq!(impact.normal.outcome(), Some(Outcome::Rebound));
@@ -90,7 +90,7 @@ fn undamped_peaks() {
     let equilibrium = 2.0 * std::f64::consts::PI * 250.0 / 7.5e10;
     let (r, k) = (5.06e-6_f64, 7.5e10);
     let unit = equilibrium * (k * (r * equilibrium).sqrt() / sphere().mass()).sqrt();
-    let scene = Simulation::new(sphere(), stiffness()).with_ring(250.0, 0.0).unwrap();
+    let scene = Contact::hertz(sphere(), stiffness()).with_ring(250.0, 0.0).unwrap();
     for (v, x) in [(0.5, 1.79645), (1.0, 2.08258), (3.0, 3.43431), (1e-4, 5.0 / 3.0)] {
         let contact = scene.normal_impact(&method(), &NormalMotion::new(v * unit).unwrap()).unwrap();
         let peak = contact.peak_indentation().unwrap() / equilibrium;
@@ -104,8 +104,8 @@ fn undamped_peaks() {
 /// The tangential impulse at which slip ends and the final rolling velocity do not depend on the force law.
 #[test]
 fn rolling_is_independent_of_the_force_law() {
-    let free = Simulation::new(sphere(), stiffness()).with_friction(0.3).unwrap();
-    let held = Simulation::new(sphere(), stiffness())
+    let free = Contact::hertz(sphere(), stiffness()).with_friction(0.3).unwrap();
+    let held = Contact::hertz(sphere(), stiffness())
         .with_damping(10.5)
         .and_then(|scene| scene.with_ring(250.0, 6.25))
         .and_then(|scene| scene.with_friction(0.3))
@@ -124,7 +124,7 @@ fn rolling_is_independent_of_the_force_law() {
 /// Without adhesion and damping the elastic force turns the momentum round, so friction takes f times twice of it.
 #[test]
 fn sliding_impulse() {
-    let scene = Simulation::new(sphere(), stiffness()).with_friction(0.05).unwrap();
+    let scene = Contact::hertz(sphere(), stiffness()).with_friction(0.05).unwrap();
     let contact = scene.impact(&method(), &planar(2.0, 5.0, 0.0)).unwrap().tangential;
     assert_eq!(contact.motion(), SurfaceMotion::Sliding);
     assert!((contact.tangential() - (5.0 - 0.05 * 4.0)).abs() < 1e-12);
@@ -135,7 +135,7 @@ fn sliding_impulse() {
 #[test]
 fn similar_scenes_agree() {
     let e = |sphere: Sphere<f64>, stiffness: Stiffness<f64>, strength: f64, speed: f64| {
-        let scene = Simulation::new(sphere, stiffness).with_damping(10.5).unwrap().with_ring(strength, 6.25).unwrap();
+        let scene = Contact::hertz(sphere, stiffness).with_damping(10.5).unwrap().with_ring(strength, 6.25).unwrap();
         scene.normal_impact(&method(), &NormalMotion::new(speed).unwrap()).unwrap().overall_restitution()
     };
     let expected = e(sphere(), stiffness(), 250.0, 2.8);
@@ -150,7 +150,7 @@ fn similar_scenes_agree() {
 #[test]
 fn constant_force_is_conservative() {
     let motion = NormalMotion::new(2.8).unwrap();
-    let free = Simulation::new(sphere(), stiffness());
+    let free = Contact::hertz(sphere(), stiffness());
     let undisturbed = free.impact(&method(), &motion).unwrap();
     for force in [-1e-5, 1e-5] {
         let scene = free.with_external_force(force).unwrap();
@@ -169,7 +169,7 @@ fn constant_force_is_conservative() {
 #[test]
 fn force_out_of_the_surface_is_a_barrier() {
     let sphere = Sphere::solid(5e-6, 2600.0).unwrap();
-    let scene = Simulation::new(sphere, stiffness()).with_damping(10.5).unwrap().with_ring(250.0, 6.25).unwrap();
+    let scene = Contact::hertz(sphere, stiffness()).with_damping(10.5).unwrap().with_ring(250.0, 6.25).unwrap();
     for force in [1e-4, 1.5e-4] {
         let scene = scene.with_external_force(force).unwrap();
         let CriticalSpeed::At(critical) = scene.critical_speed(&method()).unwrap() else {
@@ -201,7 +201,7 @@ fn planar<T: Real>(speed: T, tangential: T, peripheral: T) -> PlanarMotion<T> {
 /// others, slow ones and those that are over within a fraction of the contact.
 #[test]
 fn spin_without_friction_decays_exponentially() {
-    let scene = Simulation::new(sphere(), stiffness()).with_damping(10.5).unwrap().with_ring(250.0, 6.25).unwrap();
+    let scene = Contact::hertz(sphere(), stiffness()).with_damping(10.5).unwrap().with_ring(250.0, 6.25).unwrap();
     let motion = planar(10.0, 0.0, 1.0);
     let left = |lambda: f64, exact: bool| {
         let scene = scene.with_friction(0.0).unwrap().with_peeling(lambda).unwrap();
@@ -299,7 +299,7 @@ impl Inputs {
         let motion = NormalMotion::new(number(self.speed))?
             .with_tangential(number(self.tangential))?
             .with_spin(&sphere, number(self.spin))?;
-        let scene = Simulation::new(sphere, Stiffness::new(number(self.stiffness))?)
+        let scene = Contact::hertz(sphere, Stiffness::new(number(self.stiffness))?)
             .with_damping(number(self.zeta_h))?
             .with_ring(number(self.strength), number(self.zeta_a))?
             .with_friction(number(self.friction))?

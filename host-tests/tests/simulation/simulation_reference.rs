@@ -1,6 +1,6 @@
 //! The contact simulation against solutions to 20 digits.
 
-use microimpact::simulation::{Collocation, Nodes, SimulatedImpact, Status, TangentialContact};
+use microimpact::contact::{Collocation, Nodes, SimulatedImpact, Status, TangentialContact};
 use microimpact::{InputError, Outcome, Real, SurfaceMotion};
 use reference::{Case, cases};
 

@@ -1,7 +1,7 @@
 //! The recorded course of an impact: what is kept of it, how evenly, and how exactly.
 
-use microimpact::simulation::{
-    Collocation, Everything, Nodes, NormalContact, RunReport, Sample, SimulatedImpact, Simulation, TangentialContact,
+use microimpact::contact::{
+    Collocation, Everything, Nodes, NormalContact, RunReport, Sample, SimulatedImpact, Contact, TangentialContact,
     Trajectory,
 };
 use microimpact::{NormalMotion, Outcome, PlanarMotion, Real, Sphere, Stiffness};
@@ -33,7 +33,7 @@ impl Scene {
     fn run<T: Nodes<9>, const N: usize>(self, tolerance: f64) -> Impact<T, N> {
         let c = T::constant;
         let Self(speed, slip, zeta, strength, zeta_adhesion) = self;
-        let scene = Simulation::new(sphere(), Stiffness::new(c(7.5e10)).unwrap());
+        let scene = Contact::hertz(sphere(), Stiffness::new(c(7.5e10)).unwrap());
         let scene = scene.with_damping(c(zeta)).unwrap().with_ring(c(strength), c(zeta_adhesion)).unwrap();
         let oblique = NormalMotion::new(c(speed)).unwrap().with_tangential(c(slip)).unwrap();
         let motion: PlanarMotion<T> = oblique.with_peripheral_velocity(T::ZERO).unwrap();

@@ -1,9 +1,9 @@
 //! Probabilities of classes against Monte Carlo, and the two normal distributions against quadrature.
 
-use microimpact::simulation::{
-    Collocation, HystereticDamping, Nodes, Ring, SimulatedImpact, Simulation, TangentialContact,
+use microimpact::contact::{
+    Collocation, HystereticDamping, Nodes, Ring, SimulatedImpact, Contact, TangentialContact,
 };
-use microimpact::uncertainty::{ClassProbabilities, NormalDistribution, rebound_probability, stopped_slip};
+use microimpact::measure::{ClassProbabilities, NormalDistribution, rebound_probability, stopped_slip};
 use microimpact::{
     Approach, Class, Coulomb, CriticalSpeed, Dual, InputError, NormalMotion, ObliqueMotion, Outcome, PlanarMotion,
     Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
@@ -92,7 +92,7 @@ fn contact<T: Real>(
     inputs: [T; 6],
 ) -> Result<(Simulation<T, HystereticDamping<T>, Ring<T>>, NormalMotion<T>), InputError> {
     let [speed, radius, stiffness, f0, zeta_h, zeta_a] = inputs;
-    let scene = Simulation::new(Sphere::solid(radius, T::constant(2600.0))?, Stiffness::new(stiffness)?)
+    let scene = Contact::hertz(Sphere::solid(radius, T::constant(2600.0))?, Stiffness::new(stiffness)?)
         .with_damping(zeta_h)?
         .with_ring(f0, zeta_a)?;
     Ok((scene, NormalMotion::new(speed)?))

@@ -95,7 +95,7 @@ impl<T: Real, const PEELS: bool> TangentialMotion<T, PEELS> {
         let mut peeled = T::ZERO;
         for j in 0..N {
             let u = peripheral[j];
-            peeled = peeled + T::WHOLE[j] * interval.rate[j] * law.contact_radius(interval.s[j]) * u * u;
+            peeled = peeled + T::WEIGHTS[j] * interval.rate[j] * law.contact_radius(interval.s[j]) * u * u;
         }
         self.gyration_ratio * self.peeling * peeled
     }
@@ -129,7 +129,7 @@ impl<T: Real, const PEELS: bool> TangentialMotion<T, PEELS> {
     {
         let mut impulse = T::ZERO;
         for j in 0..N {
-            impulse = impulse + T::WHOLE[j] * law.elastic_force(interval.s[j]) * interval.rate[j];
+            impulse = impulse + T::WEIGHTS[j] * law.elastic_force(interval.s[j]) * interval.rate[j];
         }
         self.slip_left() - self.closing() * impulse
     }
@@ -144,7 +144,7 @@ impl<T: Real, const PEELS: bool> TangentialMotion<T, PEELS> {
     where
         T: Nodes<N>,
     {
-        let mut running = integrals(&T::RUNNING, f);
+        let mut running = integrals(&T::INTEGRATION, f);
         let whole = running[N - 1];
         if !forward {
             running = running.map(|part| whole - part);
@@ -223,7 +223,7 @@ impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
     where
         T: Nodes<N>,
     {
-        let duration = dot(&T::WHOLE, &interval.rate);
+        let duration = dot(&T::WEIGHTS, &interval.rate);
         if !self.slides() && !PEELS {
             return self.pass_rolling(duration);
         }
@@ -231,7 +231,7 @@ impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
         if self.slides() {
             let slide = self.slide(law, interval);
             for j in 0..N {
-                let moment = T::WHOLE[j] * interval.rate[j];
+                let moment = T::WEIGHTS[j] * interval.rate[j];
                 self.displacement = self.displacement + moment * slide.velocity[j];
                 self.rotation = self.rotation + moment * slide.peripheral[j];
             }
@@ -254,7 +254,7 @@ impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
         };
         let mut distance = T::ZERO;
         for j in 0..N {
-            distance = distance + T::WHOLE[j] * interval.rate[j] * velocity[j];
+            distance = distance + T::WEIGHTS[j] * interval.rate[j] * velocity[j];
         }
         let energy = self.energy();
         self.velocity = after;
@@ -316,7 +316,7 @@ impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
     ) where
         T: Nodes<N>,
     {
-        let end = self.now + dot(&T::WHOLE, &whole.rate);
+        let end = self.now + dot(&T::WEIGHTS, &whole.rate);
         self.observe(law, before, rebound);
         self.roll(-late);
         if PEELS {
@@ -404,7 +404,7 @@ fn root_between_nodes<T: Nodes<N>, const N: usize>(values: &[T; N], slopes: &[T;
             if distance == T::ZERO {
                 return values[j];
             }
-            let weight = T::TAIL[j] / distance;
+            let weight = T::HIGHEST_COEFFICIENT[j] / distance;
             numerator = numerator + weight * values[j];
             denominator = denominator + weight;
         }

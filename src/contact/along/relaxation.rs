@@ -24,7 +24,7 @@ pub(crate) fn relaxed<T: Nodes<N>, const N: usize>(
     decay: &[T; N],
     forward: bool,
 ) -> ([T; N], T) {
-    let whole = dot(&T::WHOLE, decay);
+    let whole = dot(&T::WEIGHTS, decay);
     let mut parts = 1;
     while parts < MOST_PARTS && whole > T::constant(f64::from(parts) * N as f64) {
         parts += 1;
@@ -41,8 +41,8 @@ pub(crate) fn relaxed<T: Nodes<N>, const N: usize>(
         for k in 0..N {
             let (f, g) = (length * f[k], length * g[k].max(T::ZERO));
             for j in 0..N {
-                matrix[j][k] = T::RUNNING[k][j] * g;
-                right[j] = right[j] + T::RUNNING[k][j] * f;
+                matrix[j][k] = T::INTEGRATION[k][j] * g;
+                right[j] = right[j] + T::INTEGRATION[k][j] * f;
             }
         }
         for j in 0..N {

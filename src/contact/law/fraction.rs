@@ -39,3 +39,12 @@ impl<T: Real> Fraction<T> {
         Self { value, square, cubic, quintic: T::ONE + value + square * cubic }
     }
 }
+
+impl Fraction<f64> {
+    /// As [`new`](Self::new), for tables.
+    pub(crate) const fn at(value: f64) -> Self {
+        let square = value * value;
+        let cubic = 1.0 + value + square;
+        Self { value, square, cubic, quintic: 1.0 + value + square * cubic }
+    }
+}

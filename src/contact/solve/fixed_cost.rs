@@ -46,7 +46,7 @@ impl<const N: usize> FixedCost<N> {
     /// assert!(microimpact::contact::FixedCost::<5>::new(0).is_err());
     /// ```
     pub fn new(iterations: u32) -> Result<Self, InputError> {
-        Parameter::Sweeps.check(f64::from(iterations))?;
+        Parameter::Iterations.check(f64::from(iterations))?;
         Ok(Self { iterations })
     }
 

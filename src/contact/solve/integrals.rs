@@ -49,7 +49,7 @@ pub trait Integrals<T: Real>: Quantities<T> {
         T: Nodes<N>,
     {
         for j in 0..N {
-            let duration = T::WHOLE[j] * interval.rate[j];
+            let duration = T::WEIGHTS[j] * interval.rate[j];
             let growth = self.growth(law, interval.s[j], interval.y[j], rebound);
             *self = self.combine(growth, |sum, rate| sum + duration * rate);
         }
@@ -132,7 +132,7 @@ impl<T: Real> Observer<T> for Times<T> {
     where
         T: Nodes<N>,
     {
-        let duration = dot(&T::WHOLE, &interval.rate);
+        let duration = dot(&T::WEIGHTS, &interval.rate);
         let growth = self.growth(law, T::ZERO, T::ZERO, rebound);
         *self = self.combine(growth, |sum, rate| sum + duration * rate);
     }

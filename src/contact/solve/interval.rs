@@ -257,8 +257,8 @@ impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
     /// quadrature converges twice as fast as interpolation.
     #[inline]
     fn error(&self, scale: T, rate: &[T; N], control: &Control<T>) -> T {
-        let tail = |f: &[T; N]| dot(&T::TAIL, f).abs();
-        let share = tail(&self.power) / (dot(&T::WHOLE, &self.power).abs() + scale + T::SMALLEST);
+        let tail = |f: &[T; N]| dot(&T::HIGHEST_COEFFICIENT, f).abs();
+        let share = tail(&self.power) / (dot(&T::WEIGHTS, &self.power).abs() + scale + T::SMALLEST);
         let share = if control.times > T::ZERO { share.max(control.times * tail_of_times(rate)) } else { share };
         T::constant(0.02) * share * share
     }
@@ -269,7 +269,7 @@ impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
 pub(crate) fn tail_of_times<T: Nodes<N>, const N: usize>(rate: &[T; N]) -> T {
     // The highest share alone may vanish by chance.
     let before = T::constant(0.3) * dot(&T::LEGENDRE[N - 2], rate).abs();
-    dot(&T::TAIL, rate).abs().max(before) / (dot(&T::WHOLE, rate).abs() + T::SMALLEST)
+    dot(&T::HIGHEST_COEFFICIENT, rate).abs().max(before) / (dot(&T::WEIGHTS, rate).abs() + T::SMALLEST)
 }
 
 enum Progress {
@@ -305,7 +305,7 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
         loss[j] = two * length[j] * law.loss(s[j], course.rebound);
         possible &= free[j] > T::ZERO;
         // Half of what the losses have taken so far, over the speed, is what a sweep leaves of an error.
-        let here = T::WHOLE[j] * loss[j];
+        let here = T::WEIGHTS[j] * loss[j];
         taken[j] = half * (reach + half * here);
         reach = reach + here;
         contracting &= reach * reach < free[j];
@@ -317,12 +317,12 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     let mut state = Sweeps::from(&free, &loss, &taken);
     let mut accepted = possible;
     let mut newton = false;
-    if possible && !(contracting && state.settle(&free, &loss, &T::RUNNING, control)) {
+    if possible && !(contracting && state.settle(&free, &loss, &T::INTEGRATION, control)) {
         newton = true;
         accepted = solve_strongly_damped(&free, &loss, &mut state, control);
     }
     *sweeps += state.sweeps;
-    let lost = dot(&T::WHOLE, &state.power);
+    let lost = dot(&T::WEIGHTS, &state.power);
     let mut rate = [T::ZERO; N];
     for j in 0..N {
         accepted &= state.speed[j] > T::ZERO;
@@ -369,9 +369,9 @@ pub(crate) fn leave<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     let mut state = Sweeps::from(&free, &loss, &taken_from_turning_point(&loss));
     // A sixth of the loss over the speed is what a sweep leaves of an error.
     let contraction = T::constant(0.34) * strongest * state.half_inverse[0];
-    let mut accepted = possible && contraction < T::constant(0.4) && state.settle(&free, &loss, &T::TURNING, control);
+    let mut accepted = possible && contraction < T::constant(0.4) && state.settle(&free, &loss, &T::TURNING_INTEGRATION, control);
     *sweeps += state.sweeps;
-    let lost = half * dot(&T::WHOLE_TURNING, &state.power);
+    let lost = half * dot(&T::TURNING_WEIGHTS, &state.power);
     let (rate, y) = from_turning_point(law, &s, &state, depth.abs(), &mut accepted);
     let error = state.error(free[N - 1], &rate, control);
     let speed_squared = two * (depth * law.mean_slope(peak, s[N - 1]) - lost);
@@ -435,9 +435,9 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     let mut estimated = true;
     loop {
         // Seen from the turning point the losses of the way there are still to come. A first step goes by their estimate.
-        let change = if estimated { T::ONE } else { state.sweep(&free, &loss, |free, lost| free + lost, &T::TURNING) };
+        let change = if estimated { T::ONE } else { state.sweep(&free, &loss, |free, lost| free + lost, &T::TURNING_INTEGRATION) };
         estimated = false;
-        lost = half * dot(&T::WHOLE_TURNING, &state.power);
+        lost = half * dot(&T::TURNING_WEIGHTS, &state.power);
         let excess = if by_speed {
             law.mean_slope(turning, from.s) * depth + lost - half * from.speed_squared
         } else {
@@ -546,7 +546,7 @@ fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
         for j in 0..N {
             let mut lost = T::ZERO;
             for k in 0..N {
-                jacobian[j][k] = T::RUNNING[k][j] * loss[k];
+                jacobian[j][k] = T::INTEGRATION[k][j] * loss[k];
                 lost = lost + jacobian[j][k] * speed[k];
             }
             jacobian[j][j] = jacobian[j][j] + speed[j] + speed[j];

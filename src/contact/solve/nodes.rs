@@ -6,8 +6,8 @@
 
 use core::f64::consts::PI;
 
-use crate::Real;
 use crate::contact::law::Fraction;
+use crate::{Real, lift_tables};
 
 /// A number type with the tables for `N` nodes: a function f on 0..1 is given by its values at the nodes.
 ///
@@ -15,79 +15,48 @@ use crate::contact::law::Fraction;
 /// use microimpact::contact::Nodes;
 ///
 /// // Radau's quadrature with three nodes is exact for z^4.
-/// let integral: f64 = <f64 as Nodes<3>>::Z.iter().zip(<f64 as Nodes<3>>::WHOLE).map(|(z, weight)| weight * z.powi(4)).sum();
+/// let integral: f64 = <f64 as Nodes<3>>::Z.iter().zip(<f64 as Nodes<3>>::WEIGHTS).map(|(z, weight)| weight * z.powi(4)).sum();
 /// assert!((integral - 0.2).abs() < 1e-15);
 /// ```
 pub trait Nodes<const N: usize>: Real {
     /// The nodes, in rising order; the last is 1.
     const Z: [Self; N];
-    /// Integral of f from 0 to node j: sum over k of `RUNNING[k][j]` f(k).
-    const RUNNING: [[Self; N]; N];
-    /// Integral of z^2 f from 0 to node j, over the square of that node: sum over k of `TURNING[k][j]` f(k).
-    const TURNING: [[Self; N]; N];
+    /// Integral of f from 0 to node j: sum over k of `INTEGRATION[k][j]` f(k).
+    const INTEGRATION: [[Self; N]; N];
+    /// Integral of z^2 f from 0 to node j, over the square of that node: sum over k of `TURNING_INTEGRATION[k][j]` f(k).
+    const TURNING_INTEGRATION: [[Self; N]; N];
     /// Integral of f from 0 to 1.
-    const WHOLE: [Self; N];
+    const WEIGHTS: [Self; N];
     /// Integral of z^2 f from 0 to 1.
-    const WHOLE_TURNING: [Self; N];
+    const TURNING_WEIGHTS: [Self; N];
     /// Coefficient of the highest Legendre polynomial in f: a measure of what N nodes cannot represent.
     ///
     /// Up to a common factor these are the weights of barycentric interpolation too.
-    const TAIL: [Self; N];
+    const HIGHEST_COEFFICIENT: [Self; N];
     /// Coefficient of the shifted Legendre polynomial of degree i in f: sum over k of `LEGENDRE[i][k]` f(k).
     const LEGENDRE: [[Self; N]; N];
 }
 
-macro_rules! impl_nodes {
-    ($float:ident) => {
-        impl<const N: usize> Nodes<N> for $float {
-            const Z: [Self; N] = narrowed!($float, Table::<N>::Z);
-            const RUNNING: [[Self; N]; N] = narrowed_square!($float, Table::<N>::RUNNING);
-            const TURNING: [[Self; N]; N] = narrowed_square!($float, Table::<N>::TURNING);
-            const WHOLE: [Self; N] = narrowed!($float, last_column(&Table::<N>::RUNNING));
-            const WHOLE_TURNING: [Self; N] = narrowed!($float, last_column(&Table::<N>::TURNING));
-            const TAIL: [Self; N] = narrowed!($float, Table::<N>::TAIL);
-            const LEGENDRE: [[Self; N]; N] = narrowed_square!($float, Table::<N>::LEGENDRE);
-        }
-    };
+impl<const N: usize> Nodes<N> for f64 {
+    const Z: [Self; N] = Table::<N>::Z;
+    const INTEGRATION: [[Self; N]; N] = Table::<N>::INTEGRATION;
+    const TURNING_INTEGRATION: [[Self; N]; N] = Table::<N>::TURNING_INTEGRATION;
+    const WEIGHTS: [Self; N] = last_column(&Table::<N>::INTEGRATION);
+    const TURNING_WEIGHTS: [Self; N] = last_column(&Table::<N>::TURNING_INTEGRATION);
+    const HIGHEST_COEFFICIENT: [Self; N] = Table::<N>::HIGHEST_COEFFICIENT;
+    const LEGENDRE: [[Self; N]; N] = Table::<N>::LEGENDRE;
 }
 
-macro_rules! narrowed {
-    ($float:ident, $wide:expr) => {{
-        let wide = $wide;
-        let mut narrow = [0.0; N];
-        let mut i = 0;
-        while i < N {
-            narrow[i] = wide[i] as $float;
-            i += 1;
-        }
-        narrow
-    }};
-}
-
-macro_rules! narrowed_square {
-    ($float:ident, $wide:expr) => {{
-        let wide = $wide;
-        let mut narrow = [[0.0; N]; N];
-        let mut i = 0;
-        while i < N {
-            narrow[i] = narrowed!($float, wide[i]);
-            i += 1;
-        }
-        narrow
-    }};
-}
-
-impl_nodes!(f32);
-impl_nodes!(f64);
+lift_tables!(f32, |wide: f64| wide as f32);
 
 struct Table<const N: usize>;
 
 impl<const N: usize> Table<N> {
     const Z: [f64; N] = nodes();
     const WEIGHTS: [f64; N] = weights(&Self::Z);
-    const RUNNING: [[f64; N]; N] = integrals(&Self::Z, &Self::WEIGHTS, false);
-    const TURNING: [[f64; N]; N] = integrals(&Self::Z, &Self::WEIGHTS, true);
-    const TAIL: [f64; N] = tail(&Self::Z);
+    const INTEGRATION: [[f64; N]; N] = integrals(&Self::Z, &Self::WEIGHTS, false);
+    const TURNING_INTEGRATION: [[f64; N]; N] = integrals(&Self::Z, &Self::WEIGHTS, true);
+    const HIGHEST_COEFFICIENT: [f64; N] = tail(&Self::Z);
     const LEGENDRE: [[f64; N]; N] = {
         let (mut table, mut i) = ([[0.0; N]; N], 0);
         while i < N {
@@ -239,7 +208,7 @@ const fn tail<const N: usize>(z: &[f64; N]) -> [f64; N] {
 /// ```
 /// use microimpact::contact::PhaseNodes;
 ///
-/// let weight: f64 = <f64 as PhaseNodes<5>>::WHOLE.iter().sum();
+/// let weight: f64 = <f64 as PhaseNodes<5>>::WEIGHTS.iter().sum();
 /// assert!((weight - 8.0 / 105.0).abs() < 1e-15);
 /// ```
 pub trait PhaseNodes<const N: usize>: Real {
@@ -247,22 +216,22 @@ pub trait PhaseNodes<const N: usize>: Real {
     const Z: [Self; N];
     /// The contact radii.
     const FRACTIONS: [Fraction<Self>; N];
-    /// Integral of the weighted f from 0 to node j, over the square of that node: sum over k of `RUNNING[k][j]` f(k).
-    const RUNNING: [[Self; N]; N];
+    /// Integral of the weighted f from 0 to node j, over the square of that node: sum over k of `INTEGRATION[k][j]` f(k).
+    const INTEGRATION: [[Self; N]; N];
     /// The same for two f linear in m^2: one at the first node and zero at the last, and the reverse.
-    const RUNNING_ENDS: [(Self, Self); N];
+    const END_INTEGRATION: [(Self, Self); N];
     /// Integral of the weighted f from 0 to 1.
-    const WHOLE: [Self; N];
-    /// The same for two f linear in m^2, as in [`RUNNING_ENDS`](Self::RUNNING_ENDS).
-    const WHOLE_ENDS: (Self, Self);
+    const WEIGHTS: [Self; N];
+    /// The same for two f linear in m^2, as in [`END_INTEGRATION`](Self::END_INTEGRATION).
+    const END_WEIGHTS: (Self, Self);
     /// Fraction in f of the highest polynomial orthogonal under the weight, in units of the weighted integral of f.
     ///
     /// Up to a common factor these are the weights of barycentric interpolation too.
-    const TAIL: [Self; N];
+    const HIGHEST_COEFFICIENT: [Self; N];
     /// Speed, over z, below which the sphere has turned; a type holds the reciprocal of twice as much.
     const SLOWEST: Self;
 
-    /// Adds to each sum what the weighted product f g gives up to its node, as [`RUNNING`](Self::RUNNING) has it.
+    /// Adds to each sum what the weighted product f g gives up to its node, as [`INTEGRATION`](Self::INTEGRATION) has it.
     ///
     /// A type of few digits rounds each sum once.
     ///
@@ -270,17 +239,17 @@ pub trait PhaseNodes<const N: usize>: Real {
     /// use microimpact::contact::PhaseNodes;
     ///
     /// let mut sums = [0.0_f64; 5];
-    /// PhaseNodes::add_running(&mut sums, &[2.0; 5], &[0.5; 5]);
-    /// for (sum, ends) in sums.iter().zip(<f64 as PhaseNodes<5>>::RUNNING_ENDS) {
+    /// PhaseNodes::add_integrals(&mut sums, &[2.0; 5], &[0.5; 5]);
+    /// for (sum, ends) in sums.iter().zip(<f64 as PhaseNodes<5>>::END_INTEGRATION) {
     ///     assert!((sum - (ends.0 + ends.1)).abs() < 1e-15);
     /// }
     /// ```
     #[inline]
-    fn add_running(sums: &mut [Self; N], f: &[Self; N], g: &[Self; N]) {
+    fn add_integrals(sums: &mut [Self; N], f: &[Self; N], g: &[Self; N]) {
         for k in 0..N {
             let product = f[k] * g[k];
             for j in 0..N {
-                sums[j] = sums[j] + Self::RUNNING[k][j] * product;
+                sums[j] = sums[j] + Self::INTEGRATION[k][j] * product;
             }
         }
     }
@@ -292,86 +261,43 @@ pub trait PhaseNodes<const N: usize>: Real {
 /// use microimpact::contact::{Nodes, PhaseNodes, PhaseSamples};
 ///
 /// // At z = 1 the integral is that of the whole phase.
-/// let table = <f64 as PhaseSamples<5, 8>>::RUNNING;
-/// for (row, whole) in table.iter().zip(<f64 as PhaseNodes<5>>::WHOLE) {
+/// let table = <f64 as PhaseSamples<5, 8>>::INTEGRATION;
+/// for (row, whole) in table.iter().zip(<f64 as PhaseNodes<5>>::WEIGHTS) {
 ///     assert!((row[7] - whole).abs() < 1e-15);
 /// }
 /// ```
 pub trait PhaseSamples<const N: usize, const M: usize>: PhaseNodes<N> + Nodes<M> {
     /// The contact radii at Radau's nodes.
     const FRACTIONS: [Fraction<Self>; M];
-    /// Integral of the weighted f from 0 to Radau's node q, over the square of that node: sum over k of `RUNNING[k][q]` f(k).
-    const RUNNING: [[Self; M]; N];
+    /// Integral of the weighted f from 0 to Radau's node q, over the square of that node: sum over k of `INTEGRATION[k][q]` f(k).
+    const INTEGRATION: [[Self; M]; N];
 }
 
-macro_rules! impl_phase_nodes {
-    ($float:ident) => {
-        impl<const N: usize> PhaseNodes<N> for $float {
-            const Z: [Self; N] = narrowed!($float, Phase::<N>::Z);
-            const FRACTIONS: [Fraction<Self>; N] = shares!($float, N, Phase::<N>::Z);
-            const RUNNING: [[Self; N]; N] = narrowed_square!($float, Phase::<N>::RUNNING);
-            const RUNNING_ENDS: [(Self, Self); N] = {
-                let wide = Phase::<N>::RUNNING_ENDS;
-                let mut narrow = [(0.0, 0.0); N];
-                let mut j = 0;
-                while j < N {
-                    narrow[j] = (wide[j].0 as $float, wide[j].1 as $float);
-                    j += 1;
-                }
-                narrow
-            };
-            const WHOLE: [Self; N] = narrowed!($float, Phase::<N>::WHOLE);
-            const WHOLE_ENDS: (Self, Self) = {
-                let (first, last) = Phase::<N>::WHOLE_ENDS;
-                (first as $float, last as $float)
-            };
-            const TAIL: [Self; N] = narrowed!($float, Phase::<N>::TAIL);
-            const SLOWEST: Self = 1e-3;
-        }
-
-        impl<const N: usize, const M: usize> PhaseSamples<N, M> for $float {
-            const FRACTIONS: [Fraction<Self>; M] = shares!($float, M, Table::<M>::Z);
-            const RUNNING: [[Self; M]; N] = {
-                let wide = Phase::<N>::integrals(&Table::<M>::Z);
-                let mut narrow = [[0.0; M]; N];
-                let mut k = 0;
-                while k < N {
-                    let mut q = 0;
-                    while q < M {
-                        narrow[k][q] = wide[k][q] as $float;
-                        q += 1;
-                    }
-                    k += 1;
-                }
-                narrow
-            };
-        }
-    };
+impl<const N: usize> PhaseNodes<N> for f64 {
+    const Z: [Self; N] = Phase::<N>::Z;
+    const FRACTIONS: [Fraction<Self>; N] = fractions(&Phase::<N>::Z);
+    const INTEGRATION: [[Self; N]; N] = Phase::<N>::INTEGRATION;
+    const END_INTEGRATION: [(Self, Self); N] = Phase::<N>::END_INTEGRATION;
+    const WEIGHTS: [Self; N] = Phase::<N>::WEIGHTS;
+    const END_WEIGHTS: (Self, Self) = Phase::<N>::END_WEIGHTS;
+    const HIGHEST_COEFFICIENT: [Self; N] = Phase::<N>::HIGHEST_COEFFICIENT;
+    const SLOWEST: Self = 1e-3;
 }
 
-macro_rules! shares {
-    ($float:ident, $n:ident, $z:expr) => {{
-        let z = $z;
-        let mut shares = [Fraction { value: 0.0, square: 0.0, cubic: 0.0, quintic: 0.0 }; $n];
-        let mut j = 0;
-        while j < $n {
-            let m = 1.0 - z[j] * z[j];
-            let square = m * m;
-            let cubic = 1.0 + m + square;
-            shares[j] = Fraction {
-                value: m as $float,
-                square: square as $float,
-                cubic: cubic as $float,
-                quintic: (1.0 + m + square * cubic) as $float,
-            };
-            j += 1;
-        }
-        shares
-    }};
+impl<const N: usize, const M: usize> PhaseSamples<N, M> for f64 {
+    const FRACTIONS: [Fraction<Self>; M] = fractions(&Table::<M>::Z);
+    const INTEGRATION: [[Self; M]; N] = Phase::<N>::integrals(&Table::<M>::Z);
 }
 
-impl_phase_nodes!(f32);
-impl_phase_nodes!(f64);
+/// The fractions of the peak at nodes z.
+const fn fractions<const N: usize>(z: &[f64; N]) -> [Fraction<f64>; N] {
+    let (mut fractions, mut j) = ([Fraction::at(1.0); N], 0);
+    while j < N {
+        fractions[j] = Fraction::at(1.0 - z[j] * z[j]);
+        j += 1;
+    }
+    fractions
+}
 
 /// Nodes of the quadrature by which the integrals over a phase are computed; exact up to `Z`'s own 24.
 const FINE: usize = 24;
@@ -381,8 +307,8 @@ struct Phase<const N: usize>;
 impl<const N: usize> Phase<N> {
     const ORTHOGONAL: Orthogonal<N> = Orthogonal::new();
     const Z: [f64; N] = Self::ORTHOGONAL.zeros();
-    const RUNNING: [[f64; N]; N] = Self::integrals(&Self::Z);
-    const WHOLE: [f64; N] = {
+    const INTEGRATION: [[f64; N]; N] = Self::integrals(&Self::Z);
+    const WEIGHTS: [f64; N] = {
         let rows = Self::integrals(&[1.0]);
         let mut whole = [0.0; N];
         let mut k = 0;
@@ -392,12 +318,12 @@ impl<const N: usize> Phase<N> {
         }
         whole
     };
-    const RUNNING_ENDS: [(f64, f64); N] = {
+    const END_INTEGRATION: [(f64, f64); N] = {
         let (mut ends, mut j) = ([(0.0, 0.0); N], 0);
         while j < N {
             let (mut column, mut k) = ([0.0; N], 0);
             while k < N {
-                column[k] = Self::RUNNING[k][j];
+                column[k] = Self::INTEGRATION[k][j];
                 k += 1;
             }
             ends[j] = Self::of_ends(&column);
@@ -405,7 +331,7 @@ impl<const N: usize> Phase<N> {
         }
         ends
     };
-    const WHOLE_ENDS: (f64, f64) = Self::of_ends(&Self::WHOLE);
+    const END_WEIGHTS: (f64, f64) = Self::of_ends(&Self::WEIGHTS);
 
     /// Sums with weights of two f linear in m^2: one at the first node and zero at the last, and the reverse.
     const fn of_ends(weights: &[f64; N]) -> (f64, f64) {
@@ -420,7 +346,7 @@ impl<const N: usize> Phase<N> {
     }
 
     /// Leading coefficients of Lagrange's polynomials, times the norm of the highest orthogonal one.
-    const TAIL: [f64; N] = {
+    const HIGHEST_COEFFICIENT: [f64; N] = {
         let (mut norm, mut n) = (1.0, 1);
         while n < N {
             norm *= root(Self::ORTHOGONAL.b[n]);

@@ -69,7 +69,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
             phase.speed[j] = root + Self::gain(ends, j);
         }
         // The speed half-way stands for all.
-        let (first, last) = (T::constant(0.56) * T::WHOLE_ENDS.0, T::constant(0.36) * T::WHOLE_ENDS.1);
+        let (first, last) = (T::constant(0.56) * T::END_WEIGHTS.0, T::constant(0.36) * T::END_WEIGHTS.1);
         phase.estimate = (first * ends.0 + last * ends.1) * (phase.speed[(N - 1) / 2] + phase.speed[N / 2]);
         let before = phase.peak;
         phase.correct_peak(law, energy, phase.estimate);
@@ -135,7 +135,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     pub(crate) fn sweep<const MEASURED: bool>(&mut self) -> (T, T) {
         let half = T::constant(0.5);
         let mut square = self.free;
-        T::add_running(&mut square, &self.loss, &self.speed);
+        T::add_integrals(&mut square, &self.loss, &self.speed);
         let (before, inverse) = (self.speed, self.half_inverse);
         for j in 0..N {
             // A captured sphere turns before s = 0: the floor lets the loss exceed the energy all the same.
@@ -148,7 +148,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
                 let step = self.speed[j] - before[j];
                 change = change + step * step;
             }
-            gained = gained + T::WHOLE[j] * self.loss[j] * self.speed[j];
+            gained = gained + T::WEIGHTS[j] * self.loss[j] * self.speed[j];
         }
         (half * gained, change)
     }
@@ -170,10 +170,10 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         let (mut power_tail, mut lost, mut slowness_tail, mut slowness) = (T::ZERO, T::ZERO, T::ZERO, T::ZERO);
         for k in 0..N {
             let (power, inverse) = (self.loss[k] * self.speed[k], T::ONE / self.speed[k]);
-            power_tail = power_tail + T::TAIL[k] * power;
-            lost = lost + T::WHOLE[k] * power;
-            slowness_tail = slowness_tail + T::TAIL[k] * inverse;
-            slowness = slowness + T::WHOLE[k] * inverse;
+            power_tail = power_tail + T::HIGHEST_COEFFICIENT[k] * power;
+            lost = lost + T::WEIGHTS[k] * power;
+            slowness_tail = slowness_tail + T::HIGHEST_COEFFICIENT[k] * inverse;
+            slowness = slowness + T::WEIGHTS[k] * inverse;
         }
         let half = T::constant(0.5);
         let lost = half * lost.abs() / energy;
@@ -190,7 +190,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     /// if the speed were the same everywhere.
     #[inline]
     fn gain((first, last): (T, T), j: usize) -> T {
-        let (of_first, of_last) = T::RUNNING_ENDS[j];
+        let (of_first, of_last) = T::END_INTEGRATION[j];
         first * of_first + last * of_last
     }
 
@@ -227,7 +227,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         for k in 0..N {
             let power = self.loss[k] * self.speed[k];
             for q in 0..M {
-                square[q] = square[q] + <T as PhaseSamples<N, M>>::RUNNING[k][q] * power;
+                square[q] = square[q] + <T as PhaseSamples<N, M>>::INTEGRATION[k][q] * power;
             }
         }
     }

@@ -13,15 +13,15 @@ use crate::{InputError, Parameter, Real};
 /// When a captured sphere counts as at rest, and how long it is followed until then.
 ///
 /// ```
-/// use microimpact::contact::{Collocation, Everything, RestCriterion, Simulation};
+/// use microimpact::contact::{Adaptive, Contact, RestCriterion};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
-/// let scene = Simulation::new(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+/// let scene = Contact::hertz(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
 ///     .with_damping(10.5)?
 ///     .with_ring(250.0, 6.25)?;
-/// let (method, motion) = (Collocation::<9, f64>::new(1e-9)?, NormalMotion::new(1.0)?);
+/// let (method, motion) = (Adaptive::new(1e-9)?, NormalMotion::new(1.0)?);
 /// let time = |share| {
-///     let settled = scene.observe_to_rest::<9, _, _, ()>(&method, &motion, &RestCriterion::new(share, 1000)?)?;
+///     let settled = scene.solve_to_rest(&motion, &method, &RestCriterion::new(share, 1000)?, ())?;
 ///     Ok::<f64, microimpact::InputError>(settled.motion.unwrap().time)
 /// };
 /// assert!(time(1e-6)? > time(1e-3)?);
@@ -65,17 +65,17 @@ impl<T: Real> RestCriterion<T> {
 ///
 /// ```
 /// use core::f64::consts::PI;
-/// use microimpact::contact::{Collocation, RestCriterion, SettledImpact, Simulation};
+/// use microimpact::contact::{Adaptive, Contact, RestCriterion};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
-/// let scene = Simulation::new(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+/// let scene = Contact::hertz(Sphere::solid(2.5e-6, 2600.0)?, Stiffness::new(7.5e10)?)
 ///     .with_damping(10.5)?
 ///     .with_ring(250.0, 6.25)?;
-/// let (method, criterion) = (Collocation::<9, f64>::new(1e-9)?, RestCriterion::new(1e-6, 1000)?);
-/// let settled: SettledImpact<_, _, ()> = scene.observe_to_rest(&method, &NormalMotion::new(1.0)?, &criterion)?;
+/// let (method, criterion) = (Adaptive::new(1e-9)?, RestCriterion::new(1e-6, 1000)?);
+/// let settled = scene.solve_to_rest(&NormalMotion::new(1.0)?, &method, &criterion, ())?;
 /// let motion = settled.motion.unwrap();
 /// assert!(!motion.creeps && motion.turning_points > 1);
-/// let equilibrium = 2.0 * PI * 250.0 / 7.5e10;
+/// let equilibrium: f64 = 2.0 * PI * 250.0 / 7.5e10;
 /// assert!((motion.indentation / equilibrium - 1.0).abs() < 0.73e-3);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
@@ -253,13 +253,13 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
 mod tests {
     use super::super::interval::Point;
     use super::*;
-    use crate::contact::{Collocation, HertzLaw};
-    use crate::{NormalMotion, Sphere, Stiffness};
+    use crate::contact::{Collocation, HertzLaw, NoDamping, NoForce, Ring};
 
     /// Nothing takes energy, so that the sphere turns at the same places for ever.
     #[test]
     fn undamped_swings_do_not_drift() -> Result<(), InputError> {
-        let law = HertzLaw { adhesion: Ring { strength: 0.5, damping: 0.0 }, ..HertzLaw::new(Stiffness::new(1e10)?) };
+        let (adhesion, damping, force) = (Ring { strength: 0.5, damping: 0.0 }, NoDamping, NoForce);
+        let law = HertzLaw { stiffness: 1.0, damping, adhesion, force };
         let control = Collocation::<12, f64>::new(1e-12)?.control(true);
         for turning in [0.05_f64, 0.3, 0.5, 0.547] {
             let energy = law.potential(turning);

@@ -6,11 +6,11 @@ use crate::Real;
 /// Whether a run came to its end.
 ///
 /// ```
-/// use microimpact::contact::{Collocation, Simulation, Status};
+/// use microimpact::contact::{Adaptive, Contact, Status};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
-/// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
-/// let impact = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(1.0)?)?;
+/// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+/// let impact = scene.solve(&NormalMotion::new(1.0)?, &Adaptive::new(1e-9)?)?;
 /// assert_eq!(impact.run.status, Status::Solved);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
@@ -39,11 +39,11 @@ impl Status {
 /// What a run took.
 ///
 /// ```
-/// use microimpact::contact::{Collocation, RunReport, Simulation};
+/// use microimpact::contact::{Collocation, Contact, RunReport};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
-/// let scene = Simulation::new(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(10.0)?;
-/// let run: RunReport<f64> = scene.impact(&Collocation::<9, f64>::new(1e-9)?, &NormalMotion::new(1.0)?)?.run;
+/// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(10.0)?;
+/// let run: RunReport<f64> = scene.solve(&NormalMotion::new(1.0)?, &Collocation::<9, f64>::new(1e-9)?)?.run;
 /// assert!(run.steps + run.refused <= Collocation::<9, f64>::MOST_INTERVALS);
 /// assert!(run.evaluations >= 9 * run.steps);
 /// assert!(run.estimated_error <= 1e-9);

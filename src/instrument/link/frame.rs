@@ -1,4 +1,4 @@
-//! Frames: a message and its checksum between two zero bytes.
+//! Frames: messages with a checksum, between two zero bytes.
 
 use core::fmt;
 
@@ -11,7 +11,7 @@ static CHECKSUM: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC
 const CHECKSUM_BYTES: usize = size_of::<u32>();
 const END: u8 = 0;
 
-/// What is wrong with a frame.
+/// Fault of a received frame.
 ///
 /// ```
 /// use microimpact::instrument::link::{Decoder, FrameFault};
@@ -25,30 +25,30 @@ const END: u8 = 0;
 #[derive(serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub enum FrameFault {
-    /// Longer than any message.
+    /// The frame is longer than any message.
     Oversized,
-    /// Cut off, or with a byte that COBS does not allow there.
+    /// The frame is cut off, or it contains a byte that COBS does not allow.
     Stuffing,
-    /// A checksum that does not fit, or none.
+    /// The checksum is wrong or missing.
     Checksum,
-    /// A right checksum, but no message of this kind.
+    /// The checksum is right, but the content is not a known message.
     Content,
 }
 
 impl fmt::Display for FrameFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Oversized => "frame longer than any message",
-            Self::Stuffing => "frame cut off or not stuffed by COBS",
-            Self::Checksum => "checksum of a frame does not fit",
-            Self::Content => "frame holds no known message",
+            Self::Oversized => "frame is longer than any message",
+            Self::Stuffing => "frame is cut off or not encoded by COBS",
+            Self::Checksum => "checksum of a frame is wrong",
+            Self::Content => "frame contains no known message",
         })
     }
 }
 
 impl core::error::Error for FrameFault {}
 
-/// Makes frames of up to `N` bytes.
+/// Encoder of frames with up to `N` bytes.
 ///
 /// ```
 /// use microimpact::instrument::link::{Decoder, Encoder};
@@ -66,7 +66,7 @@ pub struct Encoder<const N: usize> {
 }
 
 impl<const N: usize> Encoder<N> {
-    /// An encoder.
+    /// Creates an encoder.
     ///
     /// ```
     /// assert!(microimpact::instrument::link::Encoder::<16>::new().frame(&1_u32).is_ok());
@@ -75,10 +75,10 @@ impl<const N: usize> Encoder<N> {
         Self { message: [0; N], frame: [0; N] }
     }
 
-    /// The frame of a message, its two zero bytes included.
+    /// Encodes a message. The frame includes both zero bytes.
     ///
     /// # Errors
-    /// A message that is too long.
+    /// The message is too long.
     ///
     /// ```
     /// use microimpact::instrument::link::{Encoder, FrameFault};
@@ -104,7 +104,7 @@ impl<const N: usize> Default for Encoder<N> {
     }
 }
 
-/// Finds frames in a stream of bytes; `N` bytes hold a message and its checksum.
+/// Decoder that finds frames in a stream of bytes. A message with its checksum has up to `N` bytes.
 ///
 /// ```
 /// use microimpact::instrument::link::{Decoder, Encoder, FrameFault};
@@ -126,7 +126,7 @@ pub struct Decoder<const N: usize> {
 }
 
 impl<const N: usize> Decoder<N> {
-    /// A decoder that has received nothing yet.
+    /// Creates a decoder that has received nothing yet.
     ///
     /// ```
     /// assert_eq!(microimpact::instrument::link::Decoder::<16>::new().push::<u8>(0), None);
@@ -135,10 +135,10 @@ impl<const N: usize> Decoder<N> {
         Self { stuffing: DecoderState::Idle, message: Vec::new(), oversized: false }
     }
 
-    /// Takes a byte, and gives the message or the fault of the frame that it ends.
+    /// Takes a byte. If it ends a frame, returns the message or the fault of the frame.
     ///
     /// # Errors
-    /// What is wrong with the frame.
+    /// The fault of the frame.
     ///
     /// ```
     /// use microimpact::instrument::link::{Decoder, Encoder};
@@ -170,7 +170,7 @@ impl<const N: usize> Decoder<N> {
     }
 }
 
-/// The message in front of its checksum.
+/// Checks the checksum at the end of a frame and returns the message before it.
 fn message<M: DeserializeOwned>(frame: &[u8]) -> Result<M, FrameFault> {
     let (message, checksum) = frame.split_last_chunk::<CHECKSUM_BYTES>().ok_or(FrameFault::Checksum)?;
     let mut digest: Digest<'_, u32, Table<1>> = CHECKSUM.digest();

@@ -1,18 +1,18 @@
-//! What the two ends say to each other, and the instrument's end of it.
+//! Messages of the link, and the end of the link in the instrument.
 
 use serde::de::DeserializeOwned;
 
 use super::{Decoder, FrameFault};
 use crate::instrument::{Rejection, Rejections, Verdict};
 
-/// Version of the messages: both ends must have the same.
+/// Version of the messages. Both ends must have the same version.
 ///
 /// ```
 /// assert_eq!(microimpact::instrument::link::PROTOCOL, 1);
 /// ```
 pub const PROTOCOL: u16 = 1;
 
-/// From the host to the instrument: `R` is a [`Reading`](crate::instrument::Reading).
+/// Message from the host to the instrument. `R` is a [`Reading`](crate::instrument::Reading).
 ///
 /// ```
 /// use microimpact::instrument::NormalReading;
@@ -25,23 +25,24 @@ pub const PROTOCOL: u16 = 1;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub enum Request<R> {
-    /// A reading to be classified.
+    /// A reading to classify.
     ///
-    /// Its number is used up even if its frame is damaged or the queue is full: a reading that is sent again gets a new one.
+    /// A number is used only once, even if the frame is damaged or the queue is full. A reading that is sent again gets a new
+    /// number.
     Event {
-        /// One above that of the reading before; after the largest number comes zero.
+        /// The number of the previous reading plus one; zero follows the largest number.
         number: u32,
         /// The reading.
         reading: R,
     },
-    /// Asks for a [`Report`], which follows the replies to all that was sent before.
+    /// Asks for a [`Report`]. The report follows the replies to all earlier requests.
     Report {
-        /// Any number; it comes back with the report.
+        /// Any number. The reply repeats it.
         number: u32,
     },
 }
 
-/// From the instrument to the host, for verdicts in numbers of type `T` and classes `C`.
+/// Message from the instrument to the host, for verdicts with numbers `T` and classes `C`.
 ///
 /// ```
 /// use microimpact::Class;
@@ -56,35 +57,35 @@ pub enum Request<R> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub enum Reply<T, C> {
-    /// The instrument has started, for the first time or anew: all counts are zero, and what it had not answered is lost.
+    /// The instrument has started or restarted. All counts are zero, and earlier requests without a reply are lost.
     Started {
-        /// Its [`PROTOCOL`].
+        /// The [`PROTOCOL`] of the instrument.
         protocol: u16,
     },
     /// The verdict on a reading.
     Classified {
-        /// The reading's number.
+        /// Number of the reading.
         number: u32,
         /// The verdict.
         verdict: Verdict<T, C>,
     },
-    /// A reading without a class.
+    /// The reading has no class.
     Rejected {
-        /// The reading's number.
+        /// Number of the reading.
         number: u32,
-        /// Why it has none.
+        /// The reason.
         rejection: Rejection,
     },
     /// All counts.
     Report {
-        /// The number of the request.
+        /// Number of the request.
         number: u32,
         /// The counts.
         report: Report,
     },
 }
 
-/// What became of all that an instrument has received since it started.
+/// Counts of all requests since the instrument started.
 ///
 /// ```
 /// use microimpact::instrument::link::{Arrivals, Report};
@@ -97,7 +98,7 @@ pub enum Reply<T, C> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub struct Report {
-    /// What came in.
+    /// Received requests.
     pub arrivals: Arrivals,
     /// Requests that found the queue full.
     pub lost: u32,
@@ -105,16 +106,16 @@ pub struct Report {
     pub classified: u64,
     /// Readings without a class.
     pub rejections: Rejections,
-    /// Reports, this one included.
+    /// Reports, including this one.
     pub reports: u64,
-    /// How often the class lines did not switch.
+    /// Number of times that the class lines did not switch.
     pub signal_failures: u64,
-    /// Ticks of its clock while it was awake, where it counts them; else zero.
+    /// Clock ticks while the instrument was awake; zero if it does not count them.
     pub ticks: u64,
 }
 
 impl Report {
-    /// Whether every request that came in whole was answered or found the queue full; while more come in, some still wait.
+    /// Whether every valid request was either answered or lost. If not, some requests still wait in the queue.
     ///
     /// ```
     /// use microimpact::instrument::link::Report;
@@ -127,7 +128,7 @@ impl Report {
     }
 }
 
-/// What came in over the link.
+/// Counts of what the instrument received over the link.
 ///
 /// ```
 /// assert_eq!(microimpact::instrument::link::Arrivals::default().faults.total(), 0);
@@ -136,19 +137,19 @@ impl Report {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub struct Arrivals {
-    /// Readings that came in whole and for the first time.
+    /// Valid readings, without repetitions.
     pub events: u64,
     /// Requests for a report.
     pub reports: u64,
-    /// Readings whose number was not above that of the latest.
+    /// Repeated readings: their number is not above the latest number.
     pub duplicates: u64,
-    /// Readings that did not come in: numbers that were passed over.
+    /// Missing readings: numbers that were skipped.
     pub missing: u64,
-    /// Frames that were not understood.
+    /// Faulty frames.
     pub faults: FrameFaults,
 }
 
-/// Frames that were not understood, by fault.
+/// Counts of faulty frames, by fault.
 ///
 /// ```
 /// use microimpact::instrument::link::{FrameFault, FrameFaults};
@@ -191,7 +192,7 @@ impl FrameFaults {
         *count = count.saturating_add(1);
     }
 
-    /// All of them.
+    /// Number of all faulty frames.
     ///
     /// ```
     /// assert_eq!(microimpact::instrument::link::FrameFaults::default().total(), 0);
@@ -201,7 +202,9 @@ impl FrameFaults {
     }
 }
 
-/// The instrument's end of the link: bytes in, requests out; `N` bytes hold a message and its checksum.
+/// The end of the link in the instrument: it turns received bytes into requests.
+///
+/// A message with its checksum has up to `N` bytes.
 ///
 /// ```
 /// use microimpact::instrument::NormalReading;
@@ -213,7 +216,7 @@ impl FrameFaults {
 /// let mut inlet = Inlet::<32>::new();
 /// let mut receive = |bytes: &[u8]| bytes.iter().find_map(|&byte| inlet.receive::<NormalReading<f32>>(byte));
 /// assert_eq!(receive(frame), Some(request));
-/// assert_eq!(receive(frame), None); // the same once more
+/// assert_eq!(receive(frame), None); // a repetition
 /// assert_eq!((inlet.arrivals().events, inlet.arrivals().duplicates), (1, 1));
 /// ```
 #[derive(Debug)]
@@ -225,7 +228,7 @@ pub struct Inlet<const N: usize> {
 }
 
 impl<const N: usize> Inlet<N> {
-    /// The end of a link on which nothing has come in yet.
+    /// Creates the end of a link that has received nothing yet.
     ///
     /// ```
     /// assert_eq!(microimpact::instrument::link::Inlet::<32>::new().arrivals().events, 0);
@@ -236,7 +239,7 @@ impl<const N: usize> Inlet<N> {
         Self { decoder: Decoder::new(), latest: None, arrivals }
     }
 
-    /// Takes a byte, and gives the request that it completes; faults and duplicates are counted and give none.
+    /// Takes a byte. If it completes a request, returns the request. Faults and repetitions are only counted.
     ///
     /// ```
     /// use microimpact::instrument::link::{Encoder, Inlet, Request};
@@ -264,7 +267,8 @@ impl<const N: usize> Inlet<N> {
         }
     }
 
-    /// Serial-number arithmetic (RFC 1982): numbers up to half of their range ahead are new. Counting begins with the first.
+    /// Whether a number is new, by serial number arithmetic (RFC 1982): it is at most half of the range ahead of the latest.
+    /// The first number is always new.
     fn is_new(&mut self, number: u32) -> bool {
         let ahead = self.latest.map_or(1, |latest| number.wrapping_sub(latest));
         let new = ahead != 0 && ahead <= u32::MAX / 2;
@@ -278,7 +282,7 @@ impl<const N: usize> Inlet<N> {
         new
     }
 
-    /// What has come in so far.
+    /// Counts of what was received so far.
     ///
     /// ```
     /// let mut inlet = microimpact::instrument::link::Inlet::<32>::new();

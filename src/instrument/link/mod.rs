@@ -1,9 +1,9 @@
-//! The link between an instrument and its host: readings go in, classes come out, and nothing is answered twice.
+//! A serial link between an instrument and its host. The host sends readings, and the instrument answers with classes.
 //!
-//! A frame is a message in postcard's format and its CRC-32, stuffed by COBS so that a zero byte marks its two ends and
-//! stands nowhere else. Noise between frames and whatever happens to one frame thus leave the next one whole. Every reading
-//! has a number one above that of the one before it: what arrives twice is recognised, and what does not arrive is missed.
-//! Needs the feature `link`.
+//! A frame contains a message in the format of postcard and its CRC-32. COBS encodes both, so that zero bytes mark the start and
+//! the end of a frame and occur nowhere else. Noise between frames, or a damaged frame, does not affect the next frame.
+//! Readings have consecutive numbers, so that the instrument recognises repeated and missing readings, and answers no reading
+//! twice. This module needs the feature `link`.
 
 mod frame;
 mod message;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use microimpact::calibrate::{CalibrationError, Estimate, ImpulseRatios, Rebound, RestitutionFit, friction};
+use microimpact::measure::{CalibrationError, Estimate, ImpulseRatios, Rebound, RestitutionFit, friction};
 use microimpact::{CriticalSpeed, Sphere};
 
 use super::measured::{Measured, Number};

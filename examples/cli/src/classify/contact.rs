@@ -1,7 +1,7 @@
 //! Rows by the contact simulation.
 
 use comfy_table::Cell;
-use microimpact::simulation::{Adaptive, AdaptiveNodes, Groups, SimulatedImpact, Simulation, TangentialContact};
+use microimpact::contact::{Adaptive, AdaptiveNodes, Groups, SimulatedImpact, Contact, TangentialContact};
 use microimpact::{Class, InputError, Outcome, Sphere, Stiffness, SurfaceMotion};
 use sheet::{Row, Scalar, reason};
 
@@ -35,7 +35,7 @@ impl<T: Scalar + AdaptiveNodes> SimulationModel<T> {
         let (zeta_h, zeta_a) = (row.or_zero("zeta_h")?, row.or_zero("zeta_a")?);
         let (strength, friction) = (row.or_zero("adhesion_n_m")?, row.or_zero("friction")?);
         let (peeling, force) = (row.or_zero::<T>("peeling_n_m")?, row.or_zero("external_force_n")?);
-        let scene = Simulation::new(sphere, stiffness)
+        let scene = Contact::hertz(sphere, stiffness)
             .with_damping(zeta_h)
             .and_then(|scene| scene.with_ring(strength, zeta_a))
             .and_then(|scene| scene.with_friction(friction))

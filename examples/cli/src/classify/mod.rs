@@ -8,7 +8,7 @@ mod rigid_body;
 
 use clap::{Args, ValueEnum};
 use comfy_table::Cell;
-use microimpact::simulation::AdaptiveNodes;
+use microimpact::contact::AdaptiveNodes;
 use microimpact::{NormalMotion, PlanarMotion, Sphere};
 use sheet::{Row, Scalar, reason};
 

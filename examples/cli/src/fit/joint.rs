@@ -13,7 +13,7 @@ use std::num::NonZeroUsize;
 
 use gauss_quad::hermite::GaussHermite;
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
-use microimpact::simulation::{Collocation, Nodes, Simulation};
+use microimpact::contact::{Collocation, Nodes, Contact};
 use microimpact::{Dual, Fault, InputError, NormalMotion, Parameter, Real, Sphere, Stiffness};
 use nalgebra::storage::Owned;
 use nalgebra::{Const, DVector, Dyn, OMatrix, SMatrix, SVector};
@@ -236,7 +236,7 @@ pub fn restitution<T: Nodes<9>>(
     speed: f64,
 ) -> Result<T, InputError> {
     let sphere = Sphere::solid(T::constant(0.5) * diameter, T::constant(known.density))?;
-    let scene = Simulation::new(sphere, Stiffness::new(T::constant(known.stiffness))?)
+    let scene = Contact::hertz(sphere, Stiffness::new(T::constant(known.stiffness))?)
         .with_damping(zeta_h)?
         .with_ring(f0, zeta_a)?;
     let method = Collocation::<9, T>::new(T::constant(1e-9))?;

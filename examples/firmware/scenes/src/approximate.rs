@@ -4,7 +4,7 @@ use core::fmt::{self, LowerExp};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use microimpact::Real;
-use microimpact::simulation::{PhaseNodes, Share};
+use microimpact::contact::{PhaseNodes, Share};
 use micromath::F32Ext;
 
 /// Single precision with the functions of micromath.

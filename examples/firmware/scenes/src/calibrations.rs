@@ -4,11 +4,11 @@
 use core::marker::PhantomData;
 
 use microimpact::Stiffness;
-use microimpact::calibrate::{
+use microimpact::measure::{
     CalibrationError, Estimate, ImpulseRatios, Rebound, RestitutionFit, adhesion_damping, friction, material_damping,
     parameter, ring_strength,
 };
-use microimpact::simulation::{Collocation, Method};
+use microimpact::contact::{Collocation, Method};
 
 use super::contacts::{Setting, elastic, surface_of};
 use super::scenes::{Number, given, sphere};

@@ -4,9 +4,9 @@
 use core::hint::black_box;
 use core::marker::PhantomData;
 
-use microimpact::simulation::{
+use microimpact::contact::{
     Attraction, Collocation, Damping, FixedCost, HystereticDamping, Method, NoPeeling, NormalContact, Ring, Scale,
-    SimulatedImpact, Simulation, SurfaceState, TangentialContact, TangentialScene, TangentialVelocities,
+    SimulatedImpact, Contact, SurfaceState, TangentialContact, TangentialScene, TangentialVelocities,
 };
 use microimpact::{Class, Coulomb, InputError, NoFriction, NormalMotion, Outcome, PlanarMotion, Sphere, Stiffness};
 
@@ -96,7 +96,7 @@ impl<T: Number, M: Setting + Method<T, ()>> Scene<T> for NormalContacts<T, M> {
 
     #[inline(always)]
     fn classify(&self, motion: &Self::Motion) -> Self::Verdict {
-        self.scene.normal_impact(&self.method, motion)
+        self.scene.solve_normal(motion, &self.method)
     }
 
     fn restitution(impact: &Impact) -> Option<f64> {
@@ -163,7 +163,7 @@ pub(super) fn elastic<T: Number>() -> Result<Simulation<T>, InputError> {
 
 fn elastic_of<T: Number>(radius: T) -> Result<Simulation<T>, InputError> {
     let sphere = Sphere::solid(radius, given(DENSITY_KG_M3))?;
-    Ok(Simulation::new(sphere, Stiffness::new(given(STIFFNESS_PA))?))
+    Ok(Contact::hertz(sphere, Stiffness::new(given(STIFFNESS_PA))?))
 }
 
 /// Overall restitution in f64, by the most exact method.

@@ -4,7 +4,7 @@
 use core::hint::black_box;
 
 use microimpact::rigid::WorkOfAdhesion;
-use microimpact::simulation::{DimensionlessContact, DimensionlessImpact, FixedCost};
+use microimpact::contact::{DimensionlessContact, DimensionlessImpact, FixedCost};
 use microimpact::{
     Classification, ContactClass, Coulomb, FixedPoint, InFixedPoint, NormalMotion, Outcome, PlanarMotion, RigidBody,
     SpeedRestitution,

@@ -5,7 +5,7 @@ use core::fmt::LowerExp;
 use core::hint::black_box;
 
 use microimpact::rigid::{AdhesionCoefficient, ReboundAdhesion, WorkOfAdhesion};
-use microimpact::simulation::FixedCost;
+use microimpact::contact::FixedCost;
 use microimpact::{
     Class, Classification, ContactClass, Coulomb, InputError, NormalMotion, Outcome, PlanarMotion, Real, RigidBody,
     SpeedRestitution, Sphere,

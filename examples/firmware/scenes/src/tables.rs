@@ -3,8 +3,8 @@
 
 use core::hint::black_box;
 
-use microimpact::boundary::{BoundaryTable, Reading, Rebound, RestitutionTable, Separation, Single, Verdict};
-use microimpact::simulation::{Collocation, Nodes, SimulatedImpact, TangentialContact};
+use microimpact::table::{BoundaryTable, Reading, Rebound, RestitutionTable, Separation, Single, Verdict};
+use microimpact::contact::{Collocation, Nodes, SimulatedImpact, TangentialContact};
 use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, SurfaceMotion};
 
 use super::contacts::{exact_restitution, surface_of};

@@ -5,9 +5,9 @@
 use core::hint::black_box;
 
 use microimpact::rigid::{NoRollingDissipation, RollingDissipation, WorkOfAdhesion};
-use microimpact::simulation::{
+use microimpact::contact::{
     Collocation, ConstantForce, FixedCost, HystereticDamping, Method, NoPeeling, NormalContact, Output, Peeling,
-    PhaseSamples, Ring, SimulatedImpact, Simulation, TangentialContact, TangentialScene, TangentialVelocities,
+    PhaseSamples, Ring, SimulatedImpact, Contact, TangentialContact, TangentialScene, TangentialVelocities,
     Trajectory,
 };
 use microimpact::{

@@ -4,7 +4,7 @@
 #![no_std]
 #![no_main]
 
-use microimpact::simulation::Collocation;
+use microimpact::contact::Collocation;
 use microimpact_firmware::contacts::NormalContacts;
 use microimpact_firmware::entry;
 use microimpact_firmware::flash::{MEASURED, classify_for_ever};

@@ -4,7 +4,7 @@
 #![no_std]
 #![no_main]
 
-use microimpact::simulation::{Collocation, TangentialContact};
+use microimpact::contact::{Collocation, TangentialContact};
 use microimpact_firmware::contacts::ObliqueContacts;
 use microimpact_firmware::entry;
 use microimpact_firmware::flash::{MEASURED, classify_for_ever};

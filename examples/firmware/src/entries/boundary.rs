@@ -2,7 +2,7 @@
 
 use core::hint::black_box;
 
-use microimpact::boundary::{BoundarySlice, BoundaryTable, Reading, Rebound, RestitutionTable, Single};
+use microimpact::table::{BoundarySlice, BoundaryTable, Reading, Rebound, RestitutionTable, Single};
 use microimpact::{Coulomb, CriticalSpeed, InputError, NormalMotion, Sphere};
 
 use super::{any, keep, motions};

@@ -2,12 +2,12 @@
 
 use core::hint::black_box;
 
-use microimpact::calibrate::{
+use microimpact::measure::{
     CalibrationError, ImpulseRatios, Location, Rebound, RestitutionFit, adhesion_damping, estimate, friction,
     material_damping, parameter, ring_strength, rolling_motion,
 };
-use microimpact::simulation::{Collocation, FixedCost, Method, Simulation};
-use microimpact::uncertainty::{ClassProbabilities, NormalDistribution, rebound_probability, stopped_slip};
+use microimpact::contact::{Collocation, FixedCost, Method, Contact};
+use microimpact::measure::{ClassProbabilities, NormalDistribution, rebound_probability, stopped_slip};
 use microimpact::{
     Approach, Class, Coulomb, CriticalSpeed, Dual, InputError, NormalMotion, Parameter, Real, Sphere, Stiffness,
 };
@@ -38,7 +38,7 @@ fn one_impact<T: Real>(method: &impl Method<T, ()>) -> Result<(), CalibrationErr
     keep(material_damping(&scene.with_ring(any(), any())?, method, &rebound, any()));
     keep(adhesion_damping(&scene.with_damping(any())?, any(), method, &rebound, any()));
     keep(ring_strength(scene.sphere(), Stiffness::new(any())?, any()));
-    let of_radius = |radius| Ok(Simulation::new(Sphere::solid(radius, any())?, Stiffness::new(any())?));
+    let of_radius = |radius| Ok(Contact::hertz(Sphere::solid(radius, any())?, Stiffness::new(any())?));
     keep(parameter((any(), any()), of_radius, method, &rebound, any()));
     Ok(())
 }
@@ -60,7 +60,7 @@ fn many<T: Real>() -> Result<(), CalibrationError> {
 fn duals<T: AnyNodes>() -> Result<(), InputError> {
     let [radius, strength] = Dual::variables([any::<T>(), any()]);
     let fixed = || Dual::fixed(any::<T>());
-    let scene = Simulation::new(Sphere::solid(radius, fixed())?, Stiffness::new(fixed())?)
+    let scene = Contact::hertz(Sphere::solid(radius, fixed())?, Stiffness::new(fixed())?)
         .with_damping(fixed())?
         .with_ring(strength, fixed())?;
     let method = Collocation::<5, Dual<T, 2>>::new(fixed())?;

@@ -3,7 +3,7 @@
 use core::hint::black_box;
 
 use microimpact::rigid::{ReboundAdhesion, TangentialOutcome, TangentialTerm};
-use microimpact::simulation::{DimensionlessImpact, FixedCost, PhaseNodes, Simulation};
+use microimpact::contact::{DimensionlessImpact, FixedCost, PhaseNodes, Contact};
 use microimpact::{
     Approach, ConstantRestitution, FixedPoint, Impact, InFixedPoint, InputError, NormalMotion, Real, RestitutionLaw,
     RigidBody, SpeedRestitution, Sphere, Stiffness,
@@ -20,7 +20,7 @@ pub(super) fn call_all<T: Real + Into<f64> + PhaseNodes<5>>() -> Result<(), Inpu
     with_law(RigidBody::new(sphere, ConstantRestitution::new(any())?))?;
     with_law(RigidBody::new(sphere, SpeedRestitution::new(any())?))?;
 
-    let scene = Simulation::new(sphere, Stiffness::new(any())?).with_damping(any())?.with_ring(any(), any())?;
+    let scene = Contact::hertz(sphere, Stiffness::new(any())?).with_damping(any())?.with_ring(any(), any())?;
     let impact = scene.dimensionless(&NormalMotion::new(any())?).or(DimensionlessImpact::new(any(), any(), any()))?;
     keep(impact.solve(&FixedCost::<5>::new(black_box(3))?).overall_restitution());
     let impact = impact.in_fixed_point()?;

@@ -4,13 +4,13 @@ use core::convert::Infallible;
 use core::hint::black_box;
 
 use embedded_hal::digital::{ErrorType, OutputPin};
-use microimpact::boundary::{BoundaryTable, Rebound, RestitutionTable, Single};
+use microimpact::table::{BoundaryTable, Rebound, RestitutionTable, Single};
 use microimpact::instrument::link::{Decoder, Encoder, FrameFault, Inlet, PROTOCOL, Reply, Report, Request};
 use microimpact::instrument::{
     ClassLines, ClassSet, Classified, Classifier, Instrument, NoLines, NormalReading, ObliqueReading, PlanarReading,
     Queue, Reading, Rejection, Signal, Simulated, SpeedBins, Statistics, Tabulated, Tally, Verdict,
 };
-use microimpact::simulation::{Collocation, FixedCost, Simulation};
+use microimpact::contact::{Collocation, FixedCost, Contact};
 use microimpact::{
     Approach, Class, Coulomb, CriticalSpeed, InputError, NoFriction, Outcome, Real, RigidBody, SpeedRestitution,
     Sphere, Stiffness,
@@ -27,7 +27,7 @@ pub(super) fn call_all<T: AnyNodes + Single>() -> Result<(), InputError> {
     let sphere = Sphere::solid(any(), any())?;
     let body = RigidBody::new(sphere, SpeedRestitution::new(any::<T>())?).with_work_of_adhesion(any())?;
     let friction = body.with_friction(any())?;
-    let simulation = Simulation::new(sphere, Stiffness::new(any())?).with_ring(any(), any())?;
+    let simulation = Contact::hertz(sphere, Stiffness::new(any())?).with_ring(any(), any())?;
     let fixed = Simulated { scene: simulation, method: FixedCost::<5>::new(black_box(3))? };
     let exact = Simulated { scene: simulation.with_friction(any())?, method: Collocation::<5, T>::new(any())? };
     keep(Classified::class(&body.classify(&normal.motion()?)));

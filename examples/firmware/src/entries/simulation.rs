@@ -5,10 +5,10 @@
 
 use core::hint::black_box;
 
-use microimpact::simulation::{
+use microimpact::contact::{
     Attraction, Collocation, ConstantForce, ContactImpulses, ContactTimes, ContactWorks, Damping, Everything,
     FixedCost, HystereticDamping, Method, NoPeeling, Nodes, NormalContact, Peeling, PhaseSamples, RestCriterion, Ring,
-    RunReport, RungeKuttaGill, Scale, SettledImpact, SimulatedImpact, Simulation, TangentialContact, TangentialScene,
+    RunReport, RungeKuttaGill, Scale, SettledImpact, SimulatedImpact, Contact, TangentialContact, TangentialScene,
     TangentialVelocities, Trajectory,
 };
 use microimpact::{Approach, Classification, ContactClass, InputError, NoFriction, Real, Sphere, Stiffness};
@@ -64,7 +64,7 @@ fn with_every_term<const N: usize, T: Nodes<N>>(scene: &Simulation<T>) -> Result
     let planar = normal.with_friction(any())?.with_peeling(any())?;
     let method = Collocation::<N, T>::new(any())?;
     let (_, _, motion) = motions(scene.sphere())?;
-    contact(&planar.normal_impact(&method, &motion)?);
+    contact(&planar.solve_normal(&motion, &method)?);
     keep(normal.critical_speed(&method)?);
     let impact = planar.impact(&method, &motion)?;
     keep((impact.class(), impact.energy(scene.sphere())));
@@ -85,9 +85,9 @@ fn at_fixed_cost<const N: usize, const M: usize, T: PhaseSamples<N, M>>(
 ) -> Result<(), InputError> {
     let method = FixedCost::<N>::new(black_box(3))?;
     let (motion, _, planar) = motions(scene.sphere())?;
-    contact(&scene.normal_impact(&method, &motion)?);
+    contact(&scene.solve_normal(&motion, &method)?);
     let scene = scene.with_damping(any())?.with_ring(any(), any())?.with_external_force(any())?;
-    contact(&scene.normal_impact(&method, &motion)?);
+    contact(&scene.solve_normal(&motion, &method)?);
     let method = method.with_outputs::<M>();
     let impact: SimulatedImpact<T, TangentialVelocities<T>, Everything<T>> =
         scene.with_friction(any())?.observe(&method, &planar)?;
@@ -131,7 +131,7 @@ where
     let method = Collocation::<5, T>::new(any())?;
     let (normal, oblique, _) = motions(scene.sphere())?;
     keep(scene.groups(&normal)?);
-    contact(&scene.normal_impact(&method, &normal)?);
+    contact(&scene.solve_normal(&normal, &method)?);
     solve(&scene.with_friction(any())?, &oblique)
 }
 
@@ -170,7 +170,7 @@ fn outputs<T: Nodes<5>>(scene: &Simulation<T>) -> Result<(), InputError> {
 
     let method = RungeKuttaGill::new(black_box(100));
     keep(normal.impact(&method, &straight)?.outputs);
-    contact(&normal.normal_impact(&method, &straight)?);
+    contact(&normal.solve_normal(&straight, &method)?);
     keep(oblique.impact(&method, &moved)?.tangential);
     keep(oblique.with_peeling(any())?.impact(&method, &spun)?.tangential);
     Ok(())

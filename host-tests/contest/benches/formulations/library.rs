@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use microimpact::simulation::{
+use microimpact::contact::{
     Collocation, ContactTimes, FixedCost, Nodes, PhaseNodes, RungeKuttaGill, SimulatedImpact,
 };
 use microimpact::{CriticalSpeed, NormalMotion, Stiffness};

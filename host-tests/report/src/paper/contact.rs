@@ -1,6 +1,6 @@
 //! Figures of the simulation: 6, 7, 8 and 9.
 
-use microimpact::simulation::{Collocation, SimulatedImpact, Status, Trajectory};
+use microimpact::contact::{Collocation, SimulatedImpact, Status, Trajectory};
 use microimpact::{InputError, NormalMotion, RigidBody, SpeedRestitution};
 
 use super::{LAW_SPEED, Outcome, RADIUS, SPEED, WORK, column, contact, figure, glass, method, spaced};
@@ -28,7 +28,7 @@ fn figure_6() -> Outcome<Part> {
     let [small, large] = [contact(RADII[0])?, contact(RADII[1])?];
     let row = |speed| {
         let motion = NormalMotion::new(speed)?;
-        let simulated = |scene: &super::Contact| Ok(scene.normal_impact(&method, &motion)?.overall_restitution());
+        let simulated = |scene: &super::Contact| Ok(scene.solve_normal(&motion, &method)?.overall_restitution());
         Ok([speed, simulated(&small)?, simulated(&large)?, rigid.impact(&motion).normal.overall_restitution()])
     };
     let rows = spaced(0.5, 100.0, 401).map(row).collect::<Result<Vec<_>, InputError>>()?;

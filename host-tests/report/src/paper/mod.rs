@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use microimpact::simulation::{Adaptive, HystereticDamping, Ring, Simulation};
+use microimpact::contact::{Adaptive, HystereticDamping, Ring, Contact};
 use microimpact::{InputError, NoFriction, NormalMotion, PlanarMotion, Sphere, Stiffness};
 use microimpact_scenes::table_1::{
     APPROACH_M_S as SPEED, DENSITY_KG_M3 as GLASS, FRICTION, MATERIAL_DAMPING as ZETA_H, RADIUS_M as RADIUS,
@@ -54,7 +54,7 @@ fn glass(radius: f64) -> Result<Sphere<f64>, InputError> {
 
 /// The contact of the paper for a sphere.
 fn contact(radius: f64) -> Result<Contact, InputError> {
-    Simulation::new(glass(radius)?, Stiffness::new(STIFFNESS)?).with_damping(ZETA_H)?.with_ring(ADHESION, ZETA_A)
+    Contact::hertz(glass(radius)?, Stiffness::new(STIFFNESS)?).with_damping(ZETA_H)?.with_ring(ADHESION, ZETA_A)
 }
 
 fn method() -> Result<Adaptive<f64>, InputError> {

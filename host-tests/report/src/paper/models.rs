@@ -3,8 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use microimpact::calibrate::{Rebound, RestitutionFit};
-use microimpact::simulation::{Collocation, Everything, SimulatedImpact};
+use microimpact::measure::{Rebound, RestitutionFit};
+use microimpact::contact::{Collocation, Everything, SimulatedImpact};
 use microimpact::{
     CriticalSpeed, InputError, NormalMotion, RigidBody, SpeedRestitution, rigid::WorkOfAdhesion as WorkTerm,
 };

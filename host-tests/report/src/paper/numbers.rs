@@ -1,8 +1,8 @@
 //! Every number that the paper computes, with ours beside it.
 
-use microimpact::calibrate::{Rebound, adhesion_damping, material_damping, ring_strength};
+use microimpact::measure::{Rebound, adhesion_damping, material_damping, ring_strength};
 use microimpact::rigid::{Departure, infer_assuming_rolling};
-use microimpact::simulation::{Collocation, Simulation};
+use microimpact::contact::{Collocation, Contact};
 use microimpact::{
     ConstantRestitution, CriticalSpeed, Hertz, Material, NormalImpact, NormalMotion, RestitutionLaw, RigidBody,
     SpeedRestitution, Sphere, Stiffness,
@@ -163,7 +163,7 @@ fn simulation() -> Outcome<Vec<Number>> {
     let (sphere, method) = (glass(RADIUS)?, method()?);
     let impact =
         contact(RADIUS)?.with_friction(FRICTION)?.impact(&method, &table_motion(SPIN_DEGREES.to_radians())?)?;
-    let mean = contact(MEAN_RADIUS)?.normal_impact(&method, &NormalMotion::new(SPEED)?)?;
+    let mean = contact(MEAN_RADIUS)?.solve_normal(&NormalMotion::new(SPEED)?, &method)?;
     let small = contact(2.5e-6)?.critical_speed(&Collocation::<9, f64>::new(TOLERANCE)?)?;
     let critical = if let CriticalSpeed::At(speed) = small { speed } else { f64::NAN };
     let ledger = impact.energy(&sphere).ok_or("the impact of Table 1 rebounds")?;
@@ -192,7 +192,7 @@ fn parameters() -> Outcome<Vec<Number>> {
     let strength = |share: f64| ring_strength(&mean, stiffness, share * MEAN_RADIUS);
     let (low, high) = (strength(0.05)?, strength(0.10)?);
     let fast = Rebound { speed: FAST, restitution: SpeedRestitution::new(LAW_SPEED)?.restitution(FAST) };
-    let bare = Simulation::new(mean, stiffness);
+    let bare = Contact::hertz(mean, stiffness);
     let material = material_damping(&bare, &method, &fast, TOLERANCE)?;
     let slow = Rebound { speed: SPEED, restitution: 0.62 };
     let adhesion = adhesion_damping(&bare.with_damping(ZETA_H)?, ADHESION, &method, &slow, TOLERANCE)?;
@@ -208,7 +208,7 @@ fn parameters() -> Outcome<Vec<Number>> {
 /// What the printed parameter gives, against what the paper found.
 fn printed() -> Outcome<Vec<Number>> {
     let e = |radius| -> Outcome<f64> {
-        let scene = Simulation::new(Sphere::solid(radius, GLASS)?, Stiffness::new(STIFFNESS)?);
+        let scene = Contact::hertz(Sphere::solid(radius, GLASS)?, Stiffness::new(STIFFNESS)?);
         let scene = scene.with_damping(ZETA_H)?.with_ring(ADHESION, PRINTED_ZETA_A)?;
         Ok(scene.normal_impact(&method()?, &NormalMotion::new(SPEED)?)?.overall_restitution())
     };

@@ -1,7 +1,7 @@
 //! The planes through the space of scenes that the maps show.
 
 use microimpact::CriticalSpeed;
-use microimpact::simulation::Collocation;
+use microimpact::contact::Collocation;
 
 use super::impact::Impact;
 

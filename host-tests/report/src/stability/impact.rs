@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use microimpact::simulation::{HystereticDamping, Ring, Simulation};
+use microimpact::contact::{HystereticDamping, Ring, Contact};
 use microimpact::{Coulomb, Hertz, InputError, NormalMotion, ObliqueMotion, Real, Sphere, Stiffness};
 use microimpact_scenes::table_1;
 
@@ -64,7 +64,7 @@ impl Impact {
 
     pub(super) fn scene<T: Real>(&self) -> Result<Scene<T>, InputError> {
         let c = T::constant;
-        Simulation::new(Sphere::solid(c(self.radius), c(DENSITY))?, Stiffness::new(c(self.stiffness))?)
+        Contact::hertz(Sphere::solid(c(self.radius), c(DENSITY))?, Stiffness::new(c(self.stiffness))?)
             .with_damping(c(self.material))?
             .with_ring(c(self.strength), c(self.adhesion))?
             .with_friction(c(FRICTION))

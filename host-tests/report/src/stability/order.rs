@@ -1,6 +1,6 @@
 //! Order of convergence: how fast the error falls with the number of steps or nodes.
 
-use microimpact::simulation::{Collocation, FixedCost, Nodes, NormalContact, PhaseNodes, RungeKuttaGill, Status};
+use microimpact::contact::{Collocation, FixedCost, Nodes, NormalContact, PhaseNodes, RungeKuttaGill, Status};
 use reference::{Case, cases};
 
 use super::impact::Impact;

@@ -7,7 +7,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use gauss_quad::GaussLegendre;
-use microimpact::simulation::{Collocation, ContactWorks, Nodes, RestCriterion, SettledImpact, Simulation};
+use microimpact::contact::{Collocation, ContactWorks, Nodes, RestCriterion, SettledImpact, Contact};
 use microimpact::{InputError, NormalMotion, Real, Sphere, Stiffness};
 
 use super::impact::{DENSITY, Impact};
@@ -165,7 +165,7 @@ where
     T: Nodes<N> + Real + Into<f64>,
 {
     let c = T::constant;
-    let scene = Simulation::new(Sphere::solid(c(impact.radius), c(DENSITY))?, Stiffness::new(c(impact.stiffness))?)
+    let scene = Contact::hertz(Sphere::solid(c(impact.radius), c(DENSITY))?, Stiffness::new(c(impact.stiffness))?)
         .with_damping(c(impact.material))?
         .with_ring(c(impact.strength), c(impact.adhesion))?;
     let method = Collocation::<N, T>::new(c(tolerance))?;

@@ -1,6 +1,6 @@
 //! What a method finds of an impact.
 
-use microimpact::simulation::{
+use microimpact::contact::{
     Adaptive, Collocation, Everything, FixedCost, Method, NoPeeling, Output, Ring, RungeKuttaGill, SimulatedImpact,
     Status, TangentialContact, TangentialScene,
 };

@@ -1,6 +1,6 @@
 //! Methods tried on one impact, and the bounds they are held to.
 
-use microimpact::simulation::Collocation;
+use microimpact::contact::Collocation;
 
 use super::impact::Impact;
 use super::independent;

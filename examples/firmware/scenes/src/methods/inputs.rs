@@ -1,6 +1,6 @@
 //! The inputs of an impact, as plain numbers in SI units.
 
-use microimpact::simulation::{HystereticDamping, Ring, Simulation};
+use microimpact::contact::{HystereticDamping, Ring, Contact};
 use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, Real, Sphere, Stiffness};
 
 use crate::table_1::{
@@ -59,7 +59,7 @@ impl Inputs {
     /// A value outside its range.
     pub fn normal<T: Real>(&self) -> Result<(NormalScene<T>, NormalMotion<T>), InputError> {
         let sphere = Sphere::solid(T::constant(self.radius), T::constant(self.density))?;
-        let scene = Simulation::new(sphere, Stiffness::new(T::constant(self.stiffness))?)
+        let scene = Contact::hertz(sphere, Stiffness::new(T::constant(self.stiffness))?)
             .with_damping(T::constant(self.material_damping))?
             .with_ring(T::constant(self.ring), T::constant(self.ring_damping))?;
         Ok((scene, NormalMotion::new(T::constant(self.approach))?))

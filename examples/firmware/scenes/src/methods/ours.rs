@@ -2,7 +2,7 @@
 
 use core::hint::black_box;
 
-use microimpact::simulation::{
+use microimpact::contact::{
     Adaptive, AdaptiveNodes, Collocation, FixedCost, Method, NoPeeling, Nodes, PhaseNodes, PhaseSamples, Ring,
     RungeKuttaGill, SimulatedImpact, Status, TangentialContact, TangentialScene, TangentialVelocities,
 };

@@ -6,7 +6,7 @@
 
 use core::hint::black_box;
 
-use microimpact::simulation::Groups;
+use microimpact::contact::Groups;
 use microimpact::{FixedPoint, Real};
 
 use super::inputs::Inputs;

@@ -1,27 +1,27 @@
-//! The restitution law R = k/(k + v) and the work of adhesion W_A from many rebounds.
+//! Fit of the restitution law R = k/(k + v) and the work of adhesion W_A to many rebounds.
 //!
-//! e^2 = R^2 - 2 W_A/(m v^2) (A34), with speeds in units of the largest: e^2 = (1 + c x)^-2 - b/x^2. The search starts from
-//! the curve through two rebounds that leaves the least median deviation of e, which up to half of the data cannot spoil
-//! (Rousseeuw 1984), and ends with Tukey's biweight (Yohai 1987).
+//! The model is e^2 = R^2 - 2 W_A/(m v^2) (A34). With speeds in units of the largest speed, x, it is
+//! e^2 = (1 + c x)^-2 - b/x^2. The fit starts with the curve through two rebounds that has the smallest median deviation of e.
+//! Up to half of the data may be outliers (Rousseeuw 1984). Tukey's biweight then refines the curve (Yohai 1987).
 
 use super::robust::{DEVIATION, Influence, MOST_PASSES, median, number};
-use super::{CalibrationError, Estimate, Rebound};
+use super::{CalibrationError, Estimate, MeasuredRebound};
 use crate::rigid::WorkOfAdhesion;
 use crate::{CriticalSpeed, Dual, InputError, NormalMotion, Parameter, Real, RigidBody, SpeedRestitution, Sphere};
 
-/// Restitution law and work of adhesion that many rebounds of a sphere imply, and what follows from them.
+/// Restitution law and work of adhesion, fitted to many rebounds of a sphere.
 ///
 /// ```
-/// use microimpact::calibrate::{Rebound, RestitutionFit};
+/// use microimpact::measure::{MeasuredRebound, RestitutionFit};
 /// use microimpact::{CriticalSpeed, NormalMotion, RigidBody, SpeedRestitution, Sphere};
 ///
-/// // Rebounds by the law of the paper, two of them misread.
+/// // Rebounds that follow the law of the paper, except for two outliers.
 /// let sphere = Sphere::solid(5.06e-6, 2600.0)?;
 /// let scene = RigidBody::new(sphere, SpeedRestitution::new(130.0)?).with_work_of_adhesion(2.22e-12)?;
-/// let mut rebounds = [Rebound { speed: 0.0, restitution: 0.0 }; 20];
+/// let mut rebounds = [MeasuredRebound { speed: 0.0, restitution: 0.0 }; 20];
 /// for (rebound, speed) in rebounds.iter_mut().zip(2..) {
 ///     let speed = f64::from(speed);
-///     *rebound = Rebound { speed, restitution: scene.impact(&NormalMotion::new(speed)?).normal.overall_restitution() };
+///     *rebound = MeasuredRebound { speed, restitution: scene.impact(&NormalMotion::new(speed)?).normal.overall_restitution() };
 /// }
 /// rebounds[3].restitution = 0.2;
 /// rebounds[12].restitution = 1.0;
@@ -31,7 +31,7 @@ use crate::{CriticalSpeed, Dual, InputError, NormalMotion, Parameter, Real, Rigi
 /// assert!((fit.work_of_adhesion.value - 2.22e-12).abs() < 1e-20);
 /// assert_eq!(fit.outliers, 2);
 /// assert!(matches!(fit.critical_speed()?, CriticalSpeed::At(speed) if (speed.value - 1.8).abs() < 0.03));
-/// # Ok::<(), microimpact::calibrate::CalibrationError>(())
+/// # Ok::<(), microimpact::measure::CalibrationError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -41,39 +41,40 @@ pub struct RestitutionFit<T> {
     pub restitution_speed: Estimate<T>,
     /// Work of adhesion W_A, J.
     pub work_of_adhesion: Estimate<T>,
-    /// Correlation of their errors, -1 to 1.
+    /// Correlation of the errors of both parameters, -1 to 1.
     pub correlation: T,
-    /// Standard deviation of a single restitution about the curve.
+    /// Standard deviation of one restitution about the curve.
     pub scale: T,
-    /// Rebounds that were there; captures do not count.
+    /// Number of rebounds, without captures.
     pub rebounds: u32,
-    /// Rebounds so far from the curve that they do not count.
+    /// Number of outliers: rebounds so far from the curve that they have no weight.
     pub outliers: u32,
     sphere: Sphere<T>,
 }
 
-/// Pairs of rebounds that are tried for a first curve: one without an outlier is among them, even where half are.
+/// Number of pairs of rebounds that are tried for a first curve. Even if half of the rebounds are outliers, some pair has
+/// none.
 const MOST_PAIRS: u32 = 128;
 
 impl<T: Real> RestitutionFit<T> {
-    /// The fit to rebounds of one `sphere`. Captures among them, of restitution zero, are passed over.
+    /// Fits the law to `rebounds` of one `sphere`. Captures, whose restitution is zero, are ignored.
     ///
-    /// A negative work of adhesion is held at zero.
+    /// If the best fit has a negative work of adhesion, the work is set to zero.
     ///
     /// # Errors
-    /// A speed or restitution outside its range, fewer than four rebounds, rebounds that do not tell material and
-    /// adhesion apart, or that do not slow down with speed at all.
+    /// A speed or a restitution is outside its range, there are fewer than four rebounds, the rebounds do not determine both
+    /// parameters, or the restitution does not decrease with speed.
     ///
     /// ```
     /// use microimpact::Sphere;
-    /// use microimpact::calibrate::{CalibrationError, Rebound, RestitutionFit};
+    /// use microimpact::measure::{CalibrationError, MeasuredRebound, RestitutionFit};
     ///
-    /// let alike = [Rebound { speed: 2.0, restitution: 0.7_f32 }; 9];
+    /// let alike = [MeasuredRebound { speed: 2.0, restitution: 0.7_f32 }; 9];
     /// let fit = RestitutionFit::of(&Sphere::solid(1e-6, 2600.0)?, &alike);
     /// assert_eq!(fit, Err(CalibrationError::Undetermined));
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn of(sphere: &Sphere<T>, rebounds: &[Rebound<T>]) -> Result<Self, CalibrationError> {
+    pub fn of(sphere: &Sphere<T>, rebounds: &[MeasuredRebound<T>]) -> Result<Self, CalibrationError> {
         let mut cloud = Cloud { rebounds, fastest: T::ZERO, count: 0 };
         for rebound in rebounds {
             let (motion, square) = rebound.checked()?;
@@ -101,7 +102,7 @@ impl<T: Real> RestitutionFit<T> {
         Ok(Self {
             restitution_speed: Estimate { value: speed, standard_error: speed * (loss / curve.loss) },
             work_of_adhesion: Estimate { value: work, standard_error: energy * pull },
-            // k falls as c grows.
+            // k decreases with c, which changes the sign of the correlation.
             correlation: -correlation,
             scale,
             rebounds: cloud.count,
@@ -110,23 +111,23 @@ impl<T: Real> RestitutionFit<T> {
         })
     }
 
-    /// The speed that separates capture from rebound, m/s.
+    /// Critical speed, m/s, with its standard error.
     ///
     /// # Errors
-    /// A value outside its range.
+    /// A value is outside its range.
     ///
     /// ```
-    /// use microimpact::calibrate::{Rebound, RestitutionFit};
+    /// use microimpact::measure::{MeasuredRebound, RestitutionFit};
     /// use microimpact::{CriticalSpeed, Sphere};
     ///
     /// // Without adhesion, R = 60/(60 + v), every sphere rebounds.
-    /// let at = |speed: f64| Rebound { speed, restitution: 60.0 / (60.0 + speed) };
+    /// let at = |speed: f64| MeasuredRebound { speed, restitution: 60.0 / (60.0 + speed) };
     /// let fit = RestitutionFit::of(&Sphere::solid(1e-6, 2600.0)?, &[at(1.0), at(4.0), at(9.0), at(20.0), at(30.0)])?;
     /// assert!(match fit.critical_speed()? {
     ///     CriticalSpeed::At(speed) => speed.value < 1e-3,
     ///     other => other == CriticalSpeed::AlwaysRebounds,
     /// });
-    /// # Ok::<(), microimpact::calibrate::CalibrationError>(())
+    /// # Ok::<(), microimpact::measure::CalibrationError>(())
     /// ```
     pub fn critical_speed(&self) -> Result<CriticalSpeed<Estimate<T>>, InputError> {
         Ok(match self.scene()?.critical_speed() {
@@ -136,29 +137,29 @@ impl<T: Real> RestitutionFit<T> {
         })
     }
 
-    /// The adhesion coefficient rho = 1 - e/R at an approach speed (m/s); one, without an error, for a capture.
+    /// Adhesion coefficient rho = 1 - e/R at an approach `speed` (m/s). For a capture, it is one with the standard error zero.
     ///
     /// # Errors
-    /// A speed outside its range.
+    /// The speed is outside its range.
     ///
     /// ```
-    /// use microimpact::calibrate::{Rebound, RestitutionFit};
+    /// use microimpact::measure::{MeasuredRebound, RestitutionFit};
     /// use microimpact::Sphere;
     ///
-    /// // Four readings of figures like those of Table 1; the fit leaves rho = 0.24 at 2.8 m/s.
-    /// let at = |speed, restitution| Rebound { speed, restitution };
+    /// // Values like those of Table 1. The fit gives rho = 0.24 at 2.8 m/s.
+    /// let at = |speed, restitution| MeasuredRebound { speed, restitution };
     /// let rebounds = [at(2.1, 0.510), at(2.8, 0.747), at(5.0, 0.894), at(9.0, 0.914), at(20.0, 0.862), at(40.0, 0.763)];
     /// let fit = RestitutionFit::of(&Sphere::solid(5.06e-6, 2600.0)?, &rebounds)?;
-    /// let rho: microimpact::calibrate::Estimate<f64> = fit.adhesion_coefficient(2.8)?;
-    /// assert!((rho.value - 0.237).abs() < 0.01 && rho.standard_error < 0.01);
-    /// # Ok::<(), microimpact::calibrate::CalibrationError>(())
+    /// let adhesion: microimpact::measure::Estimate<f64> = fit.adhesion_coefficient(2.8)?;
+    /// assert!((adhesion.value - 0.237).abs() < 0.01 && adhesion.standard_error < 0.01);
+    /// # Ok::<(), microimpact::measure::CalibrationError>(())
     /// ```
     pub fn adhesion_coefficient(&self, speed: T) -> Result<Estimate<T>, InputError> {
         let motion = NormalMotion::new(Dual::fixed(speed))?;
         Ok(self.estimate(self.scene()?.impact(&motion).normal.adhesion_coefficient()))
     }
 
-    /// The scene, with k and W_A as the inputs of its derivatives.
+    /// The scene in dual numbers, with k and W_A as the inputs.
     fn scene(
         &self,
     ) -> Result<RigidBody<Dual<T, 2>, SpeedRestitution<Dual<T, 2>>, WorkOfAdhesion<Dual<T, 2>>>, InputError> {
@@ -168,7 +169,7 @@ impl<T: Real> RestitutionFit<T> {
         RigidBody::new(sphere, SpeedRestitution::new(speed)?).with_work_of_adhesion(work)
     }
 
-    /// What the errors of k and W_A make of a result.
+    /// A result with the standard error that follows from those of k and W_A.
     fn estimate(&self, result: Dual<T, 2>) -> Estimate<T> {
         let [by_speed, by_work] = result.partials;
         let first = by_speed * self.restitution_speed.standard_error;
@@ -181,9 +182,9 @@ impl<T: Real> RestitutionFit<T> {
 /// e^2 = (1 + c x)^-2 - b/x^2.
 #[derive(Clone, Copy, Debug)]
 struct Curve<T> {
-    /// c: the largest speed over k.
+    /// c: the largest speed divided by k.
     loss: T,
-    /// b: 2 W_A/m over the square of the largest speed.
+    /// b: 2 W_A/m divided by the square of the largest speed.
     pull: T,
 }
 
@@ -197,23 +198,23 @@ impl<T: Real> Curve<T> {
         self.square(x).max(T::ZERO).sqrt()
     }
 
-    /// Derivatives of e^2 by c and b.
+    /// Derivatives of e^2 with respect to c and b.
     fn slopes(&self, x: T) -> [T; 2] {
         let r = T::ONE / (T::ONE + self.loss * x);
         [T::constant(-2.0) * x * r * r * r, -(T::ONE / (x * x))]
     }
 
-    /// The curve through two points of different speeds; `None` where adhesion alone would explain less than none.
+    /// The curve through two points of different speeds. `None` if no curve with c >= 0 passes through both.
     fn through(slow: (T, T), fast: (T, T)) -> Option<Self> {
         let body = |(x, _): (T, T), loss: T| x / (T::ONE + loss * x);
         let square = |x: T| x * x;
-        // What both rebounds differ by, where adhesion takes the same work from each.
+        // Adhesion takes the same work from both rebounds, so that it cancels in the difference.
         let target = square(fast.0 * fast.1) - square(slow.0 * slow.1);
         if target <= T::ZERO {
             return None;
         }
         let mut loss = T::ZERO;
-        // The difference is convex and falls as c grows: Newton's method comes from below.
+        // The difference is a convex, decreasing function of c, so that Newton's method converges from below.
         for _ in 0..60 {
             let (high, low) = (body(fast, loss), body(slow, loss));
             let excess = square(high) - square(low) - target;
@@ -230,7 +231,7 @@ impl<T: Real> Curve<T> {
 
 /// The rebounds among the data.
 struct Cloud<'a, T> {
-    rebounds: &'a [Rebound<T>],
+    rebounds: &'a [MeasuredRebound<T>],
     /// Largest speed, m/s.
     fastest: T,
     count: u32,
@@ -245,19 +246,19 @@ struct Spread<T> {
 }
 
 impl<T: Real> Cloud<'_, T> {
-    /// Speed over the largest, and restitution, of each rebound.
+    /// Speed divided by the largest speed, and restitution, of each rebound.
     fn points(&self) -> impl Iterator<Item = (T, T)> + Clone {
         let fastest = self.fastest;
         let rebounds = self.rebounds.iter().filter(|rebound| rebound.restitution > T::ZERO);
         rebounds.map(move |rebound| (rebound.speed / fastest, rebound.restitution))
     }
 
-    /// The curve through two of the points with the least median deviation.
+    /// The curve through two points that has the smallest median deviation.
     fn start(&self) -> Option<Curve<T>> {
         let mut best: Option<(Curve<T>, T)> = None;
         let mut state = 1_u32;
         let mut draw = || {
-            // The high bits of a linear congruence scatter well enough.
+            // The high bits of a linear congruential generator are random enough.
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             (state >> 8) % self.count
         };
@@ -271,7 +272,7 @@ impl<T: Real> Cloud<'_, T> {
                 continue;
             };
             let deviations = self.points().map(|(x, e)| (e - curve.restitution(x)).abs());
-            // Most curves are out of the question after one count.
+            // One count rejects most curves.
             if let Some((_, least)) = best
                 && 2 * deviations.clone().filter(|deviation| *deviation < least).count() <= self.count as usize
             {
@@ -285,7 +286,7 @@ impl<T: Real> Cloud<'_, T> {
     /// Standard deviation of e about a curve, from the median deviation.
     fn scale(&self, curve: &Curve<T>) -> T {
         let deviation = median(self.points().map(|(x, e)| (e - curve.restitution(x)).abs())).unwrap_or(T::ZERO);
-        // Two of the points went into the curve.
+        // The curve has two parameters.
         let freedom = number::<T>(self.count) / number(self.count - 2);
         (T::constant(DEVIATION) * freedom * deviation).max(T::constant(32.0) * T::EPSILON)
     }
@@ -295,13 +296,13 @@ impl<T: Real> Cloud<'_, T> {
         let (curve, least) = (*curve, T::constant(2.0) * scale);
         self.points().map(move |(x, e)| {
             let predicted = curve.restitution(x);
-            // e^2 is off by the sum of both times the error of e; close to capture the error itself counts.
+            // An error of e changes e^2 by (e + predicted) times that error. Close to capture, the scale is the lower limit.
             let unit = T::ONE / ((e + predicted).max(least) * scale);
             ((e - predicted) / scale, curve.slopes(x).map(|slope| slope * unit))
         })
     }
 
-    /// Reweighted least squares (Gauss and Newton), with both parameters held at zero or above.
+    /// Refines the curve by reweighted least squares (Gauss-Newton). Both parameters stay at zero or above.
     fn refine(&self, curve: &mut Curve<T>, scale: T) -> Result<(), CalibrationError> {
         for _ in 0..MOST_PASSES {
             let (mut normal, mut right) = (Symmetric::ZERO, [T::ZERO; 2]);
@@ -322,17 +323,17 @@ impl<T: Real> Cloud<'_, T> {
                 next = Curve { loss: T::ZERO, pull: pull.max(T::ZERO) };
             }
             let rounding = T::constant(16.0) * T::EPSILON;
-            let settled = (next.loss - curve.loss).abs() <= rounding * next.loss
+            let converged = (next.loss - curve.loss).abs() <= rounding * next.loss
                 && (next.pull - curve.pull).abs() <= rounding * next.pull.max(rounding);
             *curve = next;
-            if settled {
+            if converged {
                 break;
             }
         }
         Ok(())
     }
 
-    /// Standard errors of the parameters: those of least squares, by the points that count, times what the weights cost.
+    /// Standard errors of the parameters: those of least squares, corrected for the loss of efficiency by the weights.
     fn spread(&self, curve: &Curve<T>, scale: T) -> Result<Spread<T>, CalibrationError> {
         let mut normal = Symmetric::ZERO;
         let (mut weights, mut squares, mut slopes, mut outliers) = (T::ZERO, T::ZERO, T::ZERO, 0);
@@ -367,7 +368,7 @@ struct Symmetric<T> {
 impl<T: Real> Symmetric<T> {
     const ZERO: Self = Self { first: T::ZERO, mixed: T::ZERO, second: T::ZERO };
 
-    /// Adds a weight times the square of a vector.
+    /// Adds a weight times the outer product of a vector with itself.
     fn add(&mut self, weight: T, [a, b]: [T; 2]) {
         self.first = self.first + weight * a * a;
         self.mixed = self.mixed + weight * a * b;
@@ -378,7 +379,7 @@ impl<T: Real> Symmetric<T> {
         [self.first * a + self.mixed * b, self.mixed * a + self.second * b]
     }
 
-    /// The inverse of a positive matrix that is not singular to rounding.
+    /// The inverse of a positive definite matrix. `None` if rounding makes it singular.
     fn inverse(&self) -> Option<Self> {
         let product = self.first * self.second;
         let determinant = product - self.mixed * self.mixed;

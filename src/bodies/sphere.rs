@@ -1,12 +1,13 @@
-//! The particle: a sphere whose mass is distributed with spherical symmetry.
+//! The particle: a sphere whose mass distribution is spherically symmetric.
 
 use core::f64::consts::PI;
 
-use crate::{InputError, Parameter, Real, error::Fault};
+use crate::{Fault, InputError, Parameter, Real};
 
 /// A solid, hollow or coated sphere.
 ///
-/// Only its radius r, its mean density and its gyration ratio kappa = k^2/r^2 enter an impact.
+/// An impact depends only on the radius r, the mean density and the gyration ratio kappa = k^2/r^2, where k is the radius
+/// of gyration.
 ///
 /// ```
 /// use microimpact::Sphere;
@@ -27,10 +28,10 @@ pub struct Sphere<T> {
 }
 
 impl<T: Real> Sphere<T> {
-    /// A sphere of `radius` (m) made of one material of `density` (kg/m^3): kappa = 2/5.
+    /// Creates a homogeneous sphere of `radius` (m) and `density` (kg/m^3). Its gyration ratio kappa is 2/5.
     ///
     /// # Errors
-    /// Radius or density outside its range.
+    /// The radius or the density is outside its range.
     ///
     /// ```
     /// use microimpact::Sphere;
@@ -44,12 +45,12 @@ impl<T: Real> Sphere<T> {
         Self::new(radius, density, T::constant(0.4))
     }
 
-    /// A sphere of `radius` (m) with a wall of `thickness` (m) and `density` (kg/m^3) around an empty core.
+    /// Creates a hollow sphere of outer `radius` (m) with a wall of `thickness` (m) and `density` (kg/m^3).
     ///
-    /// kappa lies between 2/5 (no core) and 2/3 (thin wall).
+    /// The gyration ratio kappa is between 2/5 (no cavity) and 2/3 (thin wall).
     ///
     /// # Errors
-    /// A value outside its range, or a wall thicker than the radius.
+    /// A value is outside its range, or the wall is thicker than the radius.
     ///
     /// ```
     /// use microimpact::Sphere;
@@ -63,11 +64,11 @@ impl<T: Real> Sphere<T> {
         Self::layered(radius, thickness, T::ZERO, density)
     }
 
-    /// A core of `core_density` (kg/m^3) under a coating of `thickness` (m) and `coating_density` (kg/m^3);
-    /// `radius` (m) is that of the outside.
+    /// Creates a coated sphere of outer `radius` (m): a core of `core_density` (kg/m^3) under a coating of `thickness` (m)
+    /// and `coating_density` (kg/m^3).
     ///
     /// # Errors
-    /// A value outside its range, or a coating thicker than the radius.
+    /// A value is outside its range, or the coating is thicker than the radius.
     ///
     /// ```
     /// use microimpact::Sphere;
@@ -84,10 +85,10 @@ impl<T: Real> Sphere<T> {
         Self::layered(radius, thickness, core_density, coating_density)
     }
 
-    /// A sphere of known `radius` (m), mean `density` (kg/m^3) and `gyration_ratio` kappa = k^2/r^2.
+    /// Creates a sphere from its `radius` (m), mean `density` (kg/m^3) and `gyration_ratio` kappa = k^2/r^2.
     ///
     /// # Errors
-    /// A value outside its range.
+    /// A value is outside its range.
     ///
     /// ```
     /// use microimpact::Sphere;
@@ -104,13 +105,14 @@ impl<T: Real> Sphere<T> {
 
     /// A homogeneous core under a homogeneous layer.
     ///
-    /// With q = 1 - thickness/radius the masses are as q^3 and 1 - q^3, the moments of inertia as q^5 and
-    /// 1 - q^5. Both differences are taken as (1 - q) times a sum, which stays exact for a thin layer.
+    /// With q = 1 - thickness/radius, the masses of core and layer are proportional to q^3 and 1 - q^3, and their moments of
+    /// inertia to q^5 and 1 - q^5. Each difference is computed as (1 - q) times a sum, which is accurate for a thin layer.
     fn layered(radius: T, thickness: T, core: T, layer: T) -> Result<Self, InputError> {
         let radius = Parameter::Radius.check(radius)?;
         let thickness = Parameter::Thickness.check(thickness)?;
         if thickness > radius {
-            return Err(InputError { parameter: Parameter::Thickness, fault: Fault::ExceedsRadius });
+            let value = thickness.to_f64();
+            return Err(InputError { parameter: Parameter::Thickness, fault: Fault::ExceedsRadius, value });
         }
         let depth = thickness / radius;
         let q = T::ONE - depth;
@@ -179,7 +181,10 @@ impl<T: Real> Sphere<T> {
         self.radius * self.gyration_ratio.sqrt()
     }
 
-    /// Share of the mass that a tangential force at the contact point has to move: kappa/(1 + kappa), 2/7 when solid.
+    /// Fraction of the mass that resists a tangential force at the contact point: kappa/(1 + kappa).
+    ///
+    /// A force through the centre would have to accelerate the whole mass. A force at the contact point also turns the
+    /// sphere, so that the contact point gives way more easily. The fraction is 2/7 for a homogeneous sphere.
     ///
     /// ```
     /// let solid = microimpact::Sphere::solid(1e-6, 1000.0)?;

@@ -1,7 +1,7 @@
-//! Fixed-point numbers, for both models on processors without floating point.
+//! Fixed-point numbers, for processors without floating point.
 
+mod contact;
 mod rigid;
-mod simulation;
 
 use core::num::NonZeroU32;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -11,53 +11,56 @@ use fixed::types::I8F24;
 use crate::Real;
 pub use rigid::InFixedPoint;
 
-/// A number of 32 bits with 24 behind the binary point: -128 to 128 in steps of 6e-8.
+/// A fixed-point number with 32 bits, 24 of them after the binary point: -128 to 128 in steps of 6e-8.
 ///
-/// Both models run with it, by the same code as in floating point, in units that bring their values near one. Sums, products,
-/// quotients and roots are rounded to the nearest number, and what lies beyond the bounds is held at them, never wrapped. What
-/// does not fit is refused by an error that names the quantity; set-up may take floating point, or the host.
+/// Both models compute with this type by the same code as with floating point. Their quantities are divided by units that
+/// bring them near one. Sums, products, quotients and roots are rounded to the nearest number. A result outside the range
+/// becomes the closest bound; it never wraps. The conversion from floating point can take place at start-up or on the host.
+/// It returns an error, which names the quantity, for a value that does not fit.
 ///
-/// * The simulation of the normal motion, by [`FixedCost`](crate::contact::FixedCost), from
-///   [`DimensionlessImpact::in_fixed_point`](crate::contact::DimensionlessImpact::in_fixed_point). It takes strengths of
-///   adhesion up to 0.999, above which hardly any energy is left to resolve, and damping up to 0.5. Four nodes and two sweeps
-///   err by less than 1e-4 in e, and by less than 1e-5 more than in f64, where e exceeds 0.2 and the strength of adhesion is
-///   below 0.95; rounding weighs with the inverse of e and of the energy.
-/// * The rigid body, in units of a speed, by [`InFixedPoint`]. It takes approach speeds from 0.004 to 8 units, other velocities
-///   up to 8 and friction coefficients up to 7. Velocities err by less than 1e-5 units for gyration ratios from 0.2, and a
-///   rebound slower than 1e-6 may count as a capture. Margins err by less than 1e-4 of themselves for speed, with critical
-///   speeds from 0.1 to 8 units where R exceeds 0.1, and by 1e-5 of one more than themselves for friction, with a slip above
-///   0.1 units.
+/// * [`DimensionlessImpact::in_fixed_point`](crate::contact::DimensionlessImpact::in_fixed_point) converts the simulation
+///   of the normal motion, for the method [`FixedCost`](crate::contact::FixedCost). The strength of adhesion may be up to
+///   0.999 (above that, hardly any energy remains to resolve), and the damping up to 0.5. If e exceeds 0.2 and the strength
+///   of adhesion is below 0.95, four nodes and two iterations have an error of e below 1e-4. The error exceeds that in f64 by
+///   less than 1e-5. Rounding errors are proportional to 1/e and to the inverse of the energy.
+/// * [`InFixedPoint`] converts the rigid-body model. Approach speeds may be 0.004 to 8 units, other velocities up to 8 units
+///   and friction coefficients up to 7. For gyration ratios from 0.2, the error of velocities is below 1e-5 units, and a
+///   rebound slower than 1e-6 units may be classified as a capture. The relative error of the speed margin is below 1e-4, for
+///   critical speeds from 0.1 to 8 units and R above 0.1. For a slip above 0.1 units, the error of a friction margin m is
+///   below 1e-5 (1 + m).
 ///
-/// Values in SI units, from 1e-10 m to 1e16 Pa, fit no fixed point, so that the constructors of [`Sphere`](crate::Sphere) and
-/// [`NormalMotion`](crate::NormalMotion) refuse the type. Rounding down instead of to the nearest number would make the error
-/// of e more than 1.6 times as large.
+/// SI values, from 1e-10 m to 1e16 Pa, do not fit into a fixed-point number. So the constructors of [`Sphere`](crate::Sphere)
+/// and [`NormalMotion`](crate::NormalMotion) refuse this type. If products were rounded down and not to the nearest number,
+/// the error of e would be more than 1.6 times as large.
 ///
 /// ```
-/// use microimpact::simulation::{FixedCost, Simulation};
+/// use microimpact::contact::{Contact, FixedCost};
 /// use microimpact::{FixedPoint, NormalMotion, Real, Sphere, Stiffness};
 ///
-/// // Set-up in floating point, on the host or once; the motion in integers.
-/// let scene = Simulation::new(Sphere::solid(5.06e-6_f32, 2600.0)?, Stiffness::new(7.5e10)?)
+/// // The set-up uses floating point. The motion uses integers only.
+/// let scene = Contact::hertz(Sphere::solid(5.06e-6_f32, 2600.0)?, Stiffness::new(7.5e10)?)
 ///     .with_damping(10.5)?
 ///     .with_ring(250.0, 6.25)?;
 /// let impact = scene.dimensionless(&NormalMotion::new(2.8)?)?.in_fixed_point()?;
 /// let contact = impact.solve(&FixedCost::<4>::new(2)?);
 /// assert!((contact.overall_restitution().to_f64() - 0.746193).abs() < 1e-4);
-/// // No wrapping.
+/// // A product that is too large does not wrap.
 /// let large = FixedPoint::nearest(100.0);
 /// assert!(large * large > large && -(large * large) < -large);
-/// // No sphere in SI units.
+/// // A sphere in SI units does not fit.
 /// assert!(Sphere::solid(FixedPoint::nearest(5.06e-6), FixedPoint::ONE).is_err());
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FixedPoint(pub I8F24);
 
-/// Bits behind the binary point.
+/// Bits after the binary point.
 const FRACTION: u32 = I8F24::FRAC_NBITS;
 
 impl FixedPoint {
-    /// The number nearest to `value`, or the closest bound; zero for NaN. Constant, for scenes that are.
+    /// Converts `value` to the nearest number, or to the closest bound. NaN becomes zero.
+    ///
+    /// The function can be evaluated at compile time.
     ///
     /// ```
     /// use microimpact::FixedPoint;
@@ -73,7 +76,7 @@ impl FixedPoint {
         Self(I8F24::from_bits((units + half) as i32))
     }
 
-    /// As f64, exactly.
+    /// Converts the number to f64, without error.
     ///
     /// ```
     /// assert_eq!(microimpact::FixedPoint::nearest(-3.25).to_f64(), -3.25);
@@ -82,18 +85,18 @@ impl FixedPoint {
         self.0.to_bits() as f64 / (1_u64 << FRACTION) as f64
     }
 
-    /// The number nearest to a product in units of products, held at the bounds.
+    /// Rounds a product with 48 fractional bits to the nearest number, or to the closest bound.
     #[inline]
     fn rounded(product: i64) -> Self {
         let product = product + (1 << (FRACTION - 1));
         let high = (product >> 32) as i32;
-        // One word decides on saturation, without a branch: the compiler can move products out of loops.
+        // The test for saturation uses one word and no branch, so that the compiler can move products out of loops.
         let fits = high >> (FRACTION - 1) == high >> 31;
         let units = if fits { (product >> FRACTION) as i32 } else { i32::MAX ^ (high >> 31) };
         Self(I8F24::from_bits(units))
     }
 
-    /// Units, held at the bounds.
+    /// The number with these bits, or the closest bound.
     #[inline]
     fn saturated(units: i64) -> Self {
         let (narrow, bound) = (units as i32, i32::MAX ^ (units >> 63) as i32);
@@ -150,9 +153,10 @@ impl Div for FixedPoint {
     }
 }
 
-/// Quotient by two digits of 16 bits, held at the largest number of 32 bits where it is larger or the divisor is zero.
+/// Quotient of 64 by 32 bits, computed as two digits of 16 bits. It is the largest number of 32 bits if it would be larger,
+/// or if the divisor is zero.
 ///
-/// Processors divide 32 bits by 32; a general division of 64 takes four times the instructions.
+/// Processors divide 32 by 32 bits. A general division of 64 bits takes four times as many instructions.
 #[inline]
 fn quotient(dividend: u64, divisor: u32) -> u32 {
     if (dividend >> 32) as u32 >= divisor {
@@ -163,10 +167,10 @@ fn quotient(dividend: u64, divisor: u32) -> u32 {
     let (Some(upper), lower) = (NonZeroU32::new(divisor >> 16), divisor & 0xffff) else {
         return u32::MAX;
     };
-    // One digit of the quotient, and what it leaves.
+    // One digit of the quotient, and the remainder.
     let digit = |high: u32, next: u32| {
         let (mut digit, mut rest) = (high / upper, high % upper);
-        // The upper half of the divisor alone gives at most two too many.
+        // The upper half of the divisor gives a digit that is at most two too large.
         for _ in 0..2 {
             if rest <= 0xffff && (digit > 0xffff || digit * lower > (rest << 16 | next)) {
                 digit -= 1;
@@ -181,11 +185,11 @@ fn quotient(dividend: u64, divisor: u32) -> u32 {
     first << 16 | second
 }
 
-/// The number nearest to the root of a square in units of products; zero where that is negative.
+/// The number nearest to the root of a square with 48 fractional bits; zero if the square is negative.
 #[inline(never)]
 fn nearest_root(square: i64) -> FixedPoint {
     let square = square.max(0).unsigned_abs();
-    // Normalized, the upper half of the root is that of the upper word, and a division gives the lower half.
+    // After normalization, the root of the upper word gives the upper half of the root. A division gives the lower half.
     let shift = square.leading_zeros() & 62;
     let normal = square << shift;
     let Some(high) = NonZeroU32::new((normal >> 32) as u32) else {
@@ -195,7 +199,7 @@ fn nearest_root(square: i64) -> FixedPoint {
     let rest = high.get() - upper.get() * upper.get();
     let lower = ((rest << 15) + ((normal as u32) >> 17)) / upper;
     let root = ((upper.get() << 16) + lower.min(0xffff)) >> (shift / 2);
-    // It is off by one at most.
+    // The error is at most one.
     let (rest, root) = (square.wrapping_sub(u64::from(root) * u64::from(root)) as i64, i64::from(root));
     FixedPoint::saturated(root + i64::from(rest > root) - i64::from(rest <= -root))
 }
@@ -209,6 +213,11 @@ impl Real for FixedPoint {
     #[inline]
     fn constant(value: f64) -> Self {
         Self::nearest(value)
+    }
+
+    #[inline]
+    fn to_f64(self) -> f64 {
+        Self::to_f64(self)
     }
 
     #[inline]
@@ -258,8 +267,12 @@ impl serde::Serialize for FixedPoint {
 impl<'de> serde::Deserialize<'de> for FixedPoint {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let value = f64::deserialize(deserializer)?;
-        // What the bounds would hold is not the number that was written.
+        // A number outside the range would become a bound, which is not the number that was written.
         let fits = (-128.0..128.0).contains(&value);
-        if fits { Ok(Self::nearest(value)) } else { Err(serde::de::Error::custom("fixed point holds -128 to 128")) }
+        if fits {
+            Ok(Self::nearest(value))
+        } else {
+            Err(serde::de::Error::custom("fixed-point number must be -128 to 128"))
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Hertz's elastic impact: its peak and its duration, without adhesion or loss.
+//! Hertz's elastic impact, without adhesion or losses.
 
 use core::f64::consts::PI;
 
@@ -32,7 +32,7 @@ pub struct Hertz<T> {
 }
 
 impl<T: Real> Hertz<T> {
-    /// The impact of a sphere that approaches as in `motion`; only the normal part of the motion counts.
+    /// Computes the impact of a sphere that arrives with `motion`. Only the normal velocity matters.
     ///
     /// ```
     /// use microimpact::{Hertz, NormalMotion, Sphere, Stiffness};
@@ -48,8 +48,8 @@ impl<T: Real> Hertz<T> {
     pub fn new(sphere: &Sphere<T>, stiffness: Stiffness<T>, motion: &impl Approach<T>) -> Self {
         let radius = sphere.radius();
         let speed = motion.normal().speed();
-        // delta_max = (5 m v^2/(4 sqrt(r) K))^(2/5) in units of r, where m/r^3 = 4 pi density/3: neither the
-        // mass of a nanometre sphere nor its energy appears, which single precision could not hold.
+        // delta_max = (5 m v^2/(4 sqrt(r) K))^(2/5), in units of r with m/r^3 = 4 pi density/3. This form avoids the
+        // mass and the energy of the sphere: f32 cannot represent those of a nanometre sphere.
         let compression = speed * (T::constant(5.0 * PI / 3.0) * sphere.density() / stiffness.pascals()).sqrt();
         let power = compression.two_fifths_power();
         let depth = power * power;

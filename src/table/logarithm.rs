@@ -1,23 +1,23 @@
-//! Logarithms to base 2 in integers: 2^-23 octaves, counted like the bits of a single-precision number.
+//! Logarithms to base 2 as integers, in units of 2^-23 octaves.
 //!
-//! The bits of a positive number, read as an integer, are its logarithm but for the part between two powers of two, where
-//! they are linear. So a logarithm costs one short polynomial, with or without a floating-point unit.
+//! The bits of a positive f32, read as an integer, are its logarithm plus an offset, but between two powers of two they are
+//! linear. A short polynomial corrects this difference. It needs no floating-point unit.
 
 use crate::Real;
 
-/// A number type whose numbers can be had from and read in single precision.
+/// A number type that converts from and to f32, as the tables need it.
 ///
 /// ```
-/// use microimpact::boundary::Single;
+/// use microimpact::table::Single;
 ///
 /// assert_eq!(1.5_f64.single(), 1.5_f32);
 /// assert_eq!(f64::from_single(1.5), 1.5);
 /// ```
 pub trait Single: Real {
-    /// The nearest number of single precision.
+    /// The nearest f32.
     fn single(self) -> f32;
 
-    /// The same number.
+    /// Converts an f32 without error.
     fn from_single(number: f32) -> Self;
 }
 
@@ -45,29 +45,30 @@ impl Single for f64 {
     }
 }
 
-/// An octave, a factor of two.
+/// An octave (a factor of two) in the units of the logarithms.
 pub(super) const OCTAVE: u32 = 1 << 23;
 
-/// A difference of logarithms in octaves.
+/// Converts a difference of logarithms to octaves.
 #[inline]
 pub(super) fn octaves<T: Single>(difference: i32) -> T {
     T::from_single(difference as f32 * (1.0 / OCTAVE as f32))
 }
 
-/// Greatest error of [`logarithm`]; the test below tries every number of an octave.
-pub(super) const GREATEST_ERROR: u32 = 200;
+/// Largest error of [`logarithm`]. A test tries every number of an octave.
+pub(super) const LARGEST_ERROR: u32 = 200;
 
-/// Logarithm of a positive normal number, to [`GREATEST_ERROR`].
+/// Logarithm of a positive normal number. The error is at most [`LARGEST_ERROR`].
 #[inline]
 pub(super) const fn logarithm(number: f32) -> i32 {
     let bits = number.to_bits();
     (bits + bulge(bits)) as i32
 }
 
-/// By how much the logarithm exceeds the bits: log2(1 + f) - f = f (1 - f) q(f), f being the fraction.
+/// Difference between the logarithm and the bits: log2(1 + f) - f = f (1 - f) q(f), where f is the fraction.
 #[inline]
 const fn bulge(bits: u32) -> u32 {
-    // The cubic of least greatest error in f (1 - f) q(f), in units of 2^-17; factors of 16 bits fit any processor.
+    // The cubic q minimizes the largest error of f (1 - f) q(f); its unit is 2^-17. All factors have 16 bits, so that every
+    // processor can multiply them.
     const Q: [u32; 4] = [57_923, 35_020, 19_455, 5_918];
     let f = (bits >> 7) & 0xffff;
     let q = Q[2] - ((Q[3] * f) >> 16);
@@ -77,20 +78,22 @@ const fn bulge(bits: u32) -> u32 {
     (parabola * q) >> 12
 }
 
-/// The number whose [`logarithm`] is given.
-pub(super) fn number(logarithm: i32) -> f32 {
-    // The bulge is never steeper than 0.45, so that each turn more than halves the error.
+/// The number with a given [`logarithm`].
+pub(super) const fn number(logarithm: i32) -> f32 {
+    // The slope of the bulge is at most 0.45, so that each iteration more than halves the error.
     let mut bits = logarithm as u32;
-    for _ in 0..23 {
+    let mut iteration = 0;
+    while iteration < 23 {
         bits = (logarithm as u32).wrapping_sub(bulge(bits));
+        iteration += 1;
     }
     f32::from_bits(bits)
 }
 
-/// Logarithm of a positive normal number, to two units: by squaring, one digit after the other.
+/// Logarithm of a positive normal number with an error of at most two units. Each squaring gives one binary digit.
 pub(super) fn exact_logarithm(number: f32) -> i32 {
     let bits = number.to_bits();
-    // One bit before the point, 31 behind it.
+    // One bit before the binary point, 31 after it.
     let mut mantissa = u64::from((bits << 8) | 1 << 31);
     let mut fraction = 0;
     for _ in 0..23 {
@@ -104,9 +107,9 @@ pub(super) fn exact_logarithm(number: f32) -> i32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{GREATEST_ERROR, OCTAVE, exact_logarithm, logarithm, number};
+    use super::{LARGEST_ERROR, OCTAVE, exact_logarithm, logarithm, number};
 
-    /// In units, counted from one.
+    /// The exact logarithm, zero for the number one.
     fn reference(x: f32) -> f64 {
         libm::log2(f64::from(x)) * f64::from(OCTAVE)
     }
@@ -123,9 +126,9 @@ mod tests {
             greatest = greatest.max((from_one(logarithm(x)) - reference(x)).abs());
             of_exact = of_exact.max((from_one(exact_logarithm(x)) - reference(x)).abs());
         }
-        assert!(greatest <= f64::from(GREATEST_ERROR), "{greatest}");
-        // A bound that is far from what happens would widen every margin.
-        assert!(greatest > 0.9 * f64::from(GREATEST_ERROR), "{greatest}");
+        assert!(greatest <= f64::from(LARGEST_ERROR), "{greatest}");
+        // A bound far above the actual error would widen every margin.
+        assert!(greatest > 0.9 * f64::from(LARGEST_ERROR), "{greatest}");
         assert!(of_exact <= 2.0, "{of_exact}");
     }
 

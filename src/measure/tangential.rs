@@ -1,4 +1,4 @@
-//! The friction coefficient from impacts that slide, and the spin from those that roll.
+//! Friction coefficient from sliding impacts, and spin from rolling impacts.
 
 use super::{CalibrationError, Location};
 use crate::rigid::{Departure, infer_assuming_rolling};
@@ -7,10 +7,10 @@ use crate::{
     TangentialImpact,
 };
 
-/// The impulse ratio of a measured impact and the one with which it would have rolled.
+/// Impulse ratio of a measured impact, and the impulse ratio at which it would have rolled.
 ///
 /// ```
-/// use microimpact::calibrate::ImpulseRatios;
+/// use microimpact::measure::ImpulseRatios;
 /// use microimpact::rigid::{Departure, infer};
 /// use microimpact::{ConstantRestitution, NormalMotion, Sphere};
 ///
@@ -26,9 +26,9 @@ use crate::{
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ImpulseRatios<T> {
-    /// mu = P_t/P_n.
+    /// Measured impulse ratio mu = P_t/P_n.
     pub measured: T,
-    /// mu_0, with which the sphere rolls at separation (A27).
+    /// Impulse ratio mu_0 at which the sphere rolls at separation (A27).
     pub rolling: T,
 }
 
@@ -38,20 +38,21 @@ impl<T: Real> From<&TangentialImpact<T>> for ImpulseRatios<T> {
     }
 }
 
-/// How far beyond the friction coefficient mu_0 has to lie for a sphere to slide for certain.
+/// A sphere slides with certainty if |mu_0| exceeds the friction coefficient by this factor.
 const CLEAR: f64 = 1.25;
 
-/// Coulomb's coefficient f: the plateau of the sizes of mu where mu_0 lies clearly beyond it.
+/// Estimates Coulomb's friction coefficient f from the impacts that slide.
 ///
-/// Which impacts these are follows from f itself, and not from mu, whose errors would select the lower ones.
+/// For sliding impacts, |mu| is constant and equal to f. An impact counts as sliding if |mu_0| clearly exceeds f. The estimate
+/// of f decides about this, and not the measured mu: the errors of mu would select impacts with small mu.
 ///
 /// # Errors
-/// A ratio outside its range, or fewer than three impacts that slide.
+/// A ratio is outside its range, or fewer than three impacts slide.
 ///
 /// ```
-/// use microimpact::calibrate::{ImpulseRatios, friction};
+/// use microimpact::measure::{ImpulseRatios, friction};
 ///
-/// // |mu| = min(f, |mu_0|) with f = 0.2, towards glancing incidence.
+/// // |mu| = min(f, |mu_0|) with f = 0.2, up to grazing incidence.
 /// let impacts = [0.05, 0.1, 0.15, 0.3, 0.6, 0.9, 1.2, 1.5, 2.0].map(|rolling: f64| ImpulseRatios {
 ///     measured: -rolling.min(0.2),
 ///     rolling: -rolling,
@@ -59,7 +60,7 @@ const CLEAR: f64 = 1.25;
 /// let plateau = friction(&impacts)?;
 /// assert!((plateau.estimate.value - 0.2).abs() < 1e-12);
 /// assert_eq!(plateau.count, 6);
-/// # Ok::<(), microimpact::calibrate::CalibrationError>(())
+/// # Ok::<(), microimpact::measure::CalibrationError>(())
 /// ```
 pub fn friction<T: Real>(impacts: &[ImpulseRatios<T>]) -> Result<Location<T>, CalibrationError> {
     for ratios in impacts {
@@ -75,28 +76,28 @@ pub fn friction<T: Real>(impacts: &[ImpulseRatios<T>]) -> Result<Location<T>, Ca
     for _ in 0..20 {
         let least = clear * found.estimate.value;
         let next = plateau(&|_, rolling| rolling > least)?;
-        let settled = next.count == found.count && next.estimate == found.estimate;
+        let converged = next.count == found.count && next.estimate == found.estimate;
         found = next;
-        if settled {
+        if converged {
             break;
         }
     }
     Ok(found)
 }
 
-/// The motion, spin included, of a sphere that must have been spinning to leave with an impulse ratio mu after it arrived
-/// as `before`: that with mu = mu_0, rolling at separation (eq. 1).
+/// Motion before an impact, with the spin that a measured `impulse_ratio` mu implies for a sphere that rolls at separation
+/// (mu = mu_0, eq. 1).
 ///
-/// Means and standard errors over many impacts are those of [`Location::of`] with the peripheral velocities.
+/// [`Location::of`] the peripheral velocities of many impacts gives the mean spin and its standard error.
 ///
 /// # Errors
-/// A value outside its range.
+/// A value is outside its range.
 ///
 /// ```
-/// use microimpact::calibrate::rolling_motion;
+/// use microimpact::measure::rolling_motion;
 /// use microimpact::{NormalMotion, Oblique, Sphere};
 ///
-/// // Figure 4 of the paper: ratios up to 0.12 at straight incidence are spins of up to r w = 1.54 m/s.
+/// // Figure 4 of the paper: at normal incidence, a ratio of 0.12 implies the spin r w = 1.54 m/s.
 /// let sphere = Sphere::solid(25e-6, 7800.0)?;
 /// let before = NormalMotion::new(2.3)?.with_tangential(0.0)?;
 /// let motion = rolling_motion(&sphere, &before, 0.601, 0.12)?;

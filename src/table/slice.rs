@@ -1,35 +1,38 @@
-//! A table of critical speeds in cells that lie elsewhere.
+//! Boundary tables whose cells are stored elsewhere.
 
-use super::Verdict;
-use super::logarithm::{GREATEST_ERROR, OCTAVE, Single, exact_logarithm, logarithm};
+use super::TableOutcome;
+use super::logarithm::{LARGEST_ERROR, OCTAVE, Single, exact_logarithm, logarithm, number};
 use crate::{Approach, CriticalSpeed, Fault, InputError, Parameter, Real};
 
-/// Cells to an octave of radii: the uppermost bits of the fraction of a radius tell its cell.
+/// Cells per octave of radii. The uppermost bits of the fraction of a radius select the cell.
 const CELLS_PER_OCTAVE: u32 = 4;
 pub(super) const CELL: u32 = OCTAVE / CELLS_PER_OCTAVE;
 
-/// Parts of a cell that a place in it is counted in.
+/// Relative error of one unit of a logarithm.
+const UNIT: f32 = core::f32::consts::LN_2 / OCTAVE as f32;
+
+/// Parts of a cell. A place in the cell is counted in these parts.
 const PARTS: u32 = 1 << 16;
 const BITS_PER_PART: u32 = CELL / PARTS;
 
-/// The largest margin of a table: 0.05, in units of 2^-23 octaves.
+/// Largest margin of a table, 0.05, in units of 2^-23 octaves.
 const LARGEST_MARGIN: u32 = 590_000;
 
-/// The logarithm of the critical speed, less the margin, as a cubic of the radius, lowest power first, counted from the
-/// middle of a cell.
+/// The logarithm of the critical speed, less the margin, as a cubic function of the radius. The coefficients start with the
+/// lowest power. The variable is zero in the middle of the cell.
 type Cubic = [i32; 4];
 
-/// A [`BoundaryTable`](super::BoundaryTable) of any number of cells that lie elsewhere: in flash, or in the memory of a C
-/// program.
+/// A [`BoundaryTable`](super::BoundaryTable) with any number of cells, which are stored elsewhere: in flash, or in the memory of
+/// a C program.
 ///
 /// ```
-/// use microimpact::boundary::{BoundarySlice, Verdict};
+/// use microimpact::table::{BoundarySlice, TableOutcome};
 /// use microimpact::{CriticalSpeed, NormalMotion};
 ///
 /// let mut cells = [[0; 4]; 3];
 /// let table = BoundarySlice::fill(1e-6, &mut cells, |radius: f32| Ok(CriticalSpeed::At(1e-6 / radius)))?;
-/// assert_eq!(table.classify(1.25e-6, &NormalMotion::new(0.9)?), Verdict::Rebound);
-/// assert_eq!(table.classify(1.25e-6, &NormalMotion::new(0.7)?), Verdict::Capture);
+/// assert_eq!(table.classify(1.25e-6, &NormalMotion::new(0.9)?), TableOutcome::Rebound);
+/// assert_eq!(table.classify(1.25e-6, &NormalMotion::new(0.7)?), TableOutcome::Capture);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,7 +44,7 @@ pub struct BoundarySlice<'a> {
     pub(super) margin: u32,
 }
 
-/// A cubic at a place, counted in parts of the cell from its middle.
+/// Value of a cubic at a place, which is counted from the middle of the cell.
 #[inline]
 const fn at(cubic: &Cubic, place: i32) -> i32 {
     let [constant, linear, square, cube] = *cubic;
@@ -57,15 +60,15 @@ const fn times(coefficient: i32, place: i32) -> i32 {
 }
 
 impl<'a> BoundarySlice<'a> {
-    /// A table in `cells`, from the radius `smallest` (m) on, made as by
+    /// Fills `cells` with a table that starts at the radius `smallest` (m), like
     /// [`BoundaryTable::new`](super::BoundaryTable::new).
     ///
     /// # Errors
-    /// Those of [`BoundaryTable::new`](super::BoundaryTable::new); what the cells hold then is no table.
+    /// Those of [`BoundaryTable::new`](super::BoundaryTable::new). Then the content of the cells is invalid.
     ///
     /// ```
     /// use microimpact::CriticalSpeed;
-    /// use microimpact::boundary::{BoundarySlice, BoundaryTable};
+    /// use microimpact::table::{BoundarySlice, BoundaryTable};
     ///
     /// let critical = |radius: f64| Ok(CriticalSpeed::At(1e-6 / radius));
     /// let mut cells = [[0; 4]; 2];
@@ -82,7 +85,7 @@ impl<'a> BoundarySlice<'a> {
         let (mut middle, mut worst, mut coarsest) = (first, 0_u32, 0);
         for cubic in &mut *cells {
             let mut curve = |place: i32| {
-                // A place stands for the radii up to the next one.
+                // A place represents the radii up to the next place.
                 let bits = middle.wrapping_add_signed(place * BITS_PER_PART as i32) + BITS_PER_PART / 2;
                 exact_critical_speed(Parameter::Radius.check(of_single(bits))?, &mut critical)
             };
@@ -95,11 +98,11 @@ impl<'a> BoundarySlice<'a> {
             coarsest = half_step(cubic).max(coarsest);
             middle += CELL;
         }
-        // Two units are the errors of the curve itself, three those of rounding a cubic, and three those of rounding the
-        // radius and the speed of a query to single precision.
-        let rounding = GREATEST_ERROR + 2 + 3 + 3 + coarsest;
+        // The source has an error of two units, the rounding of a cubic three, and the rounding of radius and speed to f32
+        // three.
+        let rounding = LARGEST_ERROR + 2 + 3 + 3 + coarsest;
         let margin = widest_jump(cells).max(worst.saturating_mul(2)).saturating_add(rounding);
-        // A larger one is refused below.
+        // `checked` refuses a larger margin.
         let shift = margin.min(LARGEST_MARGIN) as i32;
         for cubic in &mut *cells {
             cubic[0] = cubic[0].saturating_sub(shift);
@@ -107,15 +110,15 @@ impl<'a> BoundarySlice<'a> {
         Self { cells, first, margin }.checked()
     }
 
-    /// A table from its parts: the radius `smallest` (m), the margin and the cells, as [`parts`](Self::parts) gives them.
+    /// Creates a table from its [`parts`](Self::parts): the radius `smallest` (m), the margin and the cells.
     ///
     /// # Errors
     /// Those of [`BoundaryTable::from_parts`](super::BoundaryTable::from_parts).
     ///
     /// ```
-    /// use microimpact::boundary::BoundarySlice;
+    /// use microimpact::table::BoundarySlice;
     ///
-    /// // As the example `boundary` writes them.
+    /// // The example `boundary` writes these numbers.
     /// static CELLS: [[i32; 4]; 2] =
     ///     [[1_088_728_656, -5_161_287, 647_136, -107_606], [1_084_119_581, -4_133_047, 413_760, -54_992]];
     /// assert!(BoundarySlice::from_parts(1.9073486e-6, 592, &CELLS).is_ok());
@@ -128,21 +131,21 @@ impl<'a> BoundarySlice<'a> {
         }
     }
 
-    /// The one cell in which a `radius` (m) lies, of a table given by its parts; `None` if it lies in none.
+    /// Returns the one cell that contains a `radius` (m), as a table of its own; `None` if no cell does.
     ///
-    /// Nothing but this cell is checked, for tables that are checked anew at every query.
+    /// This function checks only that cell. Use it for a table whose cells must be checked at every lookup.
     ///
     /// # Errors
-    /// Those of [`BoundaryTable::from_parts`](super::BoundaryTable::from_parts), of this cell.
+    /// Those of [`BoundaryTable::from_parts`](super::BoundaryTable::from_parts), for this cell.
     ///
     /// ```
     /// use microimpact::NormalMotion;
-    /// use microimpact::boundary::{BoundarySlice, Verdict};
+    /// use microimpact::table::{BoundarySlice, TableOutcome};
     ///
-    /// // As the example `boundary` writes them, but that the second cell is spoilt.
+    /// // The example `boundary` writes these numbers. The second cell is damaged on purpose.
     /// static CELLS: [[i32; 4]; 2] = [[1_088_728_656, -5_161_287, 647_136, -107_606], [0, 0, 0, 0]];
     /// let cell = BoundarySlice::cell(1.9073486e-6, 592, &CELLS, 2e-6_f32)?;
-    /// assert_eq!(cell.map(|cell| cell.classify(2e-6_f32, &NormalMotion::new(5.3).unwrap())), Some(Verdict::Capture));
+    /// assert_eq!(cell.map(|cell| cell.classify(2e-6_f32, &NormalMotion::new(5.3).unwrap())), Some(TableOutcome::Capture));
     /// assert!(BoundarySlice::cell(1.9073486e-6, 592, &CELLS, 2.5e-6).is_err());
     /// assert_eq!(BoundarySlice::cell(1.9073486e-6, 592, &CELLS, 1e-3), Ok(None));
     /// # Ok::<(), microimpact::InputError>(())
@@ -161,12 +164,11 @@ impl<'a> BoundarySlice<'a> {
         }
     }
 
-    /// Radius at which the table begins (m), margin and cells, as those of
-    /// [`BoundaryTable::parts`](super::BoundaryTable::parts).
+    /// Smallest radius (m), margin and cells, as in [`BoundaryTable::parts`](super::BoundaryTable::parts).
     ///
     /// ```
     /// use microimpact::CriticalSpeed;
-    /// use microimpact::boundary::{BoundarySlice, BoundaryTable};
+    /// use microimpact::table::{BoundarySlice, BoundaryTable};
     ///
     /// let table = BoundaryTable::<2>::new(1e-6, |radius| Ok(CriticalSpeed::At(1e-6 / radius)))?;
     /// let (smallest, margin, cells) = table.as_slice().parts();
@@ -177,49 +179,49 @@ impl<'a> BoundarySlice<'a> {
         (f32::from_bits(self.first - CELL / 2), self.margin, self.cells)
     }
 
-    /// Rebound or capture of a sphere of `radius` (m) that arrives with `motion`.
+    /// Classifies the impact of a sphere of `radius` (m) that arrives with `motion`.
     ///
     /// ```
-    /// use microimpact::boundary::{BoundaryTable, Verdict};
+    /// use microimpact::table::{BoundaryTable, TableOutcome};
     /// use microimpact::{CriticalSpeed, NormalMotion};
     ///
     /// let table = BoundaryTable::<2>::new(1e-6, |radius| Ok(CriticalSpeed::At(1e-6 / radius)))?;
     /// let table = table.as_slice();
-    /// assert_eq!(table.classify(1.25e-6_f32, &NormalMotion::new(0.9)?), Verdict::Rebound);
-    /// assert_eq!(table.classify(f32::INFINITY, &NormalMotion::new(0.9)?), Verdict::OutsideTable);
+    /// assert_eq!(table.classify(1.25e-6_f32, &NormalMotion::new(0.9)?), TableOutcome::Rebound);
+    /// assert_eq!(table.classify(f32::INFINITY, &NormalMotion::new(0.9)?), TableOutcome::OutsideTable);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     #[inline]
-    pub fn classify<T: Single>(&self, radius: T, motion: &impl Approach<T>) -> Verdict {
+    pub fn classify<T: Single>(&self, radius: T, motion: &impl Approach<T>) -> TableOutcome {
         let Some(edge) = self.edge_at(radius) else {
-            return Verdict::OutsideTable;
+            return TableOutcome::OutsideTable;
         };
         let excess = logarithm(motion.normal().speed().single()).wrapping_sub(edge);
         if excess as u32 <= 2 * self.margin {
-            Verdict::TooCloseToCall
+            TableOutcome::TooCloseToCall
         } else if excess < 0 {
-            Verdict::Capture
+            TableOutcome::Capture
         } else {
-            Verdict::Rebound
+            TableOutcome::Rebound
         }
     }
 
-    /// Logarithm of the slowest speed that is too close to call.
+    /// Logarithm of the lowest speed that is too close to call.
     #[inline]
     pub(super) fn edge_at<T: Single>(&self, radius: T) -> Option<i32> {
         let (index, place) = self.place_of(radius);
         Some(at(self.cells.get(index)?, place))
     }
 
-    /// Number of the cell in which a radius lies, and the place in it.
+    /// Index of the cell that contains a radius, and the place in the cell.
     #[inline]
     fn place_of<T: Single>(&self, radius: T) -> (usize, i32) {
-        // Whatever is no positive number, or too small, lies far beyond the last cell here.
+        // A radius that is too small or not a positive number gets an index far beyond the last cell.
         let from_first = radius.single().to_bits().wrapping_sub(self.first);
         ((from_first.wrapping_add(CELL / 2) / CELL) as usize, i32::from((from_first / BITS_PER_PART) as i16))
     }
 
-    /// A table of whose parts the radius alone is checked.
+    /// Creates a table and checks its radius only.
     const fn unchecked(smallest: f32, margin: u32, cells: &'a [Cubic]) -> Result<Self, InputError> {
         let (least, most) = Parameter::Radius.range();
         if !(smallest >= least as f32 && smallest <= most as f32) {
@@ -228,15 +230,15 @@ impl<'a> BoundarySlice<'a> {
                 (true, true) => Fault::TooSmall,
                 (true, false) => Fault::TooLarge,
             };
-            return Err(InputError { parameter: Parameter::Radius, fault });
+            return Err(InputError { parameter: Parameter::Radius, fault, value: smallest as f64 });
         }
         Ok(Self { cells, first: middle_of_cell(smallest), margin })
     }
 
-    /// The table itself, if it can be one.
+    /// Returns the table if its cells and its margin are valid.
     const fn checked(self) -> Result<Self, InputError> {
         let (slowest, fastest) = Parameter::CriticalSpeed.range();
-        // A curve at a bound may be interpolated beyond it.
+        // The interpolation may exceed a bound slightly.
         let slack = 2 * LARGEST_MARGIN as i32;
         let (slowest, fastest) = (logarithm(slowest as f32) - slack, logarithm(fastest as f32) + slack);
         let mut cells = self.cells;
@@ -246,7 +248,8 @@ impl<'a> BoundarySlice<'a> {
                 let value = at(cubic, place);
                 if value < slowest || value > fastest {
                     let fault = if value < slowest { Fault::TooSmall } else { Fault::TooLarge };
-                    return Err(InputError { parameter: Parameter::CriticalSpeed, fault });
+                    let value = number(value) as f64;
+                    return Err(InputError { parameter: Parameter::CriticalSpeed, fault, value });
                 }
                 place += PARTS as i32 / 4;
             }
@@ -254,20 +257,21 @@ impl<'a> BoundarySlice<'a> {
         }
         let fault = match self.margin {
             margin if margin > LARGEST_MARGIN => Fault::TooLarge,
-            // Both cells err by the margin at most.
-            margin if margin < GREATEST_ERROR || widest_jump(self.cells) > 2 * margin => Fault::TooSmall,
+            // The error of each of two neighbouring cells is at most the margin.
+            margin if margin < LARGEST_ERROR || widest_jump(self.cells) > 2 * margin => Fault::TooSmall,
             _ => return Ok(self),
         };
-        Err(InputError { parameter: Parameter::BoundaryMargin, fault })
+        let value = (self.margin as f32 * UNIT) as f64;
+        Err(InputError { parameter: Parameter::BoundaryMargin, fault, value })
     }
 }
 
-/// Bits of the middle of the cell in which a radius lies.
+/// Bits of the radius in the middle of the cell that contains a radius.
 const fn middle_of_cell(radius: f32) -> u32 {
     radius.to_bits() / CELL * CELL + CELL / 2
 }
 
-/// The largest difference between neighbouring cells where they meet.
+/// Largest jump between neighbouring cells.
 const fn widest_jump(mut cells: &[Cubic]) -> u32 {
     let mut widest = 0;
     while let [left, rest @ ..] = cells {
@@ -282,61 +286,61 @@ const fn widest_jump(mut cells: &[Cubic]) -> u32 {
     widest
 }
 
-/// By how much a cubic changes, at most, over half the step between two places.
+/// Largest change of a cubic over half the distance between two places.
 fn half_step(cubic: &Cubic) -> u32 {
     let [_, linear, square, cube] = cubic.map(i32::unsigned_abs);
-    // The slope is largest at an end of the cell: linear + square + 3/4 cube.
+    // The slope is largest at an end of the cell, where it is linear + square + 3/4 cube.
     linear.saturating_add(square).saturating_add(cube) / (2 * PARTS) + 1
 }
 
-/// The number with these bits in single precision.
+/// The number that has these bits as an f32.
 pub(super) fn of_single<T: Real>(bits: u32) -> T {
     T::constant(f64::from(f32::from_bits(bits)))
 }
 
-/// Logarithm of the critical speed of a radius, if there is one.
+/// Logarithm of the critical speed of a radius.
 fn exact_critical_speed<T: Single>(
     radius: T,
     critical: &mut impl FnMut(T) -> Result<CriticalSpeed<T>, InputError>,
 ) -> Result<i32, InputError> {
-    let fault = match critical(radius)? {
+    let (fault, value) = match critical(radius)? {
         CriticalSpeed::At(speed) => return Ok(exact_logarithm(Parameter::CriticalSpeed.check(speed)?.single())),
-        CriticalSpeed::AlwaysRebounds => Fault::TooSmall,
-        CriticalSpeed::NeverRebounds => Fault::TooLarge,
+        CriticalSpeed::AlwaysRebounds => (Fault::TooSmall, 0.0),
+        CriticalSpeed::NeverRebounds => (Fault::TooLarge, f64::INFINITY),
     };
-    Err(InputError { parameter: Parameter::CriticalSpeed, fault })
+    Err(InputError { parameter: Parameter::CriticalSpeed, fault, value })
 }
 
-/// Chebyshev's places for a cubic, cos(pi/8)/2 and cos(3 pi/8)/2 to either side of the middle, in parts of a cell.
+/// Chebyshev nodes for a cubic, in parts of a cell: cos(pi/8)/2 and cos(3 pi/8)/2 on both sides of the middle.
 const OUTER: i32 = 30_274;
 const INNER: i32 = 12_540;
 
-/// Where the cubic through them errs most within the cell: 0 and cos(pi/4)/2.
+/// Places where the interpolation error is largest: 0 and cos(pi/4)/2 on both sides of the middle.
 const EXTREMES: [i32; 3] = [-23_170, 0, 23_170];
 
-/// The cubic through a curve at Chebyshev's places.
+/// The cubic through a curve at the Chebyshev nodes.
 fn interpolated(curve: &mut impl FnMut(i32) -> Result<i32, InputError>) -> Result<Cubic, InputError> {
     const ALPHA: f64 = OUTER as f64 / PARTS as f64;
     const BETA: f64 = INNER as f64 / PARTS as f64;
     const SPREAD: f64 = ALPHA * ALPHA - BETA * BETA;
     let [below, above] = [curve(-OUTER)?, curve(OUTER)?].map(i64::from);
     let [left, right] = [curve(-INNER)?, curve(INNER)?].map(i64::from);
-    // Twice the even and the odd part of the curve at the outer and the inner places.
+    // Twice the even and the odd part of the curve at the outer and the inner nodes.
     let (even, odd) = ((above + below, right + left), (above - below, right - left));
     let square = scaled::<{ fixed(0.5 / SPREAD) }>(even.0 - even.1);
     let cube = scaled::<{ fixed(0.5 / ALPHA / SPREAD) }>(odd.0) - scaled::<{ fixed(0.5 / BETA / SPREAD) }>(odd.1);
     let linear = scaled::<{ fixed(0.5 / BETA) }>(odd.1) - scaled::<{ fixed(BETA * BETA) }>(cube);
     let constant = (even.1 + 1) / 2 - scaled::<{ fixed(BETA * BETA) }>(square);
-    // What does not fit shows as an error of the cubic.
+    // A coefficient that does not fit increases the error of the cubic, which is measured.
     Ok([constant, linear, square, cube].map(|part| part.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32))
 }
 
-/// A factor in units of 2^-24.
+/// Converts a factor to units of 2^-24.
 const fn fixed(factor: f64) -> i64 {
     (factor * (1 << 24) as f64 + 0.5) as i64
 }
 
-/// A product with a factor in units of 2^-24.
+/// Product of a number and a factor in units of 2^-24.
 fn scaled<const FACTOR: i64>(number: i64) -> i64 {
     (number * FACTOR + (1 << 23)) >> 24
 }

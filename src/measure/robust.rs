@@ -1,12 +1,12 @@
-//! Estimates that outliers do not move: the median by counting, and Tukey's biweight about it.
+//! Robust estimates: the median and Tukey's biweight.
 
 use super::CalibrationError;
 use crate::{Parameter, Real};
 
-/// An estimated quantity.
+/// An estimated value with its standard error.
 ///
 /// ```
-/// use microimpact::calibrate::Estimate;
+/// use microimpact::measure::Estimate;
 ///
 /// let friction = Estimate { value: 0.15, standard_error: 0.01 };
 /// assert!(friction.value > 3.0 * friction.standard_error);
@@ -17,21 +17,21 @@ use crate::{Parameter, Real};
 pub struct Estimate<T> {
     /// The value.
     pub value: T,
-    /// Its standard error.
+    /// Standard error of the value.
     pub standard_error: T,
 }
 
-/// The centre of repeated measurements, and their spread about it.
+/// Centre and spread of repeated measurements.
 ///
 /// ```
 /// use microimpact::Parameter;
-/// use microimpact::calibrate::Location;
+/// use microimpact::measure::Location;
 ///
 /// let spins = [1.44e5, 1.46e5, 1.47e5, 1.45e5, 1.48e5, 9.0e5];
 /// let spin = Location::of(Parameter::Spin, spins.into_iter())?;
 /// assert!((spin.estimate.value - 1.46e5_f64).abs() < 0.01e5);
 /// assert_eq!((spin.count, spin.outliers), (6, 1));
-/// # Ok::<(), microimpact::calibrate::CalibrationError>(())
+/// # Ok::<(), microimpact::measure::CalibrationError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -39,53 +39,54 @@ pub struct Estimate<T> {
 pub struct Location<T> {
     /// The centre.
     pub estimate: Estimate<T>,
-    /// Standard deviation of a single measurement, from the median of the deviations.
+    /// Standard deviation of one measurement, computed from the median deviation.
     pub scale: T,
     /// Number of measurements.
     pub count: u32,
-    /// Those so far away that they do not count.
+    /// Number of outliers: measurements so far from the centre that they have no weight.
     pub outliers: u32,
 }
 
-/// Passes over the data in which an estimate settles.
+/// Largest number of passes over the data until an estimate converges.
 pub(super) const MOST_PASSES: u32 = 50;
 
-/// Standard deviation of a normal distribution over its median deviation.
+/// Standard deviation of a normal distribution divided by its median deviation.
 pub(super) const DEVIATION: f64 = 1.482_602_218_505_602;
 
-/// Scales beyond which a deviation has no weight; 4.685 keeps 95 % of the efficiency on normal errors.
+/// A deviation of more than this number of scales has no weight. With 4.685, the estimate has 95 % of the efficiency of the
+/// mean for normal errors.
 const CUT: f64 = 4.685;
 
-/// What a deviation of u scales counts in an estimate.
+/// Influence of a measurement on an estimate. Its deviation is in units of the scale.
 pub(super) struct Influence<T> {
     /// Weight of the measurement.
     pub(super) weight: T,
     /// Weight times deviation.
     pub(super) psi: T,
-    /// Derivative of psi by the deviation.
+    /// Derivative of psi with respect to the deviation.
     pub(super) slope: T,
 }
 
 impl<T: Real> Influence<T> {
     /// Tukey's biweight.
     pub(super) fn of(deviation: T) -> Self {
-        let share = deviation * T::constant(1.0 / CUT);
-        let rest = T::ONE - share * share;
+        let ratio = deviation * T::constant(1.0 / CUT);
+        let rest = T::ONE - ratio * ratio;
         if rest <= T::ZERO {
             return Self { weight: T::ZERO, psi: T::ZERO, slope: T::ZERO };
         }
         let weight = rest * rest;
-        let slope = rest * (T::ONE - T::constant(5.0) * share * share);
+        let slope = rest * (T::ONE - T::constant(5.0) * ratio * ratio);
         Self { weight, psi: weight * deviation, slope }
     }
 }
 
-/// Number of items as a number of the type.
+/// Converts a count to the number type.
 pub(super) fn number<T: Real>(count: u32) -> T {
     T::constant(f64::from(count))
 }
 
-/// Median, to rounding, without order or storage: a count in each of some sixty passes.
+/// Median of values that are neither sorted nor stored. Some sixty passes count the values below a trial value.
 pub(super) fn median<T: Real>(values: impl Iterator<Item = T> + Clone) -> Option<T> {
     let mut range: Option<(T, T)> = None;
     let mut count = 0_u32;
@@ -95,7 +96,7 @@ pub(super) fn median<T: Real>(values: impl Iterator<Item = T> + Clone) -> Option
     }
     let range = range?;
     let half = T::constant(0.5);
-    // Of an even number of values there are two in the middle.
+    // An even number of values has two in the middle.
     let quantile = |enough: u32| {
         let (mut low, mut high) = range;
         if values.clone().filter(|value| *value <= low).count() >= enough as usize {
@@ -118,14 +119,15 @@ pub(super) fn median<T: Real>(values: impl Iterator<Item = T> + Clone) -> Option
 }
 
 impl<T: Real> Location<T> {
-    /// The centre of `values` of a quantity, by Tukey's biweight from the median; half of them may be outliers.
+    /// Estimates the centre of the `values` of a `quantity` by Tukey's biweight, starting at the median. Up to half of the
+    /// values may be outliers.
     ///
     /// # Errors
-    /// A value outside its range, or fewer than three.
+    /// A value is outside its range, or there are fewer than three values.
     ///
     /// ```
     /// use microimpact::Parameter;
-    /// use microimpact::calibrate::{CalibrationError, Location};
+    /// use microimpact::measure::{CalibrationError, Location};
     ///
     /// let location = |values: [f32; 2]| Location::of(Parameter::Restitution, values.into_iter());
     /// assert_eq!(location([0.5, 0.6]), Err(CalibrationError::TooFew));
@@ -141,7 +143,7 @@ impl<T: Real> Location<T> {
         };
         let from_median = centre;
         let deviation = median(values.clone().map(|value| (value - from_median).abs())).unwrap_or(T::ZERO);
-        // More than half of the values may be equal.
+        // If more than half of the values are equal, the median deviation is zero.
         let scale = (T::constant(DEVIATION) * deviation).max(T::constant(16.0) * T::EPSILON * largest).max(T::SMALLEST);
         for _ in 0..MOST_PASSES {
             let (mut step, mut weights) = (T::ZERO, T::ZERO);

@@ -1,13 +1,13 @@
-//! The numbers the models compute with.
+//! The trait that a number type implements, for f32 and f64.
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A number type that both models can run in.
+/// A number type that the models can compute with.
 ///
-/// The core uses the four operations, comparison and the few functions below. It never relies on NaN or
-/// infinity as a signal, so a type without them (fixed point) or with more behind a value (a dual number)
-/// can implement the trait.
+/// The models use the four arithmetic operations, comparison and the functions of this trait. They never use NaN or infinity
+/// to signal anything. So fixed-point numbers, which have neither, and dual numbers, which carry derivatives, can implement
+/// this trait.
 ///
 /// ```
 /// use microimpact::Real;
@@ -35,28 +35,31 @@ pub trait Real:
     const ONE: Self;
     /// Distance from one to the next larger number.
     const EPSILON: Self;
-    /// Smallest positive number that has its full accuracy.
+    /// Smallest positive number with full accuracy.
     const SMALLEST: Self;
 
-    /// The number nearest to a constant; the closest bound where the constant lies outside the type's range.
+    /// Converts a constant to the nearest number. A constant outside the range of the type becomes the closest bound.
     fn constant(value: f64) -> Self;
 
-    /// Whether this is a number: neither infinite nor NaN, where the type has those.
+    /// Converts this number to f64, for the value that an error reports.
+    fn to_f64(self) -> f64;
+
+    /// Whether this number is neither infinite nor NaN. Always true for a type without these.
     fn is_finite(self) -> bool;
 
-    /// Square root of a number that is not negative.
+    /// Square root of a non-negative number.
     fn sqrt(self) -> Self;
 
-    /// `self` to the power 2/5, the exponent of Hertz's contact, for a number that is not negative.
+    /// Power 2/5 of a non-negative number. The peak of Hertz's contact depends on this power.
     fn two_fifths_power(self) -> Self;
 
     /// Exponential function.
     fn exp(self) -> Self;
 
-    /// Quotient, held at the type's largest number where it would overflow; the divisor is positive.
+    /// Quotient by a positive divisor. A quotient that would overflow becomes the largest number of the type.
     fn saturating_div(self, divisor: Self) -> Self;
 
-    /// Square root of a product that is not negative; a type of few digits rounds once.
+    /// Square root of a non-negative product. A type with few digits rounds only once.
     ///
     /// ```
     /// assert_eq!(microimpact::Real::geometric_mean(2.0_f32, 8.0), 4.0);
@@ -66,7 +69,7 @@ pub trait Real:
         (self * other).sqrt()
     }
 
-    /// Size without sign.
+    /// Absolute value.
     #[inline]
     fn abs(self) -> Self {
         if self < Self::ZERO { -self } else { self }
@@ -96,6 +99,11 @@ macro_rules! impl_real_for_float {
             #[inline]
             fn constant(value: f64) -> Self {
                 value as $float
+            }
+
+            #[inline]
+            fn to_f64(self) -> f64 {
+                self as f64
             }
 
             #[inline]
@@ -131,21 +139,21 @@ macro_rules! impl_real_for_float {
     };
 }
 
-/// x^(2/5) of a normal number by multiplications alone, to one unit in the last place; zero for zero.
+/// x^(2/5) of zero or a normal number, with an error of one unit in the last place, by multiplications alone.
 ///
-/// A general power takes ten times the instructions, and thousands where there is no floating-point unit.
+/// A general power function takes ten times as many instructions, and thousands without a floating-point unit.
 macro_rules! two_fifths_power {
     ($name:ident, $float:ident, $start:literal, $steps:literal) => {
         #[inline]
         fn $name(x: $float) -> $float {
-            // A fifth of the exponent gives x^(-1/5) to 3 %, each of Newton's steps squares that error.
+            // Dividing the exponent by five gives x^(-1/5) with an error of 3 %. Each Newton step squares the error.
             let mut root = $float::from_bits($start - x.to_bits() / 5);
             let fifth = 0.2 * x;
             for _ in 0..$steps {
                 let square = root * root;
                 root = root * (1.2 - fifth * square * square * root);
             }
-            // The last step is one of the power itself, whose own rounding it takes back in part.
+            // The last Newton step is taken on the power itself. It also corrects part of the rounding of the power.
             let square = root * root;
             let power = x * root * square;
             power + 0.6 * power * (1.0 - power * square)
@@ -162,14 +170,14 @@ impl_real_for_float!(f32, libm::sqrtf, libm::expf, two_fifths_power_f32);
 impl_real_for_float!(f32, multiplied_root, libm::expf, two_fifths_power_f32);
 impl_real_for_float!(f64, libm::sqrt, libm::exp, two_fifths_power_f64);
 
-/// Square root by multiplications alone, to one unit in the last place, of zero or a normal number.
+/// Square root of zero or a normal number, with an error of one unit in the last place, by multiplications alone.
 ///
-/// On ARM with a floating-point unit libm works in integers and with a table, which takes three times the
-/// instructions and five times the flash; the unit's own root is out of reach of safe code.
+/// On ARM with a floating-point unit, libm computes roots with integers and a table. That takes three times as many
+/// instructions and five times as much flash. Safe code cannot use the square-root instruction of the unit.
 #[cfg(any(test, all(target_arch = "arm", target_abi = "eabihf")))]
 #[inline]
 fn multiplied_root(x: f32) -> f32 {
-    // Halving the exponent gives 1/sqrt(x) to 3.5 %, each of Newton's steps squares that error.
+    // Halving the exponent gives 1/sqrt(x) with an error of 3.5 %. Each Newton step squares the error.
     let mut inverse = f32::from_bits(0x5f37_5a86 - (x.to_bits() >> 1));
     for _ in 0..2 {
         inverse = inverse * (1.5 - 0.5 * inverse * (x * inverse));
@@ -204,7 +212,7 @@ mod tests {
         while x < 1e30 {
             let exact = f64::powf(x, 0.4);
             assert!((Real::two_fifths_power(x) / exact - 1.0).abs() < 4e-15, "{x:e}");
-            // A power by f64 is exact to so much only, as 0.4 is not.
+            // f64 cannot represent 0.4, so the reference itself has an error.
             let single = f64::from(Real::two_fifths_power(x as f32));
             let error = (single / f64::powf(f64::from(x as f32), 0.4) - 1.0).abs();
             assert!(error < 1.1 * f64::from(f32::EPSILON), "{x:e}: {error:e}");

@@ -1,36 +1,36 @@
-//! The critical speed over a range of radii.
+//! Boundary tables: the critical speed as a function of the radius.
 
-use super::Verdict;
+use super::TableOutcome;
 use super::logarithm::{OCTAVE, Single, logarithm, number};
 use super::slice::{BoundarySlice, CELL, of_single};
 use crate::{Approach, CriticalSpeed, InputError, Real};
 
-/// The relative error that one unit of a logarithm is.
+/// Relative error of one unit of a logarithm.
 const UNIT: f64 = core::f64::consts::LN_2 / OCTAVE as f64;
 
-/// The critical speeds of a surface and a material over a range of radii, in `N` cells, with a bound for the error.
+/// The critical speed as a function of the radius, in `N` cells, with a bound of the error.
 ///
-/// Four cells are an octave of radii; the first begins at a whole quarter of an octave. A cell takes 16 bytes, in each
-/// the logarithm of the critical speed is a cubic of the radius, in integers. The table itself does not depend on the
-/// number type of the queries.
+/// An octave of radii has four cells. The first cell begins at a multiple of a quarter of an octave. In each cell, the
+/// logarithm of the critical speed is a cubic function of the radius with integer coefficients, which takes 16 bytes. The
+/// table does not depend on the number type of the lookup.
 ///
 /// ```
-/// use microimpact::boundary::{BoundaryTable, Verdict};
-/// use microimpact::simulation::{Collocation, Simulation};
+/// use microimpact::table::{BoundaryTable, TableOutcome};
+/// use microimpact::contact::{Collocation, Contact};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
 /// // Glass on steel (the paper's figure 6), from radii of 2 to 8 um.
 /// let method = Collocation::<9, f64>::new(1e-9)?;
 /// let table = BoundaryTable::<8>::new(2e-6, |radius| {
 ///     let sphere = Sphere::solid(radius, 2600.0)?;
-///     let scene = Simulation::new(sphere, Stiffness::new(7.5e10)?).with_damping(10.5)?.with_ring(250.0, 6.25)?;
+///     let scene = Contact::hertz(sphere, Stiffness::new(7.5e10)?).with_damping(10.5)?.with_ring(250.0, 6.25)?;
 ///     scene.critical_speed(&method)
 /// })?;
 /// assert!(table.margin::<f64>() < 1e-4);
-/// assert_eq!(table.classify(2.5e-6, &NormalMotion::new(5.155)?), Verdict::Capture);
-/// assert_eq!(table.classify(2.5e-6, &NormalMotion::new(5.165)?), Verdict::Rebound);
-/// assert_eq!(table.classify(2.5e-6, &NormalMotion::new(5.15957)?), Verdict::TooCloseToCall);
-/// assert_eq!(table.classify(1e-6, &NormalMotion::new(5.0)?), Verdict::OutsideTable);
+/// assert_eq!(table.classify(2.5e-6, &NormalMotion::new(5.155)?), TableOutcome::Capture);
+/// assert_eq!(table.classify(2.5e-6, &NormalMotion::new(5.165)?), TableOutcome::Rebound);
+/// assert_eq!(table.classify(2.5e-6, &NormalMotion::new(5.15957)?), TableOutcome::TooCloseToCall);
+/// assert_eq!(table.classify(1e-6, &NormalMotion::new(5.0)?), TableOutcome::OutsideTable);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,29 +45,28 @@ pub struct BoundaryTable<const N: usize> {
 }
 
 impl<const N: usize> BoundaryTable<N> {
-    /// A table from the radius `smallest` (m) on, by a source of critical speeds: [`Simulation::critical_speed`],
-    /// [`RigidBody::critical_speed`] or measurements.
+    /// Fills a table that starts at the radius `smallest` (m).
     ///
-    /// The source is asked for seven radii in each cell: four to lay the cubic through, and three where the cubic errs
-    /// most. The margin is twice the largest error found there and what the arithmetic of a query errs by. That bounds
-    /// the error everywhere, if nowhere in the table the fourth derivative of the curve is more than twice the smallest
-    /// one in the cell where the largest error was found; the error of the source itself is not in it.
+    /// The source of critical speeds is [`Contact::critical_speed`], [`RigidBody::critical_speed`] or a measurement. It is
+    /// called for seven radii in each cell: the cubic interpolates four of them, and its error is measured at the other three,
+    /// where it is largest. The margin is twice the largest error found, plus the rounding error of a lookup. It bounds the
+    /// error of the whole table if the fourth derivative of the curve is nowhere more than twice its smallest value in the
+    /// cell with the largest error. The error of the source is not included.
     ///
     /// # Errors
-    /// A radius outside its range; [`Parameter::CriticalSpeed`] where every speed in its range rebounds (too small) or
-    /// none does (too large); [`Parameter::BoundaryMargin`] where the curve is too rough for a cubic; and the errors of
-    /// the source.
+    /// A radius is outside its range; [`Parameter::CriticalSpeed`] if every speed rebounds (too small) or if no speed rebounds
+    /// (too large); [`Parameter::BoundaryMargin`] if a cubic does not fit the curve; and the errors of the source.
     ///
-    /// [`Simulation::critical_speed`]: crate::simulation::Simulation::critical_speed
+    /// [`Contact::critical_speed`]: crate::contact::Contact::critical_speed
     /// [`RigidBody::critical_speed`]: crate::RigidBody::critical_speed
     /// [`Parameter::CriticalSpeed`]: crate::Parameter::CriticalSpeed
     /// [`Parameter::BoundaryMargin`]: crate::Parameter::BoundaryMargin
     ///
     /// ```
-    /// use microimpact::boundary::BoundaryTable;
+    /// use microimpact::table::BoundaryTable;
     /// use microimpact::{Parameter, RigidBody, SpeedRestitution, Sphere};
     ///
-    /// // The rigid-body model, with an adhesion of 50 mJ/m^2 over a hundredth of the cross-section.
+    /// // The rigid-body model with a work of adhesion of 50 mJ/m^2 on one hundredth of the cross-section.
     /// let critical = |radius: f64| {
     ///     let scene = RigidBody::new(Sphere::solid(radius, 2600.0)?, SpeedRestitution::new(130.0)?);
     ///     Ok(scene.with_work_of_adhesion(0.05 * 0.0314 * radius * radius)?.critical_speed())
@@ -87,21 +86,22 @@ impl<const N: usize> BoundaryTable<N> {
         Ok(Self { cells, first, margin })
     }
 
-    /// A table from its parts: the radius `smallest` (m), the margin and the cells, as [`parts`](Self::parts) gives them;
-    /// for tables that are constants.
+    /// Creates a table from its [`parts`](Self::parts): the radius `smallest` (m), the margin and the cells.
+    ///
+    /// The function can be evaluated at compile time, so that a table can be a constant.
     ///
     /// # Errors
-    /// A radius outside its range; [`Parameter::CriticalSpeed`] where a cell holds what is no speed;
-    /// [`Parameter::BoundaryMargin`] where the margin is too large, or smaller than what neighbouring cells differ by.
+    /// The radius is outside its range; [`Parameter::CriticalSpeed`] if a cell holds values that are not speeds;
+    /// [`Parameter::BoundaryMargin`] if the margin is too large, or smaller than the jumps between neighbouring cells.
     ///
     /// [`Parameter::CriticalSpeed`]: crate::Parameter::CriticalSpeed
     /// [`Parameter::BoundaryMargin`]: crate::Parameter::BoundaryMargin
     ///
     /// ```
     /// use microimpact::NormalMotion;
-    /// use microimpact::boundary::{BoundaryTable, Verdict};
+    /// use microimpact::table::{BoundaryTable, TableOutcome};
     ///
-    /// // As the example `boundary` writes them. A mistake ends the compilation.
+    /// // The example `boundary` writes these numbers. An invalid table stops the compilation.
     /// const TABLE: BoundaryTable<2> = match BoundaryTable::from_parts(1.9073486e-6, 592, [
     ///     [1_088_728_656, -5_161_287, 647_136, -107_606],
     ///     [1_084_119_581, -4_133_047, 413_760, -54_992],
@@ -109,8 +109,8 @@ impl<const N: usize> BoundaryTable<N> {
     ///     Ok(table) => table,
     ///     Err(_) => panic!("no boundary table"),
     /// };
-    /// assert_eq!(TABLE.classify(2.5e-6, &NormalMotion::new(5.1)?), Verdict::Capture);
-    /// assert_eq!(TABLE.classify(2.5e-6_f32, &NormalMotion::new(5.3)?), Verdict::Rebound);
+    /// assert_eq!(TABLE.classify(2.5e-6, &NormalMotion::new(5.1)?), TableOutcome::Capture);
+    /// assert_eq!(TABLE.classify(2.5e-6_f32, &NormalMotion::new(5.3)?), TableOutcome::Rebound);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub const fn from_parts(smallest: f32, margin: u32, cells: [[i32; 4]; N]) -> Result<Self, InputError> {
@@ -123,14 +123,14 @@ impl<const N: usize> BoundaryTable<N> {
 
     const COUNTED: () = assert!(N > 0 && N <= 128, "a table has 1 to 128 cells");
 
-    /// The table without its number of cells.
+    /// The same table as a [`BoundarySlice`], whose type does not contain the number of cells.
     ///
     /// ```
-    /// use microimpact::boundary::{BoundaryTable, Verdict};
+    /// use microimpact::table::{BoundaryTable, TableOutcome};
     /// use microimpact::{CriticalSpeed, NormalMotion};
     ///
     /// let table = BoundaryTable::<2>::new(1e-6, |radius| Ok(CriticalSpeed::At(1e-6 / radius)))?;
-    /// assert_eq!(table.as_slice().classify(1.25e-6, &NormalMotion::new(0.9)?), Verdict::Rebound);
+    /// assert_eq!(table.as_slice().classify(1.25e-6, &NormalMotion::new(0.9)?), TableOutcome::Rebound);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     #[inline]
@@ -138,14 +138,15 @@ impl<const N: usize> BoundaryTable<N> {
         BoundarySlice { cells: &self.cells, first: self.first, margin: self.margin }
     }
 
-    /// Radius at which the table begins (m), margin in units of 2^-23 octaves, and cells.
+    /// Smallest radius (m), margin in units of 2^-23 octaves, and cells.
     ///
-    /// In each cell, the four coefficients of a cubic, lowest power first, give 2^23 (127 + log2 v_c) less the margin, v_c
-    /// being the critical speed in m/s. Its variable runs from -1/2 to 1/2 over the cell, in which the radius is linear.
+    /// A cell holds the four coefficients of a cubic, lowest power first. The value of the cubic is 2^23 (127 + log2 v_c) less
+    /// the margin, where v_c is the critical speed in m/s. Its variable is linear in the radius, from -1/2 at the start of the
+    /// cell to 1/2 at the end.
     ///
     /// ```
     /// use microimpact::CriticalSpeed;
-    /// use microimpact::boundary::BoundaryTable;
+    /// use microimpact::table::BoundaryTable;
     ///
     /// let table = BoundaryTable::<2>::new(1e-6, |radius| Ok(CriticalSpeed::At(1e-6 / radius)))?;
     /// let (smallest, margin, cells) = table.parts();
@@ -156,11 +157,11 @@ impl<const N: usize> BoundaryTable<N> {
         (f32::from_bits(self.first - CELL / 2), self.margin, &self.cells)
     }
 
-    /// Greatest relative error of the critical speed: speeds this close to it are [`Verdict::TooCloseToCall`].
+    /// Bound of the relative error of the critical speed. Speeds within it are [`TableOutcome::TooCloseToCall`].
     ///
     /// ```
     /// use microimpact::CriticalSpeed;
-    /// use microimpact::boundary::BoundaryTable;
+    /// use microimpact::table::BoundaryTable;
     ///
     /// let table = BoundaryTable::<2>::new(1e-6, |_| Ok(CriticalSpeed::At(1.0)))?;
     /// assert!(table.margin::<f64>() < 2e-5);
@@ -170,11 +171,11 @@ impl<const N: usize> BoundaryTable<N> {
         T::constant(f64::from(self.margin) * UNIT)
     }
 
-    /// Radii from which, and up to but not at which, the table reaches, m.
+    /// Smallest radius in the table and first radius beyond it, m.
     ///
     /// ```
     /// use microimpact::CriticalSpeed;
-    /// use microimpact::boundary::BoundaryTable;
+    /// use microimpact::table::BoundaryTable;
     ///
     /// let table = BoundaryTable::<8>::new(1e-6, |_| Ok(CriticalSpeed::At(1.0)))?;
     /// let (smallest, end) = table.radii::<f64>();
@@ -187,11 +188,11 @@ impl<const N: usize> BoundaryTable<N> {
         (of_single(smallest), of_single(largest + 1))
     }
 
-    /// Critical speed of a `radius` (m), m/s, within the margin; `None` outside the table.
+    /// Critical speed of a `radius` (m), in m/s, with an error of at most the margin. `None` outside the table.
     ///
     /// ```
     /// use microimpact::CriticalSpeed;
-    /// use microimpact::boundary::BoundaryTable;
+    /// use microimpact::table::BoundaryTable;
     ///
     /// let table = BoundaryTable::<2>::new(1e-6, |radius| Ok(CriticalSpeed::At(1e-6 / radius)))?;
     /// assert!((table.critical_speed(1.25e-6).unwrap() - 0.8_f64).abs() < 1e-4);
@@ -202,19 +203,19 @@ impl<const N: usize> BoundaryTable<N> {
         Some(of_single(number(self.logarithm_at(radius)?).to_bits()))
     }
 
-    /// Rebound or capture of a sphere of `radius` (m) that arrives with `motion`.
+    /// Classifies the impact of a sphere of `radius` (m) that arrives with `motion`.
     ///
     /// ```
-    /// use microimpact::boundary::{BoundaryTable, Verdict};
+    /// use microimpact::table::{BoundaryTable, TableOutcome};
     /// use microimpact::{CriticalSpeed, NormalMotion};
     ///
     /// let table = BoundaryTable::<2>::new(1e-6, |radius| Ok(CriticalSpeed::At(1e-6 / radius)))?;
-    /// assert_eq!(table.classify(1.25e-6_f32, &NormalMotion::new(0.9)?), Verdict::Rebound);
-    /// assert_eq!(table.classify(f32::INFINITY, &NormalMotion::new(0.9)?), Verdict::OutsideTable);
+    /// assert_eq!(table.classify(1.25e-6_f32, &NormalMotion::new(0.9)?), TableOutcome::Rebound);
+    /// assert_eq!(table.classify(f32::INFINITY, &NormalMotion::new(0.9)?), TableOutcome::OutsideTable);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     #[inline]
-    pub fn classify<T: Single>(&self, radius: T, motion: &impl Approach<T>) -> Verdict {
+    pub fn classify<T: Single>(&self, radius: T, motion: &impl Approach<T>) -> TableOutcome {
         self.as_slice().classify(radius, motion)
     }
 
@@ -243,11 +244,11 @@ impl<const N: usize> BoundaryTable<N> {
     }
 }
 
-/// What a table is outside.
+/// The serialized form of a table.
 #[cfg(feature = "serde")]
 #[derive(serde::Serialize, serde::Deserialize)]
 struct Parts<const N: usize> {
-    /// Radius at which the table begins, m.
+    /// Smallest radius, m.
     smallest_radius: f32,
     margin: u32,
     #[serde(with = "serde_big_array::BigArray")]

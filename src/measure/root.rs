@@ -1,14 +1,14 @@
-//! The root of a function between two values at which it differs in sign.
+//! Root of a function in a bracket.
 
 use super::CalibrationError;
 use crate::Real;
 
-/// Trials after which a search gives up; halving alone takes a third of them.
+/// Largest number of trials. Bisection alone needs a third of them.
 const MOST_TRIALS: u32 = 150;
 
-/// Root of f in a bracket whose ends and values are given, to a relative `tolerance`.
+/// Finds a root of f in a bracket, to a relative `tolerance`. The ends of the bracket are given with their values.
 ///
-/// Chandrupatla's method (1997): inverse quadratic interpolation where it is safe, halving elsewhere.
+/// Chandrupatla's method (1997) uses inverse quadratic interpolation where it is safe, and bisection elsewhere.
 pub(super) fn root<T: Real>(
     (mut a, mut f_a): (T, T),
     (mut b, mut f_b): (T, T),
@@ -16,11 +16,11 @@ pub(super) fn root<T: Real>(
     mut f: impl FnMut(T) -> Result<T, CalibrationError>,
 ) -> Result<T, CalibrationError> {
     let tolerance = tolerance.max(T::constant(4.0) * T::EPSILON);
-    let mut share = T::constant(0.5);
+    let mut fraction = T::constant(0.5);
     for _ in 0..MOST_TRIALS {
-        let x = a + share * (b - a);
+        let x = a + fraction * (b - a);
         let f_x = f(x)?;
-        // The new end a, its opposite b, and c, the end that a replaces.
+        // The new end a, the opposite end b, and the end c that a replaces.
         let (c, f_c);
         if (f_x > T::ZERO) == (f_a > T::ZERO) {
             (c, f_c) = (a, f_a);
@@ -36,16 +36,16 @@ pub(super) fn root<T: Real>(
             return Ok(best);
         }
         let (xi, phi) = ((a - b) / (c - b), (f_a - f_b) / (f_c - f_b));
-        share = if phi * phi < xi && (T::ONE - phi) * (T::ONE - phi) < T::ONE - xi {
+        fraction = if phi * phi < xi && (T::ONE - phi) * (T::ONE - phi) < T::ONE - xi {
             f_a / (f_b - f_a) * (f_c / (f_b - f_c)) + (c - a) / (b - a) * (f_a / (f_c - f_a)) * (f_b / (f_c - f_b))
         } else {
             T::constant(0.5)
         };
-        // Neither end is tried again.
+        // Keep a distance from both ends, whose values are known.
         let least = close / width;
-        share = share.max(least).min(T::ONE - least);
+        fraction = fraction.max(least).min(T::ONE - least);
     }
-    Err(CalibrationError::BudgetSpent)
+    Err(CalibrationError::NotConverged)
 }
 
 #[cfg(test)]
@@ -73,7 +73,7 @@ mod tests {
         }
     }
 
-    /// Flat stretches, jumps and noise, as simulations have them, do not stop the search.
+    /// Constant parts, jumps and noise, which simulations have, do not stop the search.
     #[test]
     fn awkward_functions_take_bounded_trials() {
         let (found, trials) = solve((0.0, 1e9), |x| if x > 7.0 { -0.5 } else { 7.0 - x });
@@ -84,7 +84,7 @@ mod tests {
 
     #[test]
     fn errors_of_trials_end_the_search() {
-        let failed = root((0.0, 1.0), (1.0, -1.0), 1e-9, |_| Err(CalibrationError::BudgetSpent));
-        assert_eq!(failed, Err(CalibrationError::BudgetSpent));
+        let failed = root((0.0, 1.0), (1.0, -1.0), 1e-9, |_| Err(CalibrationError::NotConverged));
+        assert_eq!(failed, Err(CalibrationError::NotConverged));
     }
 }

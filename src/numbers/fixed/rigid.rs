@@ -1,4 +1,4 @@
-//! The rigid-body model in fixed point, in units of its sphere and of a speed.
+//! The rigid-body model in fixed point.
 
 use core::f64::consts::PI;
 
@@ -9,11 +9,11 @@ use crate::{
     PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere,
 };
 
-/// A scene, a term of it or a motion that fixed point holds in units of the sphere's radius and mass and of a speed.
+/// A scene, a term or a motion that can be converted to fixed point.
 ///
-/// The unit of speed is free; with one near the speeds that occur, they have the most digits. All of a scene and its motions
-/// take the same unit, and velocities of the result are in this unit. Classes, margins and coefficients have no unit; a
-/// margin above 128 is held there.
+/// The units of the result are the radius and the mass of the sphere, and a speed that you choose. A unit near the speeds
+/// that occur gives the most digits. A scene and its motions must have the same unit, and the velocities of the result are in
+/// this unit. Classes, margins and coefficients have no unit. A margin above 128 becomes 128.
 ///
 /// ```
 /// use microimpact::{Class, InFixedPoint, NormalMotion, RigidBody, Sphere, SpeedRestitution};
@@ -24,7 +24,7 @@ use crate::{
 ///     .with_friction(0.1)?;
 /// let motion = NormalMotion::new(2.8)?.with_tangential(0.0)?.with_spin(&sphere, 1.46e5)?;
 ///
-/// // Set-up in floating point; from here on integers.
+/// // The set-up uses floating point. The classification uses integers only.
 /// let unit = 4.0;
 /// let (scene, motion) = (scene.in_fixed_point(unit)?, motion.in_fixed_point(unit)?);
 /// let result = scene.classify(&motion);
@@ -35,13 +35,13 @@ use crate::{
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 pub trait InFixedPoint<T> {
-    /// The same with fixed-point numbers.
+    /// The converted type.
     type Fixed;
 
-    /// The same in fixed point, with a `unit` of speed in m/s.
+    /// Converts this to fixed point, with a `unit` of speed in m/s.
     ///
     /// # Errors
-    /// A unit outside its range, or a value that in this unit lies outside its range for [`FixedPoint`].
+    /// The unit is outside its range, or a value in this unit is outside its range for [`FixedPoint`].
     ///
     /// ```
     /// use microimpact::{InFixedPoint, NormalMotion, Parameter};
@@ -54,35 +54,35 @@ pub trait InFixedPoint<T> {
     fn in_fixed_point(&self, unit: T) -> Result<Self::Fixed, InputError>;
 }
 
-/// A speed or velocity in units of another, within the range of a parameter.
-fn in_units<T: Real + Into<f64>>(speed: T, unit: T, parameter: Parameter) -> Result<FixedPoint, InputError> {
+/// A speed or a velocity divided by the unit, if it is in the range of `parameter`.
+fn in_units<T: Real>(speed: T, unit: T, parameter: Parameter) -> Result<FixedPoint, InputError> {
     let ratio = speed.saturating_div(Parameter::SpeedUnit.check(unit)?);
-    Ok(FixedPoint::nearest(parameter.check(ratio)?.into()))
+    Ok(FixedPoint::nearest(parameter.check(ratio)?.to_f64()))
 }
 
-impl<T: Real + Into<f64>> InFixedPoint<T> for Sphere<T> {
+impl<T: Real> InFixedPoint<T> for Sphere<T> {
     type Fixed = Sphere<FixedPoint>;
 
     fn in_fixed_point(&self, _unit: T) -> Result<Self::Fixed, InputError> {
         Ok(Sphere {
             radius: FixedPoint::ONE,
-            // Of a sphere of mass one.
+            // The density of a sphere with radius one and mass one.
             density: const { FixedPoint::nearest(3.0 / (4.0 * PI)) },
-            gyration_ratio: FixedPoint::nearest(self.gyration_ratio.into()),
-            contact_inertia: FixedPoint::nearest(self.contact_inertia.into()),
+            gyration_ratio: FixedPoint::nearest(self.gyration_ratio.to_f64()),
+            contact_inertia: FixedPoint::nearest(self.contact_inertia.to_f64()),
         })
     }
 }
 
-impl<T: Real + Into<f64>> InFixedPoint<T> for ConstantRestitution<T> {
+impl<T: Real> InFixedPoint<T> for ConstantRestitution<T> {
     type Fixed = ConstantRestitution<FixedPoint>;
 
     fn in_fixed_point(&self, _unit: T) -> Result<Self::Fixed, InputError> {
-        Ok(ConstantRestitution { restitution: FixedPoint::nearest(self.restitution.into()) })
+        Ok(ConstantRestitution { restitution: FixedPoint::nearest(self.restitution.to_f64()) })
     }
 }
 
-impl<T: Real + Into<f64>> InFixedPoint<T> for SpeedRestitution<T> {
+impl<T: Real> InFixedPoint<T> for SpeedRestitution<T> {
     type Fixed = SpeedRestitution<FixedPoint>;
 
     fn in_fixed_point(&self, unit: T) -> Result<Self::Fixed, InputError> {
@@ -90,15 +90,15 @@ impl<T: Real + Into<f64>> InFixedPoint<T> for SpeedRestitution<T> {
     }
 }
 
-impl<T: Real + Into<f64>> InFixedPoint<T> for AdhesionCoefficient<T> {
+impl<T: Real> InFixedPoint<T> for AdhesionCoefficient<T> {
     type Fixed = AdhesionCoefficient<FixedPoint>;
 
     fn in_fixed_point(&self, _unit: T) -> Result<Self::Fixed, InputError> {
-        Ok(AdhesionCoefficient { remainder: FixedPoint::nearest(self.remainder.into()) })
+        Ok(AdhesionCoefficient { remainder: FixedPoint::nearest(self.remainder.to_f64()) })
     }
 }
 
-impl<T: Real + Into<f64>> InFixedPoint<T> for WorkOfAdhesion<T> {
+impl<T: Real> InFixedPoint<T> for WorkOfAdhesion<T> {
     type Fixed = WorkOfAdhesion<FixedPoint>;
 
     fn in_fixed_point(&self, unit: T) -> Result<Self::Fixed, InputError> {
@@ -106,16 +106,16 @@ impl<T: Real + Into<f64>> InFixedPoint<T> for WorkOfAdhesion<T> {
     }
 }
 
-impl<T: Real + Into<f64>> InFixedPoint<T> for Coulomb<T> {
+impl<T: Real> InFixedPoint<T> for Coulomb<T> {
     type Fixed = Coulomb<FixedPoint>;
 
     fn in_fixed_point(&self, _unit: T) -> Result<Self::Fixed, InputError> {
         let coefficient = Parameter::FixedPointFriction.check(self.coefficient)?;
-        Ok(Coulomb { coefficient: FixedPoint::nearest(coefficient.into()) })
+        Ok(Coulomb { coefficient: FixedPoint::nearest(coefficient.to_f64()) })
     }
 }
 
-/// What has no number in it.
+/// Terms that hold no number.
 macro_rules! nothing_to_convert {
     ($($term:ident),*) => {$(
         impl<T> InFixedPoint<T> for $term {
@@ -130,30 +130,29 @@ macro_rules! nothing_to_convert {
 
 nothing_to_convert!(NoAdhesion, NoFriction);
 
-impl<T, L, A, F> InFixedPoint<T> for RigidBody<T, L, A, F>
+impl<T, L, A, S> InFixedPoint<T> for RigidBody<T, L, A, S>
 where
-    T: Real + Into<f64>,
+    T: Real,
     L: InFixedPoint<T>,
     A: InFixedPoint<T>,
-    F: InFixedPoint<T>,
+    S: InFixedPoint<T>,
 {
-    type Fixed = RigidBody<FixedPoint, L::Fixed, A::Fixed, F::Fixed>;
+    type Fixed = RigidBody<FixedPoint, L::Fixed, A::Fixed, S::Fixed>;
 
     fn in_fixed_point(&self, unit: T) -> Result<Self::Fixed, InputError> {
-        // Not every term has a speed.
+        // Some terms hold no speed and would not check the unit.
         let unit = Parameter::SpeedUnit.check(unit)?;
         Ok(RigidBody {
             sphere: self.sphere.in_fixed_point(unit)?,
             restitution: self.restitution.in_fixed_point(unit)?,
             adhesion: self.adhesion.in_fixed_point(unit)?,
-            friction: self.friction.in_fixed_point(unit)?,
-            rolling: self.rolling,
+            surface: self.surface.in_fixed_point(unit)?,
             microforce: self.microforce,
         })
     }
 }
 
-impl<T: Real + Into<f64>> InFixedPoint<T> for NormalMotion<T> {
+impl<T: Real> InFixedPoint<T> for NormalMotion<T> {
     type Fixed = NormalMotion<FixedPoint>;
 
     fn in_fixed_point(&self, unit: T) -> Result<Self::Fixed, InputError> {
@@ -161,7 +160,7 @@ impl<T: Real + Into<f64>> InFixedPoint<T> for NormalMotion<T> {
     }
 }
 
-impl<T: Real + Into<f64>> InFixedPoint<T> for ObliqueMotion<T> {
+impl<T: Real> InFixedPoint<T> for ObliqueMotion<T> {
     type Fixed = ObliqueMotion<FixedPoint>;
 
     fn in_fixed_point(&self, unit: T) -> Result<Self::Fixed, InputError> {
@@ -172,7 +171,7 @@ impl<T: Real + Into<f64>> InFixedPoint<T> for ObliqueMotion<T> {
     }
 }
 
-impl<T: Real + Into<f64>> InFixedPoint<T> for PlanarMotion<T> {
+impl<T: Real> InFixedPoint<T> for PlanarMotion<T> {
     type Fixed = PlanarMotion<FixedPoint>;
 
     fn in_fixed_point(&self, unit: T) -> Result<Self::Fixed, InputError> {

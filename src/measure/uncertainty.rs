@@ -1,16 +1,12 @@
-//! How sure a result is, given the standard errors of the inputs that it follows from.
-//!
-//! The margins of a class, sums of many small errors, are taken to be normal about their values, with the standard errors and
-//! the correlation that the derivatives of a [`Dual`] computation give them. Within a standard error of two boundaries at once,
-//! where margins bend, the probabilities are off by up to some hundredths.
+//! Probabilities of the classes of an impact whose inputs have standard errors.
 
 use core::f64::consts::FRAC_1_SQRT_2;
 
 use crate::contact::Nodes;
-use crate::{Class, Coulomb, CriticalSpeed, Dual, InputError, Oblique, Parameter, Real, Sphere};
+use crate::{Class, Coulomb, CriticalSpeed, Dual, InputError, Oblique, Parameter, Real, Sphere, rolling};
 
 impl<T: Real, const N: usize> Dual<T, N> {
-    /// Standard error of this result, from those of its inputs, which are independent.
+    /// Standard error of this result, from the standard `errors` of its inputs. The errors of the inputs are independent.
     ///
     /// ```
     /// use microimpact::Dual;
@@ -19,46 +15,47 @@ impl<T: Real, const N: usize> Dual<T, N> {
     /// assert_eq!((a * b).standard_error(&[1.5, 0.4]), 5.0);
     /// ```
     pub fn standard_error(&self, errors: &[T; N]) -> T {
-        let squares = self.partials.iter().zip(errors).map(|(partial, error)| *partial * *error);
-        squares.fold(T::ZERO, |sum, share| sum + share * share).sqrt()
+        let parts = self.partials.iter().zip(errors).map(|(partial, error)| *partial * *error);
+        parts.fold(T::ZERO, |sum, part| sum + part * part).sqrt()
     }
 }
 
-/// A number type with the normal distribution.
+/// A number type that provides the normal distribution.
 ///
 /// ```
-/// use microimpact::uncertainty::NormalDistribution;
+/// use microimpact::measure::NormalDistribution;
 ///
 /// assert!((1.96_f64.below() - 0.975).abs() < 1e-4);
 /// assert!((0.0_f64.both_below(0.0, 0.5) - 1.0 / 3.0).abs() < 1e-9);
 /// ```
 pub trait NormalDistribution: Real {
-    /// Probability that a standard normal variable lies below this number.
+    /// Probability that a standard normal variable is below this number.
     ///
     /// ```
-    /// use microimpact::uncertainty::NormalDistribution;
+    /// use microimpact::measure::NormalDistribution;
     ///
     /// assert_eq!(0.0_f32.below(), 0.5);
     /// ```
     fn below(self) -> Self;
 
-    /// Probability that one standard normal variable lies below this number and another, of a correlation from -1 to 1 with
-    /// the first, below the other number; to 1e-7, beyond a correlation of 0.9 to 2e-4.
+    /// Probability that one standard normal variable is below this number and a second one below the `other` number.
+    ///
+    /// The variables have the given `correlation`, -1 to 1. The error is 1e-7, and 2e-4 for correlations beyond 0.9.
     ///
     /// ```
-    /// use microimpact::uncertainty::NormalDistribution;
+    /// use microimpact::measure::NormalDistribution;
     ///
-    /// // Independent, and the same.
+    /// // Independent variables, and identical variables.
     /// assert!((1.0_f64.both_below(0.0, 0.0) - 1.0_f64.below() * 0.5).abs() < 1e-12);
     /// assert_eq!(1.0_f64.both_below(0.0, 1.0), 0.5);
     /// ```
     fn both_below(self, other: Self, correlation: Self) -> Self;
 }
 
-/// Standard errors beyond which all is certain.
+/// Number of standard errors beyond which a result is certain.
 const CERTAIN: f64 = 30.0;
 
-/// Correlation from which two variables count as one; the integral below fades out there.
+/// Correlation from which two variables count as identical. The integral below loses its accuracy there.
 const ALIKE: f64 = 0.9999;
 
 macro_rules! impl_normal_distribution {
@@ -77,11 +74,11 @@ macro_rules! impl_normal_distribution {
                 if correlation < -ALIKE as $float {
                     return (h.below() - (-k).below()).max(0.0);
                 }
-                // The derivative by the correlation is the density, which the angle whose sine it is makes smooth
-                // (Drezner and Wesolowsky 1990).
+                // The derivative with respect to the correlation is the joint density. Its integral over the arc sine of the
+                // correlation is smooth (Drezner and Wesolowsky 1990).
                 let angle = $asin(correlation);
                 let mut sum = 0.0;
-                for (z, weight) in <$float as Nodes<16>>::Z.into_iter().zip(<$float as Nodes<16>>::WHOLE) {
+                for (z, weight) in <$float as Nodes<16>>::Z.into_iter().zip(<$float as Nodes<16>>::WEIGHTS) {
                     let sine = $sin(angle * z);
                     let cosine_squared = (1.0 - sine) * (1.0 + sine);
                     sum += weight * $exp((h * k * sine - 0.5 * (h * h + k * k)) / cosine_squared);
@@ -96,13 +93,14 @@ macro_rules! impl_normal_distribution {
 impl_normal_distribution!(f32, libm::erfcf, libm::asinf, libm::sinf, libm::expf);
 impl_normal_distribution!(f64, libm::erfc, libm::asin, libm::sin, libm::exp);
 
-/// The slip, m/s, that friction stops during an impact: f (1 + 1/kappa) P_n/m. Any less rolls at separation (A27).
+/// Largest slip that friction stops during an impact, f (1 + 1/kappa) P_n/m, in m/s. With a smaller slip, the sphere rolls at
+/// separation (A27).
 ///
-/// `velocity_change` is P_n/m, m/s: (1 + e) v of a rigid body; of a simulation, whose friction goes by the elastic force alone
-/// (B8), the impulse of that force over the mass.
+/// `velocity_change` is P_n/m in m/s, which is (1 + e) v for a rigid body. In a simulation, friction is proportional to the
+/// elastic force alone (B8). There, it is the impulse of the elastic force divided by the mass.
 ///
 /// ```
-/// use microimpact::uncertainty::stopped_slip;
+/// use microimpact::measure::stopped_slip;
 /// use microimpact::{Coulomb, Sphere};
 ///
 /// let sphere = Sphere::solid(1e-6, 1000.0)?;
@@ -110,19 +108,20 @@ impl_normal_distribution!(f64, libm::erfc, libm::asin, libm::sin, libm::exp);
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 pub fn stopped_slip<T: Real>(sphere: &Sphere<T>, friction: &Coulomb<T>, velocity_change: T) -> T {
-    friction.coefficient() * velocity_change / sphere.contact_inertia()
+    rolling::stopped_slip(friction.coefficient() * velocity_change, sphere.contact_inertia())
 }
 
-/// Probability that a sphere rebounds, from the errors of its speed and of the critical one.
+/// Probability that a sphere rebounds, from its speed and the critical speed with their derivatives, and from the standard
+/// `errors` of the inputs.
 ///
 /// # Errors
-/// A standard error outside its range.
+/// A standard error is outside its range.
 ///
 /// ```
-/// use microimpact::uncertainty::rebound_probability;
+/// use microimpact::measure::rebound_probability;
 /// use microimpact::{Dual, NormalMotion, RigidBody, Real, SpeedRestitution, Sphere};
 ///
-/// // Speed 5 % above the critical one; errors of 0.1 m/s and of 10 % in W_A.
+/// // The speed is 5 % above the critical speed. Its standard error is 0.1 m/s, and that of W_A is 10 %.
 /// let [speed, work] = Dual::variables([1.9_f64, 2.22e-12]);
 /// let sphere = Sphere::solid(Dual::constant(5.06e-6), Dual::constant(2600.0))?;
 /// let scene = RigidBody::new(sphere, SpeedRestitution::new(Dual::constant(130.0))?).with_work_of_adhesion(work)?;
@@ -135,16 +134,16 @@ pub fn rebound_probability<T: NormalDistribution, const N: usize>(
     critical: &CriticalSpeed<Dual<T, N>>,
     errors: &[T; N],
 ) -> Result<T, InputError> {
-    Ok(Margin::of_speed(speed, critical, &checked(errors)?).share.below())
+    Ok(Margin::of_speed(speed, critical, &checked(errors)?).ratio.below())
 }
 
-/// Probabilities of the classes; they add up to one.
+/// Probabilities of the classes of an impact. Their sum is one.
 ///
 /// ```
-/// use microimpact::uncertainty::{ClassProbabilities, stopped_slip};
+/// use microimpact::measure::{ClassProbabilities, stopped_slip};
 /// use microimpact::{Approach, Class, Coulomb, Dual, NormalMotion, Real, RigidBody, SpeedRestitution, Sphere};
 ///
-/// // The scene of Table 1 with the errors of an instrument in both velocities, the spin and the friction.
+/// // The scene of Table 1. Both velocities, the spin and the friction coefficient have standard errors.
 /// let [speed, tangential, peripheral, friction] = Dual::variables([2.8_f64, 0.0, 0.739, 0.1]);
 /// let sphere = Sphere::solid(Dual::constant(5.06e-6), Dual::constant(2600.0))?;
 /// let scene = RigidBody::new(sphere, SpeedRestitution::new(Dual::constant(130.0))?)
@@ -165,22 +164,24 @@ pub fn rebound_probability<T: NormalDistribution, const N: usize>(
 pub struct ClassProbabilities<T> {
     rebound: T,
     sliding: T,
-    /// Rebound and sliding.
+    /// Probability of rebound and sliding together.
     both: T,
 }
 
 impl<T: NormalDistribution> ClassProbabilities<T> {
-    /// Of a sphere that arrives with `motion` at a contact of given critical speed, whose friction stops a slip of up to
-    /// `stopped` ([`stopped_slip`], m/s); `errors` are the standard errors of the inputs, in their order.
+    /// Computes the probabilities for a sphere that arrives with `motion`.
+    ///
+    /// The contact has a `critical` speed. Its friction stops a slip of up to `stopped` (m/s, see [`stopped_slip`]). The
+    /// standard `errors` are in the order of the inputs of the dual numbers.
     ///
     /// # Errors
-    /// A standard error outside its range.
+    /// A standard error is outside its range.
     ///
     /// ```
-    /// use microimpact::uncertainty::ClassProbabilities;
+    /// use microimpact::measure::ClassProbabilities;
     /// use microimpact::{Class, CriticalSpeed, Dual, NormalMotion, Real};
     ///
-    /// // Half of the errors of the slip lie beyond what friction stops.
+    /// // The slip is equal to the slip that friction stops, so that the sphere slides with a probability of one half.
     /// let [tangential] = Dual::variables([0.7_f64]);
     /// let motion = NormalMotion::new(Dual::constant(2.0))?.with_tangential(tangential)?;
     /// let stopped = Dual::constant(0.7);
@@ -197,23 +198,23 @@ impl<T: NormalDistribution> ClassProbabilities<T> {
         let errors = checked(errors)?;
         let speed = Margin::of_speed(motion.normal().speed(), critical, &errors);
         let (mut sliding, mut both) = (T::ZERO, T::ZERO);
-        // A slip beyond what friction stops, in one direction or the other.
+        // The sphere slides if the slip exceeds the stopped slip in either direction.
         for slip in [motion.slip(), -motion.slip()] {
             let beyond = Margin::of(slip - stopped, &errors);
-            sliding = sliding + beyond.share.below();
-            both = both + speed.share.both_below(beyond.share, speed.correlation(&beyond));
+            sliding = sliding + beyond.ratio.below();
+            both = both + speed.ratio.both_below(beyond.ratio, speed.correlation(&beyond));
         }
-        let rebound = speed.share.below();
+        let rebound = speed.ratio.below();
         let sliding = sliding.min(T::ONE);
-        // The integral of the joint probability is less exact than the single ones, which bound it.
+        // The joint probability is less accurate than the single probabilities, which bound it.
         let both = both.max(rebound + sliding - T::ONE).max(T::ZERO).min(sliding).min(rebound);
         Ok(Self { rebound, sliding, both })
     }
 
-    /// Probability of a class. That a captured sphere comes to rest would be pure chance: it counts as rolling.
+    /// Probability of a class. A captured sphere that rests counts as rolling, because the probability of rest is zero.
     ///
     /// ```
-    /// use microimpact::uncertainty::ClassProbabilities;
+    /// use microimpact::measure::ClassProbabilities;
     /// use microimpact::{Class, CriticalSpeed, Dual, NormalMotion, Real};
     ///
     /// let [speed] = Dual::variables([2.0_f64]);
@@ -231,14 +232,14 @@ impl<T: NormalDistribution> ClassProbabilities<T> {
             Class::CapturedSliding => self.sliding - self.both,
             Class::CapturedRolling | Class::CapturedResting => T::ONE - self.rebound - self.sliding + self.both,
         };
-        // Rounding may not make it negative.
+        // Rounding must not make it negative.
         probability.max(T::ZERO)
     }
 
-    /// Probability of a rebound of either kind.
+    /// Probability of a rebound, sliding or rolling.
     ///
     /// ```
-    /// use microimpact::uncertainty::ClassProbabilities;
+    /// use microimpact::measure::ClassProbabilities;
     /// use microimpact::{CriticalSpeed, Dual, NormalMotion, Real};
     ///
     /// let motion = NormalMotion::new(Dual::<f64, 0>::constant(2.0))?.with_tangential(Dual::ZERO)?;
@@ -251,10 +252,11 @@ impl<T: NormalDistribution> ClassProbabilities<T> {
     }
 }
 
-/// A quantity that is positive on one side of a boundary, in units of its standard error.
+/// A margin of a class, which is positive on one side of the boundary.
 struct Margin<T, const N: usize> {
-    share: T,
-    /// Shares of the inputs in the standard error, with their signs.
+    /// The margin divided by its standard error.
+    ratio: T,
+    /// Contributions of the inputs to the standard error, divided by it, with their signs.
     parts: [T; N],
 }
 
@@ -263,17 +265,17 @@ impl<T: Real, const N: usize> Margin<T, N> {
         let error = margin.standard_error(errors);
         let certain = T::constant(CERTAIN);
         if error <= T::ZERO {
-            let share = if margin.value >= T::ZERO { certain } else { -certain };
-            return Self { share, parts: [T::ZERO; N] };
+            let ratio = if margin.value >= T::ZERO { certain } else { -certain };
+            return Self { ratio, parts: [T::ZERO; N] };
         }
         let mut parts = margin.partials;
         for (part, input) in parts.iter_mut().zip(errors) {
             *part = *part * *input / error;
         }
-        Self { share: margin.value.saturating_div(error).min(certain).max(-certain), parts }
+        Self { ratio: margin.value.saturating_div(error).min(certain).max(-certain), parts }
     }
 
-    /// How far a speed lies above the critical one.
+    /// The difference between a speed and the critical speed.
     fn of_speed(speed: Dual<T, N>, critical: &CriticalSpeed<Dual<T, N>>, errors: &[T; N]) -> Self {
         match critical {
             CriticalSpeed::At(critical) => Self::of(speed - *critical, errors),

@@ -1,0 +1,11 @@
+//! What collides: spheres, the materials they and the surface are made of, and the elastic contact between them.
+
+mod hertz;
+mod material;
+mod sphere;
+mod stiffness;
+
+pub use hertz::Hertz;
+pub use material::Material;
+pub use sphere::Sphere;
+pub use stiffness::Stiffness;

@@ -1,0 +1,12 @@
+//! The number types that the models compute with.
+
+mod dual;
+#[cfg(feature = "fixed")]
+mod fixed;
+mod real;
+mod tables;
+
+pub use dual::Dual;
+#[cfg(feature = "fixed")]
+pub use fixed::{FixedPoint, InFixedPoint};
+pub use real::Real;
