@@ -8,8 +8,8 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
-use microimpact::boundary::BoundaryTable;
 use microimpact::simulation::{Collocation, Simulation};
+use microimpact::table::BoundaryTable;
 use microimpact::{InputError, Sphere, Stiffness};
 
 /// Make a table that classifies capture or rebound of spheres of one material on one surface.
@@ -135,8 +135,8 @@ fn rust(to: &mut impl Write, parts: &Parts, subject: &str) -> io::Result<()> {
     let Parts { smallest, margin, cells, .. } = parts;
     let count = cells.len();
     writeln!(to, "/// Critical speeds: {subject}.")?;
-    writeln!(to, "const BOUNDARY: microimpact::boundary::BoundaryTable<{count}> =")?;
-    writeln!(to, "    match microimpact::boundary::BoundaryTable::from_parts({smallest:e}, {margin}, [")?;
+    writeln!(to, "const BOUNDARY: microimpact::table::BoundaryTable<{count}> =")?;
+    writeln!(to, "    match microimpact::table::BoundaryTable::from_parts({smallest:e}, {margin}, [")?;
     for [constant, linear, square, cube] in cells {
         writeln!(to, "        [{constant}, {linear}, {square}, {cube}],")?;
     }

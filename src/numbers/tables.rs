@@ -73,7 +73,7 @@
 ///
 /// For a generic type, the parameters stand in brackets before the type. Tables can be lifted from any type that has them:
 ///
-/// ```ignore
+/// ```text
 /// lift_tables!([T: Real, const N: usize] Dual<T, N>, |wide: T| Dual::fixed(wide));
 /// ```
 ///
@@ -81,7 +81,7 @@
 /// its own, the function `add_running`. In the block, `NODES` is the number of nodes. If `PhaseNodes for` comes first, the
 /// type gets no other tables, and only [`FixedCost`] for the normal motion accepts it.
 ///
-/// ```ignore
+/// ```text
 /// lift_tables!(PhaseNodes for FixedPoint, |wide: f64| FixedPoint::nearest(wide), {
 ///     const SLOWEST: Self = FixedPoint::nearest(5e-3);
 /// });

@@ -10,7 +10,7 @@
 use core::fmt::{self, Display, LowerExp};
 use core::hint::black_box;
 
-use microimpact::calibrate::CalibrationError;
+use microimpact::measure::CalibrationError;
 use microimpact_firmware::calibrations::{Calibration, CalibrationVisitor, visit_calibrations};
 use microimpact_firmware::entry;
 use microimpact_firmware::scenes::Number;
