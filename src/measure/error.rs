@@ -51,13 +51,21 @@ impl fmt::Display for CalibrationError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Input(error) => return error.fmt(f),
-            Self::ReboundTooFast => "the measured rebound is faster than that for any value of the parameter; check the speeds and the other parameters",
-            Self::ReboundTooSlow => "the measured rebound is slower than that for any value of the parameter; check the speeds and the other parameters",
+            Self::ReboundTooFast => {
+                "the measured rebound is faster than that for any value of the parameter; check the speeds and the other \
+                 parameters"
+            },
+            Self::ReboundTooSlow => {
+                "the measured rebound is slower than that for any value of the parameter; check the speeds and the other \
+                 parameters"
+            },
             Self::Captured => "the sphere was captured, which does not determine the parameter; use a rebound",
             Self::NotConverged => "the search did not converge; use a larger tolerance",
             Self::TooFew => "there are fewer measurements than the fit needs; add measurements",
             Self::Undetermined => "the measurements do not determine each parameter; add measurements at other speeds",
-            Self::NoMaterialLoss => "the restitution does not decrease with speed, so the restitution speed has no upper bound; add faster rebounds",
+            Self::NoMaterialLoss => {
+                "the restitution does not decrease with speed, so the restitution speed has no upper bound; add faster rebounds"
+            },
         })
     }
 }

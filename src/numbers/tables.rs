@@ -73,15 +73,15 @@
 ///
 /// For a generic type, the parameters stand in brackets before the type. Tables can be lifted from any type that has them:
 ///
-/// ```ignore
+/// ```text
 /// lift_tables!([T: Real, const N: usize] Dual<T, N>, |wide: T| Dual::fixed(wide));
 /// ```
 ///
 /// A block at the end replaces the items of [`PhaseNodes`] that are not tables: the constant `SLOWEST` and, if the type needs
 /// its own, the function `add_integrals`. In the block, `NODES` is the number of nodes.
 ///
-/// ```ignore
-/// lift_tables!([] FixedPoint, |wide: f64| FixedPoint::nearest(wide), {
+/// ```text
+/// lift_tables!(PhaseNodes for FixedPoint, |wide: f64| FixedPoint::nearest(wide), {
 ///     const SLOWEST: Self = FixedPoint::nearest(5e-3);
 /// });
 /// ```

@@ -100,7 +100,7 @@ pub unsafe extern "C" fn microimpact_classify(
                     speed_over_critical: classification.speed_over_critical.unwrap_or(-1.0),
                     friction_over_limit: classification.contact.friction_over_limit.unwrap_or(-1.0),
                     restitution: impact.normal.overall_restitution(),
-                    tangential: impact.tangential.tangential(),
+                    tangential: impact.tangential.velocity(),
                     peripheral: impact.tangential.peripheral(),
                 },
             ))

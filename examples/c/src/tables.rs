@@ -1,7 +1,7 @@
 //! Tables: capture or rebound, restitution, and sliding or rolling, without a simulation.
 
-use microimpact::table::{self, BoundarySlice, Reading, Rebound};
-use microimpact::contact::{ContactImpulses, SimulatedImpact};
+use microimpact::simulation::{ContactImpulses, SimulatedImpact};
+use microimpact::table::{self, BoundarySlice, Lookup, TableOutcome, TableRebound};
 use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, Sphere};
 
 use crate::memory;
@@ -22,13 +22,13 @@ pub enum Verdict {
     OutsideTable,
 }
 
-impl From<boundary::Verdict> for Verdict {
-    fn from(verdict: boundary::Verdict) -> Self {
+impl From<TableOutcome> for Verdict {
+    fn from(verdict: TableOutcome) -> Self {
         match verdict {
-            boundary::Verdict::Rebound => Self::Rebound,
-            boundary::Verdict::Capture => Self::Capture,
-            boundary::Verdict::TooCloseToCall => Self::TooCloseToCall,
-            boundary::Verdict::OutsideTable => Self::OutsideTable,
+            TableOutcome::Rebound => Self::Rebound,
+            TableOutcome::Capture => Self::Capture,
+            TableOutcome::TooCloseToCall => Self::TooCloseToCall,
+            TableOutcome::OutsideTable => Self::OutsideTable,
         }
     }
 }
@@ -114,7 +114,7 @@ pub unsafe extern "C" fn microimpact_boundary_classify(
             let motion = followed(memory::read(motion))?.check()?;
             let cells = followed(memory::slice(cells, count))?;
             let cell = BoundarySlice::cell(smallest_radius, margin, cells, radius)?;
-            let found = cell.map_or(boundary::Verdict::OutsideTable, |cell| cell.classify(radius, &motion));
+            let found = cell.map_or(TableOutcome::OutsideTable, |cell| cell.classify(radius, &motion));
             followed(memory::write(verdict, found.into()))
         };
         finish(classified(), error)
@@ -134,7 +134,7 @@ pub struct RestitutionTable {
 struct Made {
     mark: u32,
     /// Eight cells of radii, and nodes at six radii and ten speeds.
-    table: boundary::RestitutionTable<f32, 8, 6, 10>,
+    table: table::RestitutionTable<f32, 8, 6, 10>,
     friction: Coulomb<f32>,
     gyration_ratio: f32,
 }
@@ -172,13 +172,13 @@ impl Made {
     fn new(scene: ContactScene, smallest_radius: f32, speed_ratio: f32) -> Result<Self, InputError> {
         let friction = Coulomb::new(scene.friction)?;
         let gyration_ratio = Sphere::solid(smallest_radius, scene.density)?.gyration_ratio();
-        let boundary = boundary::BoundaryTable::new(smallest_radius, |radius| scene.critical_speed(radius))?;
-        let table = boundary::RestitutionTable::new(boundary, speed_ratio, |radius, speed| {
+        let boundary = table::BoundaryTable::new(smallest_radius, |radius| scene.critical_speed(radius))?;
+        let table = table::RestitutionTable::new(boundary, speed_ratio, |radius, speed| {
             let (surface, method) = ContactScene { radius, ..scene }.surface()?;
             let impact: SimulatedImpact<_, (), ContactImpulses<f32>> =
                 surface.observe(&method, &NormalMotion::new(speed)?)?;
             let impulse = impact.outputs.elastic / (surface.sphere().mass() * speed);
-            Ok(Rebound { restitution: impact.normal.overall_restitution(), impulse })
+            Ok(TableRebound { restitution: impact.normal.overall_restitution(), impulse })
         })?;
         Ok(Self { mark: MARK, table, friction, gyration_ratio })
     }
@@ -250,8 +250,8 @@ impl Made {
             tangential: 0.0,
             peripheral: 0.0,
         };
-        match self.table.read(radius, motion) {
-            Reading::Rebound { rebound, error } => {
+        match self.table.look_up(radius, motion) {
+            Lookup::Rebound { rebound, error } => {
                 let after = rebound.separation(&self.friction, self.gyration_ratio, motion);
                 let slides = after.motion == microimpact::SurfaceMotion::Sliding;
                 TableReading {
@@ -259,13 +259,13 @@ impl Made {
                     surface_motion: if slides { SurfaceMotion::Sliding } else { SurfaceMotion::Rolling },
                     restitution: rebound.restitution,
                     restitution_error: error,
-                    tangential: after.tangential,
+                    tangential: after.velocity,
                     peripheral: after.peripheral,
                 }
             }
-            Reading::Capture => without(Verdict::Capture, 0.0),
-            Reading::TooCloseToCall => without(Verdict::TooCloseToCall, -1.0),
-            Reading::OutsideTable => without(Verdict::OutsideTable, -1.0),
+            Lookup::Capture => without(Verdict::Capture, 0.0),
+            Lookup::TooCloseToCall => without(Verdict::TooCloseToCall, -1.0),
+            Lookup::OutsideTable => without(Verdict::OutsideTable, -1.0),
         }
     }
 }

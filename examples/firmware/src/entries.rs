@@ -6,12 +6,12 @@
 
 use core::hint::black_box;
 
-use microimpact::table::Single;
 use microimpact::rigid::{
-    AdhesionCoefficient, Departure, Microforce, MicroforceTerm, NoMicroforce, NoRollingDissipation, Phases,
-    ReboundAdhesion, RollingDissipation, RollingTerm, TangentialOutcome, TangentialTerm, WorkOfAdhesion, infer,
-    infer_assuming_rolling, infer_with_spins,
+    AdhesionCoefficient, Departure, Microforce, MicroforceTerm, NoMicroforce, Phases, ReboundAdhesion,
+    RollingDissipation, TangentialOutcome, TangentialTerm, WorkOfAdhesion, infer, infer_assuming_rolling,
+    infer_with_spins,
 };
+use microimpact::table::Single;
 use microimpact::{
     Approach, Class, Classification, ConstantRestitution, ContactClass, Coulomb, Fault, Hertz, Impact, ImpactError,
     InputError, Material, NoAdhesion, NoFriction, NormalImpact, NormalMotion, Oblique, ObliqueMotion, Outcome,
@@ -74,7 +74,11 @@ fn parameters<T: Real>() -> Result<T, InputError> {
 }
 
 fn errors() -> ImpactError {
-    ImpactError::from(InputError { parameter: black_box(Parameter::Radius), fault: black_box(Fault::TooLarge) })
+    ImpactError::from(InputError {
+        parameter: black_box(Parameter::Radius),
+        fault: black_box(Fault::TooLarge),
+        value: black_box(2.0),
+    })
 }
 
 fn elasticity<T: Real>() -> Result<(), InputError> {
@@ -153,12 +157,12 @@ fn microforce<T: Real>(force: impl MicroforceTerm<T>) {
     keep((force.rebound(any()), force.pull()));
 }
 
-fn with_microforce<T, L, A, E>(scene: RigidBody<T, L, A, NoFriction, NoRollingDissipation, E>) -> Result<(), InputError>
+fn with_microforce<T, L, A, X>(scene: RigidBody<T, L, A, NoFriction, X>) -> Result<(), InputError>
 where
     T: Real,
     L: RestitutionLaw<T> + Copy,
     A: ReboundAdhesion<T> + Copy,
-    E: MicroforceTerm<T> + Copy,
+    X: MicroforceTerm<T> + Copy,
 {
     let sphere = scene.sphere();
     keep(scene.critical_speed());
@@ -175,19 +179,18 @@ where
     keep(Coulomb::new(any::<T>())?.coefficient());
     let scene = scene.with_friction(any())?;
     with_friction(&scene)?;
-    keep(NoRollingDissipation.angular_impulse(any::<T>()));
-    keep(RollingDissipation::new(any::<T>(), sphere)?.angular_impulse(any()));
+    keep(RollingDissipation::new(Coulomb::new(any::<T>())?, any(), sphere)?);
     with_friction(&scene.with_rolling_dissipation(any())?)
 }
 
-fn with_friction<T, L, A, D, E>(scene: &RigidBody<T, L, A, Coulomb<T>, D, E>) -> Result<(), InputError>
+fn with_friction<T, L, A, S, X>(scene: &RigidBody<T, L, A, S, X>) -> Result<(), InputError>
 where
     T: Real,
     L: RestitutionLaw<T>,
     A: ReboundAdhesion<T>,
-    E: MicroforceTerm<T>,
-    Coulomb<T>: TangentialTerm<T, ObliqueMotion<T>, D, Impact = TangentialImpact<T>>
-        + TangentialTerm<T, PlanarMotion<T>, D, Impact = TangentialImpact<T>>,
+    X: MicroforceTerm<T>,
+    S: TangentialTerm<T, ObliqueMotion<T>, Impact = TangentialImpact<T>>
+        + TangentialTerm<T, PlanarMotion<T>, Impact = TangentialImpact<T>>,
 {
     let (_, oblique, planar) = motions(scene.sphere())?;
     for impact in [scene.impact(&oblique), scene.impact(&planar)] {
@@ -233,7 +236,7 @@ fn planar_impact<T: Real>(impact: &Impact<T, TangentialImpact<T>>, sphere: &Sphe
     keep(energy);
 
     let tangential = &impact.tangential;
-    keep((tangential.tangential(), tangential.peripheral(), tangential.slip()));
+    keep((tangential.velocity(), tangential.peripheral(), tangential.slip()));
     keep((tangential.spin(sphere), tangential.spin_before(sphere)));
     keep((tangential.impulse_ratio(), tangential.rolling_ratio()));
     keep((tangential.energy_bound(), tangential.velocity_ratio()));

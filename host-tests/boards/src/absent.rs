@@ -57,7 +57,7 @@ const OF_THE_RIGID_BODY: [Term; 4] = [
     },
     Term { name: "constant restitution", types: &["ConstantRestitution"], ..TERM },
     // With the firmware's scenes of it.
-    Term { name: "the simulation", modules: &["simulation", "hertz", "contacts"], ..TERM },
+    Term { name: "the simulation", modules: &["simulation", "hertz", "contacts"], types: &["Hertz"], ..TERM },
 ];
 
 /// What no simulation of the proof uses.
@@ -71,11 +71,11 @@ const OF_THE_SIMULATION: [Term; 5] = [
 
 /// What no impact alone uses.
 const AROUND_AN_IMPACT: [Term; 5] = [
-    Term { name: "tables", modules: &["boundary"], ..TERM },
-    Term { name: "calibration", modules: &["calibrate"], ..TERM },
-    Term { name: "uncertainty", modules: &["uncertainty", "dual"], ..TERM },
+    Term { name: "tables", modules: &["table"], ..TERM },
+    Term { name: "calibration", modules: &["measure"], ..TERM },
+    Term { name: "uncertainty", modules: &["dual", "tables"], types: &["Dual"], ..TERM },
     Term { name: "instrument", modules: &["instrument"], ..TERM },
-    Term { name: "fixed point", modules: &["fixed"], ..TERM },
+    Term { name: "fixed point", modules: &["fixed"], types: &["FixedPoint", "InFixedPoint"], ..TERM },
 ];
 
 /// The scenes of the proof.

@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use microimpact::table::{BoundarySlice, BoundaryTable, Reading, Rebound, RestitutionTable};
-use microimpact::contact::{
-    Collocation, ContactImpulses, HystereticDamping, Ring, Sample, SimulatedImpact, Contact, TangentialContact,
+use microimpact::simulation::{
+    Collocation, ContactImpulses, HystereticDamping, Ring, Sample, SimulatedImpact, Simulation, TangentialContact,
     Trajectory,
 };
+use microimpact::table::{BoundarySlice, BoundaryTable, Lookup, RestitutionTable, TableRebound};
 use microimpact::{
     Coulomb, InputError, NormalMotion, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
     SurfaceMotion,
@@ -71,7 +71,7 @@ fn impacts() -> Result<String, InputError> {
                 classification.speed_over_critical.unwrap_or(-1.0),
                 classification.contact.friction_over_limit.unwrap_or(-1.0),
                 impact.normal.overall_restitution(),
-                impact.tangential.tangential(),
+                impact.tangential.velocity(),
                 impact.tangential.peripheral(),
             ],
         );
@@ -182,22 +182,22 @@ fn restitutions() -> Result<String, InputError> {
         let impact: SimulatedImpact<_, (), ContactImpulses<f32>> =
             surface.observe(&method, &NormalMotion::new(speed)?)?;
         let impulse = impact.outputs.elastic / (surface.sphere().mass() * speed);
-        Ok(Rebound { restitution: impact.normal.overall_restitution(), impulse })
+        Ok(TableRebound { restitution: impact.normal.overall_restitution(), impulse })
     })?;
     let friction = Coulomb::new(f32::constant(FRICTION))?;
     let mut text = String::new();
     for (i, radius) in RADII.into_iter().enumerate() {
         for (j, before) in LOOKED_UP.into_iter().enumerate() {
             let motion = motion(before)?;
-            let (verdict, surface_motion, numbers) = match table.read(radius, &motion) {
-                Reading::Rebound { rebound, error } => {
+            let (verdict, surface_motion, numbers) = match table.look_up(radius, &motion) {
+                Lookup::Rebound { rebound, error } => {
                     let after = rebound.separation(&friction, 0.4, &motion);
-                    let numbers = [rebound.restitution, error, after.tangential, after.peripheral];
+                    let numbers = [rebound.restitution, error, after.velocity, after.peripheral];
                     (0, if after.motion == SurfaceMotion::Sliding { 1 } else { 2 }, numbers)
                 }
-                Reading::Capture => (1, 0, [0.0; 4]),
-                Reading::TooCloseToCall => (2, 0, [-1.0, -1.0, 0.0, 0.0]),
-                Reading::OutsideTable => (3, 0, [-1.0, -1.0, 0.0, 0.0]),
+                Lookup::Capture => (1, 0, [0.0; 4]),
+                Lookup::TooCloseToCall => (2, 0, [-1.0, -1.0, 0.0, 0.0]),
+                Lookup::OutsideTable => (3, 0, [-1.0, -1.0, 0.0, 0.0]),
             };
             line(&mut text, &format!("restitution {i} {j} {verdict} {surface_motion}"), &numbers);
         }

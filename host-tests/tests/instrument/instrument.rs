@@ -4,7 +4,6 @@ use std::thread;
 
 use embedded_hal_mock::eh1::MockError;
 use embedded_hal_mock::eh1::digital::{Mock, State, Transaction};
-use microimpact::table::{self, BoundaryTable, Rebound, RestitutionTable};
 use microimpact::instrument::{
     ClassLines, ClassSet, Classifier, Instrument, NoLines, NormalReading, ObliqueReading, PlanarReading, Queue,
     Reading, Rejection, Simulated, SpeedBins, Statistics, Tabulated, TabulatedClass, Tally, Verdict,
@@ -12,6 +11,7 @@ use microimpact::instrument::{
 use microimpact::contact::{
     Collocation, ContactImpulses, FixedCost, HystereticDamping, Ring, SimulatedImpact, Contact,
 };
+use microimpact::table::{BoundaryTable, RestitutionTable, TableOutcome, TableRebound};
 use microimpact::{
     Class, Coulomb, Dual, Fault, FixedPoint, InputError, NoFriction, NormalMotion, Outcome, Parameter, RigidBody,
     SpeedRestitution, Sphere, Stiffness,
@@ -172,7 +172,7 @@ fn table() -> RestitutionTable<f64, 8, 6, 10> {
         let scene = contact(radius)?;
         let impact: SimulatedImpact<_, _, ContactImpulses<f64>> = scene.observe(&method, &NormalMotion::new(speed)?)?;
         let impulse = impact.outputs.elastic / (scene.sphere().mass() * speed);
-        Ok(Rebound { restitution: impact.normal.overall_restitution(), impulse })
+        Ok(TableRebound { restitution: impact.normal.overall_restitution(), impulse })
     };
     RestitutionTable::new(boundary, 10.0, source).unwrap()
 }
@@ -201,19 +201,19 @@ fn tables_classify_as_simulations_do() {
             let exact = simulated.verdict(&motion).unwrap();
             let outside = !(smallest..end).contains(&radius);
             let expected = match exact.class {
-                _ if outside => boundary::Verdict::OutsideTable,
-                _ if ratio == 1.0 => boundary::Verdict::TooCloseToCall,
-                Class::ReboundSliding | Class::ReboundRolling => boundary::Verdict::Rebound,
-                _ => boundary::Verdict::Capture,
+                _ if outside => TableOutcome::OutsideTable,
+                _ if ratio == 1.0 => TableOutcome::TooCloseToCall,
+                Class::ReboundSliding | Class::ReboundRolling => TableOutcome::Rebound,
+                _ => TableOutcome::Capture,
             };
             for found in [boundary.verdict(&motion).unwrap(), slice.verdict(&motion).unwrap()] {
                 assert_eq!(found, Verdict { class: expected, restitution: None });
             }
             // Restitution is not tabulated as far as that.
-            let expected = if ratio > 10.0 { boundary::Verdict::OutsideTable } else { expected };
+            let expected = if ratio > 10.0 { TableOutcome::OutsideTable } else { expected };
             let found = normal.verdict(&motion).unwrap();
             assert_eq!(found.class, expected);
-            let known = matches!(expected, boundary::Verdict::Rebound | boundary::Verdict::Capture);
+            let known = matches!(expected, TableOutcome::Rebound | TableOutcome::Capture);
             assert_eq!(found.restitution.is_some(), known);
             if let Some(restitution) = found.restitution {
                 let error = (restitution - exact.restitution.unwrap()).abs();
@@ -222,11 +222,11 @@ fn tables_classify_as_simulations_do() {
             let with_friction = oblique.verdict(&motion).unwrap();
             assert_eq!(with_friction.restitution, found.restitution);
             let expected = match expected {
-                boundary::Verdict::Rebound if exact.class == Class::ReboundSliding => TabulatedClass::ReboundSliding,
-                boundary::Verdict::Rebound => TabulatedClass::ReboundRolling,
-                boundary::Verdict::Capture => TabulatedClass::Capture,
-                boundary::Verdict::TooCloseToCall => TabulatedClass::TooCloseToCall,
-                boundary::Verdict::OutsideTable => TabulatedClass::OutsideTable,
+                TableOutcome::Rebound if exact.class == Class::ReboundSliding => TabulatedClass::ReboundSliding,
+                TableOutcome::Rebound => TabulatedClass::ReboundRolling,
+                TableOutcome::Capture => TabulatedClass::Capture,
+                TableOutcome::TooCloseToCall => TabulatedClass::TooCloseToCall,
+                TableOutcome::OutsideTable => TabulatedClass::OutsideTable,
             };
             assert_eq!(with_friction.class, expected);
             classes.push(expected);
@@ -234,7 +234,7 @@ fn tables_classify_as_simulations_do() {
     }
     assert!(TabulatedClass::ALL.iter().all(|class| classes.contains(class)), "{classes:?}");
     assert!(TabulatedClass::ALL.iter().enumerate().all(|(index, class)| class.index() == index));
-    assert!(boundary::Verdict::ALL.iter().enumerate().all(|(index, class)| class.index() == index));
+    assert!(TableOutcome::ALL.iter().enumerate().all(|(index, class)| class.index() == index));
 }
 
 #[test]

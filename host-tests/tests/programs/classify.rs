@@ -67,9 +67,9 @@ fn one_row_out_for_every_row_in() {
     assert_eq!(status, 1);
     assert_eq!(written.rows.len(), rows.len());
     for (row, reason) in [
-        (1, "radius is below its range, 1e-10 to 1 m"),
-        (2, "approach speed is below its range"),
-        (3, "restitution is not a finite number"),
+        (1, "radius is -1 m, but must be 1e-10 to 1 m"),
+        (2, "approach speed is -2.8 m/s, but must be 1e-12 to 1e6 m/s; enter -2.8 m/s as 2.8"),
+        (3, "restitution is NaN, but must be a number from 0 to 1"),
         (4, "density_kg_m3: \"heavy\" is not a number"),
         (5, "restitution: missing"),
         (6, "speed_normal_m_s: missing"),

@@ -1,7 +1,7 @@
 //! What a scene does not use takes no room in it.
 
-use microimpact::rigid::{NoMicroforce, NoRollingDissipation};
-use microimpact::contact::{ContactWorks, SimulatedImpact, Contact};
+use microimpact::rigid::NoMicroforce;
+use microimpact::simulation::{ContactWorks, SimulatedImpact, Simulation};
 use microimpact::{
     Classification, ConstantRestitution, ContactClass, Impact, NoAdhesion, NoFriction, NormalImpact, NormalMotion,
     ObliqueMotion, PlanarMotion, RigidBody, Sphere, Stiffness,
@@ -11,7 +11,7 @@ const NUMBER: usize = size_of::<f32>();
 
 #[test]
 fn absent_terms_have_size_zero() {
-    assert_eq!(size_of::<(NoAdhesion, NoFriction, NoRollingDissipation, NoMicroforce)>(), 0);
+    assert_eq!(size_of::<(NoAdhesion, NoFriction, NoMicroforce)>(), 0);
     assert_eq!(size_of::<RigidBody<f32, ConstantRestitution<f32>>>(), size_of::<Sphere<f32>>() + NUMBER);
 }
 

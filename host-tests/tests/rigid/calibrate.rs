@@ -1,8 +1,8 @@
 //! From measurements back to parameters: the paper's values, there and back again, reasons, outliers and coverage.
 
 use microimpact::measure::{
-    CalibrationError, Estimate, ImpulseRatios, Location, Rebound, RestitutionFit, adhesion_damping, estimate, friction,
-    material_damping, parameter, ring_strength, rolling_motion,
+    CalibrationError, Estimate, ImpulseRatios, Location, MeasuredRebound, RestitutionFit, adhesion_damping, estimate,
+    friction, material_damping, parameter, ring_strength, rolling_motion,
 };
 use microimpact::rigid::{Departure, infer_assuming_rolling};
 use microimpact::contact::{Collocation, FixedCost, HystereticDamping, Ring, Contact};
@@ -40,10 +40,10 @@ fn restitution(scene: &Scene<f64>, speed: f64) -> f64 {
 fn parameters_of_the_paper() {
     let law = SpeedRestitution::new(130.0).unwrap();
     // High speeds, where adhesion hardly counts, give R.
-    let fast = Rebound { speed: 13.0, restitution: law.restitution(13.0) };
+    let fast = MeasuredRebound { speed: 13.0, restitution: law.restitution(13.0) };
     assert!((material_damping(&bare(4.3e-6), &method(), &fast, 1e-9).unwrap() - 10.45).abs() < 0.05);
     for (radius, restitution) in [(4.3e-6, 0.62), (5.06e-6, 0.746)] {
-        let rebound = Rebound { speed: 2.8, restitution };
+        let rebound = MeasuredRebound { speed: 2.8, restitution };
         let ringed = bare(radius).with_ring(250.0, 6.25).unwrap();
         assert!((material_damping(&ringed, &method(), &rebound, 1e-9).unwrap() - 10.5).abs() < 0.05);
         let damped = bare(radius).with_damping(10.5).unwrap();
@@ -87,7 +87,7 @@ fn there_and_back_again() {
         let (radius, f0, zeta_h, zeta_a) = (decade(-6.0, -4.0), decade(0.0, 3.0), decade(-1.0, 2.0), decade(-1.0, 1.5));
         let speed = decade(-1.0, 1.5);
         let whole = scene(radius, f0, zeta_h, zeta_a);
-        let rebound = Rebound { speed, restitution: restitution(&whole, speed) };
+        let rebound = MeasuredRebound { speed, restitution: restitution(&whole, speed) };
         if rebound.restitution < 0.05 {
             continue;
         }
@@ -110,7 +110,7 @@ fn there_and_back_again() {
 #[test]
 fn single_precision_and_fixed_cost() {
     let method = FixedCost::<7>::new(4).unwrap();
-    let rebound = Rebound { speed: 2.8_f32, restitution: 0.746 };
+    let rebound = MeasuredRebound { speed: 2.8_f32, restitution: 0.746 };
     let damped = bare::<f32>(5.06e-6).with_damping(10.5).unwrap();
     assert!((adhesion_damping(&damped, 250.0, &method, &rebound, 1e-6).unwrap() - 6.25).abs() < 0.05);
     let ringed = bare::<f32>(5.06e-6).with_ring(250.0, 6.25).unwrap();
@@ -120,34 +120,37 @@ fn single_precision_and_fixed_cost() {
 #[test]
 fn what_has_no_answer_says_why() {
     let sphere = bare::<f64>(4.3e-6);
-    let damping = |speed, restitution| material_damping(&sphere, &method(), &Rebound { speed, restitution }, 1e-9);
+    let damping =
+        |speed, restitution| material_damping(&sphere, &method(), &MeasuredRebound { speed, restitution }, 1e-9);
     assert_eq!(damping(2.8, 0.0), Err(CalibrationError::Captured));
     assert_eq!(damping(2.8, 1.0), Ok(0.0));
-    let input = |parameter, fault| Err::<f64, _>(CalibrationError::Input(InputError { parameter, fault }));
-    assert_eq!(damping(2.8, 1.01), input(Parameter::Restitution, Fault::TooLarge));
-    assert_eq!(damping(2.8, f64::NAN), input(Parameter::Restitution, Fault::NotFinite));
-    assert_eq!(damping(-2.8, 0.5), input(Parameter::ApproachSpeed, Fault::TooSmall));
+    let input =
+        |parameter, fault, value| Err::<f64, _>(CalibrationError::Input(InputError { parameter, fault, value }));
+    assert_eq!(damping(2.8, 1.01), input(Parameter::Restitution, Fault::TooLarge, 1.01));
+    assert_eq!(damping(2.8, f64::NAN), input(Parameter::Restitution, Fault::NotFinite, f64::NAN));
+    assert_eq!(damping(-2.8, 0.5), input(Parameter::ApproachSpeed, Fault::TooSmall, -2.8));
     let ringed = sphere.with_ring(250.0, 6.25).unwrap();
-    let too_fast = material_damping(&ringed, &method(), &Rebound { speed: 2.8, restitution: 0.99 }, 1e-9);
+    let too_fast = material_damping(&ringed, &method(), &MeasuredRebound { speed: 2.8, restitution: 0.99 }, 1e-9);
     assert_eq!(too_fast, Err(CalibrationError::ReboundTooFast));
     let at = |radius| Ok(scene(radius, 250.0, 10.5, 6.25));
-    let radius = |restitution| parameter((4e-6, 6e-6), at, &method(), &Rebound { speed: 2.8, restitution }, 1e-9);
+    let radius =
+        |restitution| parameter((4e-6, 6e-6), at, &method(), &MeasuredRebound { speed: 2.8, restitution }, 1e-9);
     assert_eq!(radius(0.1), Err(CalibrationError::ReboundTooSlow));
     assert_eq!(radius(0.95), Err(CalibrationError::ReboundTooFast));
     // Both ends of a bracket belong to it.
     for bracket in [(4e-6, 6e-6), (6e-6, 4e-6), (6e-6, 8e-6), (8e-6, 6e-6)] {
-        let rebound = Rebound { speed: 2.8, restitution: restitution(&scene(6e-6, 250.0, 10.5, 6.25), 2.8) };
+        let rebound = MeasuredRebound { speed: 2.8, restitution: restitution(&scene(6e-6, 250.0, 10.5, 6.25), 2.8) };
         assert!((parameter(bracket, at, &method(), &rebound, 1e-9).unwrap() / 6e-6 - 1.0).abs() < 1e-8);
     }
     assert_eq!(
-        parameter((4e-6, 6e-6), at, &method(), &Rebound { speed: 2.8, restitution: 0.5 }, 0.0),
-        input(Parameter::Tolerance, Fault::TooSmall)
+        parameter((4e-6, 6e-6), at, &method(), &MeasuredRebound { speed: 2.8, restitution: 0.5 }, 0.0),
+        input(Parameter::Tolerance, Fault::TooSmall, 0.0)
     );
     for error in [
         CalibrationError::ReboundTooFast,
         CalibrationError::ReboundTooSlow,
         CalibrationError::Captured,
-        CalibrationError::BudgetSpent,
+        CalibrationError::NotConverged,
         CalibrationError::TooFew,
         CalibrationError::Undetermined,
         CalibrationError::NoMaterialLoss,
@@ -173,7 +176,7 @@ impl Measured {
         Self { sphere, random: StdRng::seed_from_u64(seed), noise, outliers }
     }
 
-    fn rebounds(&mut self, count: usize, fastest: f64) -> Vec<Rebound<f64>> {
+    fn rebounds(&mut self, count: usize, fastest: f64) -> Vec<MeasuredRebound<f64>> {
         let scene = RigidBody::new(self.sphere, SpeedRestitution::new(K).unwrap()).with_work_of_adhesion(WORK).unwrap();
         let error = Normal::new(0.0, self.noise).unwrap();
         let one = |_| {
@@ -184,7 +187,7 @@ impl Measured {
             } else {
                 exact + error.sample(&mut self.random)
             };
-            Rebound { speed, restitution: measured.clamp(0.0, 1.0) }
+            MeasuredRebound { speed, restitution: measured.clamp(0.0, 1.0) }
         };
         (0..count).map(one).collect()
     }
@@ -204,7 +207,7 @@ fn restitution_law_and_work_of_adhesion_without_noise() {
     assert_eq!((fit.rebounds, fit.outliers), (12, 0));
     let single: Vec<_> = rebounds
         .iter()
-        .map(|rebound| Rebound { speed: rebound.speed as f32, restitution: rebound.restitution as f32 })
+        .map(|rebound| MeasuredRebound { speed: rebound.speed as f32, restitution: rebound.restitution as f32 })
         .collect();
     let fit = RestitutionFit::of(&Sphere::solid(5.06e-6_f32, 2600.0).unwrap(), &single).unwrap();
     assert!((f64::from(fit.restitution_speed.value) / K - 1.0).abs() < 1e-3);
@@ -262,7 +265,8 @@ fn many_outliers() {
 fn fits_that_have_no_answer_say_why() {
     let sphere = Sphere::solid(5.06e-6, 2600.0).unwrap();
     let fit = |rebounds: &[(f64, f64)]| {
-        let rebounds: Vec<_> = rebounds.iter().map(|&(speed, restitution)| Rebound { speed, restitution }).collect();
+        let rebounds: Vec<_> =
+            rebounds.iter().map(|&(speed, restitution)| MeasuredRebound { speed, restitution }).collect();
         RestitutionFit::of(&sphere, &rebounds).map(|_| ())
     };
     assert_eq!(fit(&[]), Err(CalibrationError::TooFew));
@@ -273,7 +277,11 @@ fn fits_that_have_no_answer_say_why() {
     assert_eq!(fit(&lossless), Err(CalibrationError::NoMaterialLoss));
     assert_eq!(
         fit(&[(1.0, 0.5), (2.0, f64::NAN), (3.0, 0.5), (4.0, 0.5)]),
-        Err(CalibrationError::Input(InputError { parameter: Parameter::Restitution, fault: Fault::NotFinite }))
+        Err(CalibrationError::Input(InputError {
+            parameter: Parameter::Restitution,
+            fault: Fault::NotFinite,
+            value: f64::NAN
+        }))
     );
 }
 
@@ -311,7 +319,7 @@ fn friction_needs_impacts_that_slide() {
     let rolling = [0.05, 0.1, 0.15, 0.2].map(|ratio| ImpulseRatios { measured: ratio, rolling: ratio });
     assert_eq!(friction(&rolling), Err(CalibrationError::TooFew));
     let wild = [ImpulseRatios { measured: f64::INFINITY, rolling: 1.0 }];
-    let error = InputError { parameter: Parameter::ImpulseRatio, fault: Fault::NotFinite };
+    let error = InputError { parameter: Parameter::ImpulseRatio, fault: Fault::NotFinite, value: f64::NAN };
     assert_eq!(friction(&wild), Err(CalibrationError::Input(error)));
 }
 
@@ -328,7 +336,8 @@ fn is_sound<T: Real>(estimate: Estimate<T>) -> bool {
 fn assert_sound<T: Real>(radius: f64, data: &[(f64, f64)]) -> Result<(), TestCaseError> {
     let c = T::constant;
     let sphere = Sphere::solid(c(radius), c(2600.0)).unwrap();
-    let rebounds: Vec<_> = data.iter().map(|&(speed, e)| Rebound { speed: c(speed), restitution: c(e) }).collect();
+    let rebounds: Vec<_> =
+        data.iter().map(|&(speed, e)| MeasuredRebound { speed: c(speed), restitution: c(e) }).collect();
     if let Ok(fit) = RestitutionFit::of(&sphere, &rebounds) {
         prop_assert!(is_sound(fit.restitution_speed) && is_sound(fit.work_of_adhesion), "{fit:?}");
         prop_assert!(fit.correlation.abs() <= c(1.001) && fit.scale.is_finite(), "{fit:?}");
@@ -370,7 +379,7 @@ proptest! {
         speed in decades(-6.0, 3.0),
         restitution in 0.0..=1.0,
     ) {
-        let rebound = Rebound { speed, restitution };
+        let rebound = MeasuredRebound { speed, restitution };
         let ringed = bare(radius).with_ring(f0, zeta).unwrap();
         let damped = bare(radius).with_damping(zeta).unwrap();
         let at = |f0| bare(radius).with_damping(zeta)?.with_ring(f0, 1.0);
@@ -379,7 +388,7 @@ proptest! {
             adhesion_damping(&damped, f0, &method(), &rebound, 1e-9),
             parameter((0.0, f0), at, &method(), &rebound, 1e-9),
         ] {
-            prop_assert_ne!(found, Err(CalibrationError::BudgetSpent));
+            prop_assert_ne!(found, Err(CalibrationError::NotConverged));
             prop_assert!(found.is_err() || found.is_ok_and(|value| value.is_finite() && value >= 0.0), "{found:?}");
         }
     }
@@ -405,7 +414,7 @@ fn sensitive(which: usize, value: f64, speed: f64) -> Dual<f64, 2> {
 fn standard_errors_of_one_impact() {
     const DRAWS: u32 = 2000;
     let (damped, ringed) = (bare(5.06e-6).with_damping(10.5).unwrap(), bare(5.06e-6).with_ring(250.0, 6.25).unwrap());
-    let found = |which: usize, rebound: &Rebound<f64>| match which {
+    let found = |which: usize, rebound: &MeasuredRebound<f64>| match which {
         0 => parameter((0.0, 1e3), |f0| Ok(scene(5.06e-6, f0, 10.5, 6.25)), &method(), rebound, 1e-9),
         1 => material_damping(&ringed, &method(), rebound, 1e-9),
         2 => adhesion_damping(&damped, 250.0, &method(), rebound, 1e-9),
@@ -419,7 +428,7 @@ fn standard_errors_of_one_impact() {
         let stated = estimate(truth, sensitive(which, truth, 2.8), &errors).unwrap();
         let mut squares = 0.0;
         for _ in 0..DRAWS {
-            let rebound = Rebound {
+            let rebound = MeasuredRebound {
                 speed: 2.8 + speed_error.sample(&mut random),
                 restitution: exact + restitution_error.sample(&mut random),
             };
@@ -431,6 +440,6 @@ fn standard_errors_of_one_impact() {
     let blind = estimate(1.0, Dual::fixed(0.7), &[0.01, 0.01]);
     assert_eq!(blind.map(|_: Estimate<f64>| ()), Err(CalibrationError::Undetermined));
     let wrong = estimate(6.25, sensitive(2, 6.25, 2.8), &[0.01, -0.01]);
-    let error = InputError { parameter: Parameter::StandardError, fault: Fault::TooSmall };
+    let error = InputError { parameter: Parameter::StandardError, fault: Fault::TooSmall, value: -0.01 };
     assert_eq!(wrong, Err(CalibrationError::Input(error)));
 }

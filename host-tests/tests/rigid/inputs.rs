@@ -1,10 +1,10 @@
 //! Every input has a range, and every value outside it is an error that names the input.
 
-use microimpact::table::{BoundaryTable, Rebound, RestitutionTable, Single};
 use microimpact::measure::ring_strength;
-use microimpact::rigid::{AdhesionCoefficient, Departure, WorkOfAdhesion, infer, infer_with_spins};
-use microimpact::contact::{Collocation, DimensionlessImpact, FixedCost, RestCriterion, Contact};
 use microimpact::measure::{NormalDistribution, rebound_probability};
+use microimpact::rigid::{AdhesionCoefficient, Departure, WorkOfAdhesion, infer, infer_with_spins};
+use microimpact::simulation::{Collocation, DimensionlessImpact, FixedCost, RestCriterion, Simulation};
+use microimpact::table::{BoundaryTable, RestitutionTable, Single, TableRebound};
 use microimpact::{
     ConstantRestitution, Coulomb, CriticalSpeed, Dual, Fault, ImpactError, InFixedPoint, InputError, Material,
     NormalMotion, Parameter, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
@@ -33,7 +33,7 @@ fn perfect<T: Real>() -> ConstantRestitution<T> {
 fn restitution_table<T: Single>(ratio: T, impulse: T) -> Result<(), InputError> {
     let micrometre = T::constant(1e-6);
     let boundary = BoundaryTable::<1>::new(micrometre, |_| Ok(CriticalSpeed::At(micrometre)))?;
-    let source = |_, _| Ok(Rebound { restitution: T::ONE, impulse });
+    let source = |_, _| Ok(TableRebound { restitution: T::ONE, impulse });
     RestitutionTable::<T, 1, 3, 4>::new(boundary, ratio, source).map(drop)
 }
 
@@ -135,7 +135,7 @@ const DERIVED: [Parameter; 10] = [
     Parameter::AdhesionRatio,
     Parameter::ForceRatio,
     Parameter::DampingRatio,
-    Parameter::Sweeps,
+    Parameter::Iterations,
     Parameter::TurningPoints,
     Parameter::BoundaryMargin,
     Parameter::SpeedInUnits,
@@ -149,7 +149,9 @@ fn assert_bounds_hold<T: Single + NormalDistribution + Into<f64>>(not_a_number: 
         let (smallest, largest) = parameter.range();
         let fault = |value: T, fault| {
             let error = supply(parameter, value).unwrap_err();
-            assert_eq!(error, ImpactError::Input(InputError { parameter, fault }), "{value:?}");
+            let ImpactError::Input(error) = error else { panic!("{parameter:?}: {error}") };
+            assert_eq!((error.parameter, error.fault), (parameter, fault), "{value:?}");
+            assert!(!(parameter.range().0..=parameter.range().1).contains(&error.value), "{error:?}");
         };
         for value in not_a_number {
             // The impulse itself is checked before the change of velocity that it makes.
@@ -177,43 +179,52 @@ fn bounds_hold_in_single_precision() {
     assert_bounds_hold([f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
 }
 
+/// What is wrong with an input, whatever its value.
+fn kind(error: InputError) -> (Parameter, Fault) {
+    (error.parameter, error.fault)
+}
+
 /// The ratios of a scene's forces have ranges too: outside them the motion could not be represented.
 #[test]
 fn ratios_of_forces() {
-    let fault = |parameter, fault| Some(InputError { parameter, fault });
+    let fault = |parameter, fault| Some((parameter, fault));
     let method = FixedCost::<5>::new(3).unwrap();
     let soft = Stiffness::new(1e3).unwrap();
     let sphere = Sphere::solid(1e-6, 1000.0).unwrap();
     let motion = |speed: f64| NormalMotion::new(speed).unwrap();
     let scene = Contact::hertz(sphere, soft);
     assert_eq!(
-        scene.with_damping(1e9).unwrap().normal_impact(&method, &motion(10.0)).err(),
+        scene.with_damping(1e9).unwrap().normal_impact(&method, &motion(10.0)).err().map(kind),
         fault(Parameter::DampingRatio, Fault::TooLarge)
     );
     assert_eq!(
-        scene.with_ring(1e-3, 1e9).unwrap().normal_impact(&method, &motion(10.0)).err(),
+        scene.with_ring(1e-3, 1e9).unwrap().normal_impact(&method, &motion(10.0)).err().map(kind),
         fault(Parameter::DampingRatio, Fault::TooLarge)
     );
     assert_eq!(
-        scene.with_ring(1e9, 0.0).unwrap().normal_impact(&method, &motion(1e-6)).err(),
+        scene.with_ring(1e9, 0.0).unwrap().normal_impact(&method, &motion(1e-6)).err().map(kind),
         fault(Parameter::AdhesionRatio, Fault::TooLarge)
     );
     for (force, expected) in [(-1.0, Fault::TooLarge), (1.0, Fault::TooSmall)] {
         let pressed = scene.with_external_force(force).unwrap();
-        assert_eq!(pressed.normal_impact(&method, &motion(1e-6)).err(), fault(Parameter::ForceRatio, expected));
+        assert_eq!(
+            pressed.normal_impact(&method, &motion(1e-6)).err().map(kind),
+            fault(Parameter::ForceRatio, expected)
+        );
     }
     assert!(scene.with_damping(1e3).unwrap().normal_impact(&method, &motion(1.0)).is_ok());
     for (sweeps, expected) in [(0, Fault::TooSmall), (41, Fault::TooLarge)] {
-        assert_eq!(FixedCost::<5>::new(sweeps).err(), fault(Parameter::Sweeps, expected));
+        assert_eq!(FixedCost::<5>::new(sweeps).err().map(kind), fault(Parameter::Iterations, expected));
     }
     for (turning_points, expected) in [(0, Fault::TooSmall), (100_001, Fault::TooLarge)] {
-        assert_eq!(RestCriterion::new(0.1, turning_points).err(), fault(Parameter::TurningPoints, expected));
+        assert_eq!(RestCriterion::new(0.1, turning_points).err().map(kind), fault(Parameter::TurningPoints, expected));
     }
 }
 
 #[test]
 fn layers_fit_into_their_sphere() {
-    let error = InputError { parameter: Parameter::Thickness, fault: Fault::ExceedsRadius };
+    let error = InputError { parameter: Parameter::Thickness, fault: Fault::ExceedsRadius, value: 1.1e-6 };
+    assert_eq!(error.to_string(), "thickness is 1.1e-6 m, but must not exceed the radius of the sphere");
     assert_eq!(Sphere::hollow(1e-6, 1.1e-6, 1000.0), Err(error));
     assert_eq!(Sphere::coated(1e-6, 1.1e-6, 1000.0, 2000.0), Err(error));
     let full = Sphere::coated(1e-6, 1e-6, 1000.0, 2000.0).unwrap();
@@ -224,13 +235,13 @@ fn layers_fit_into_their_sphere() {
 #[test]
 fn derived_values_are_checked_too() {
     let rigid = Material::new(1e16, -0.999).unwrap();
-    let error = InputError { parameter: Parameter::Stiffness, fault: Fault::TooLarge };
-    assert_eq!(Stiffness::between(&rigid, &rigid), Err(error));
-    let error = InputError { parameter: Parameter::Density, fault: Fault::TooSmall };
-    assert_eq!(Sphere::hollow(1.0, 1e-9, 1.0), Err(error));
-    let error = InputError { parameter: Parameter::PeripheralVelocity, fault: Fault::TooLarge };
+    let error = (Parameter::Stiffness, Fault::TooLarge);
+    assert_eq!(Stiffness::between(&rigid, &rigid).map_err(kind), Err(error));
+    let error = (Parameter::Density, Fault::TooSmall);
+    assert_eq!(Sphere::hollow(1.0, 1e-9, 1.0).map_err(kind), Err(error));
+    let error = (Parameter::PeripheralVelocity, Fault::TooLarge);
     let oblique = NormalMotion::new(1.0).unwrap().with_tangential(0.0).unwrap();
-    assert_eq!(oblique.with_spin(&sphere(), 1e12), Err(error));
+    assert_eq!(oblique.with_spin(&sphere(), 1e12).map_err(kind), Err(error));
 }
 
 #[test]
@@ -255,9 +266,11 @@ fn errors_name_the_parameter_its_range_and_unit() {
     for parameter in Parameter::ALL {
         let (smallest, largest) = parameter.range();
         for fault in [Fault::NotFinite, Fault::TooSmall, Fault::TooLarge] {
-            let text = InputError { parameter, fault }.to_string();
-            assert!(text.starts_with(parameter.name()), "{text}");
-            let range = text.rsplit_once(", ").unwrap().1;
+            let text = InputError { parameter, fault, value: -1.25e20 }.to_string();
+            let start = format!("{} is -1.25e20", parameter.name());
+            assert!(text.starts_with(&start), "{text}");
+            let range = text.rsplit_once("but must be ").unwrap().1;
+            let range = range.strip_prefix("a number from ").unwrap_or(range);
             let mut words = range.split(' ');
             assert_eq!(words.next().unwrap().parse(), Ok(smallest), "{text}");
             assert_eq!(words.next(), Some("to"), "{text}");
@@ -266,6 +279,20 @@ fn errors_name_the_parameter_its_range_and_unit() {
             assert_eq!(if unit.is_empty() { "1" } else { &unit }, parameter.unit(), "{text}");
         }
     }
+    // Common mistakes: a wrong sign, micrometres instead of metres, and no number at all.
+    let message = |error: InputError| error.to_string();
+    for speed in [NormalMotion::new(-2.8_f64).map(drop), NormalMotion::new(-2.8_f32).map(drop)] {
+        let expected = "approach speed is -2.8 m/s, but must be 1e-12 to 1e6 m/s; enter -2.8 m/s as 2.8";
+        assert_eq!(speed.map_err(message), Err(expected.into()));
+    }
+    assert_eq!(
+        Sphere::solid(5.0_f32, 2600.0).map_err(message).map(drop),
+        Err("radius is 5 m, but must be 1e-10 to 1 m; enter 5 um as 5e-6".into())
+    );
+    assert_eq!(
+        ConstantRestitution::new(f32::NAN).map_err(message).map(drop),
+        Err("restitution is NaN, but must be a number from 0 to 1".into())
+    );
     for error in
         [ImpactError::ReboundExceedsRestitution, ImpactError::ImpulseRatioOutsideBounds, ImpactError::EnergyGained]
     {

@@ -122,7 +122,7 @@ proptest! {
         close(m * (mid_tangential - v_t), tangential.friction.approach, momentum)?;
         close(m * kappa * r * (mid_peripheral - u), tangential.moment.approach - r * tangential.friction.approach, r * momentum)?;
         close(m * impact.normal.rebound_speed(), pressed.1, momentum)?;
-        close(m * (impact.tangential.tangential() - mid_tangential), tangential.friction.rebound, momentum)?;
+        close(m * (impact.tangential.velocity() - mid_tangential), tangential.friction.rebound, momentum)?;
         close(m * kappa * r * (impact.tangential.peripheral() - mid_peripheral), tangential.moment.rebound - r * tangential.friction.rebound, r * momentum)?;
         close(normal.body.rebound, case.restitution * normal.body.approach, momentum)?;
         close(normal.adhesion_rebound, -case.adhesion * normal.body.rebound, momentum)?;
@@ -145,7 +145,7 @@ proptest! {
         let scale = velocity_scale(&case) / kappa;
         close(e, case.restitution * (1.0 - case.adhesion), 1.0)?;
         close(impact.normal.rebound_speed(), -case.restitution * (1.0 - case.adhesion) * v_n, scale)?;
-        close(impact.tangential.tangential(), v_t - mu * (1.0 + e) * v_n, scale)?;
+        close(impact.tangential.velocity(), v_t - mu * (1.0 + e) * v_n, scale)?;
         close(impact.tangential.peripheral(), u + (mu - arm) * (1.0 + e) * v_n / kappa, scale)?;
         close(impact.tangential.slip(), v_t - u - ((1.0 + 1.0 / kappa) * mu - arm / kappa) * (1.0 + e) * v_n, scale)?;
         let eta = (v_t - u) / v_n;
@@ -191,7 +191,7 @@ proptest! {
         };
         let (impact, image) = (case.whole(), mirrored.whole());
         prop_assert_eq!(impact.normal, image.normal);
-        prop_assert_eq!(impact.tangential.tangential(), -image.tangential.tangential());
+        prop_assert_eq!(impact.tangential.velocity(), -image.tangential.velocity());
         prop_assert_eq!(impact.tangential.peripheral(), -image.tangential.peripheral());
         prop_assert_eq!(impact.tangential.impulse_ratio(), -image.tangential.impulse_ratio());
         prop_assert_eq!(impact.energy(&case.sphere).lost(), image.energy(&case.sphere).lost());
@@ -206,7 +206,7 @@ proptest! {
         };
         let (impact, large) = (case.resisted(), doubled.resisted());
         prop_assert_eq!(2.0 * impact.normal.rebound_speed(), large.normal.rebound_speed());
-        prop_assert_eq!(2.0 * impact.tangential.tangential(), large.tangential.tangential());
+        prop_assert_eq!(2.0 * impact.tangential.velocity(), large.tangential.velocity());
         prop_assert_eq!(2.0 * impact.tangential.peripheral(), large.tangential.peripheral());
     }
 
@@ -237,12 +237,12 @@ proptest! {
         let (v_t, u, kappa) = (case.motion.tangential(), case.motion.peripheral(), case.sphere.gyration_ratio());
         let smooth = Case { friction: 0.0, ..case }.frictional().tangential;
         if case.motion.slip() != 0.0 {
-            prop_assert_eq!((smooth.tangential(), smooth.peripheral()), (v_t, u));
+            prop_assert_eq!((smooth.velocity(), smooth.peripheral()), (v_t, u));
         }
         let rough = Case { friction: 1e3, ..case }.frictional().tangential;
         if rough.rolling_ratio().abs() <= 1e3 {
-            close(rough.tangential(), (v_t + kappa * u) / (1.0 + kappa), velocity_scale(&case))?;
-            close(rough.peripheral(), rough.tangential(), velocity_scale(&case))?;
+            close(rough.velocity(), (v_t + kappa * u) / (1.0 + kappa), velocity_scale(&case))?;
+            close(rough.peripheral(), rough.velocity(), velocity_scale(&case))?;
         }
     }
 
@@ -254,7 +254,7 @@ proptest! {
         let expected = scene.with_friction(bare.friction).unwrap().impact(&bare.motion);
         let impact = bare.whole();
         prop_assert_eq!(impact.normal, expected.normal);
-        close(impact.tangential.tangential(), expected.tangential.tangential(), velocity_scale(&case))?;
+        close(impact.tangential.velocity(), expected.tangential.velocity(), velocity_scale(&case))?;
         close(impact.tangential.peripheral(), expected.tangential.peripheral(), velocity_scale(&case) / case.sphere.gyration_ratio())?;
         let alone = scene.impact(&bare.motion);
         prop_assert_eq!(alone.normal, expected.normal);
@@ -266,7 +266,7 @@ proptest! {
         let law = ConstantRestitution::new(case.restitution).unwrap();
         let scale = velocity_scale(&case);
         let impact = case.frictional();
-        let after = Departure { normal: impact.normal.rebound_speed(), tangential: impact.tangential.tangential() };
+        let after = Departure { normal: impact.normal.rebound_speed(), tangential: impact.tangential.velocity() };
         let inferred = infer(&case.sphere, &law, &case.motion, &after, 1e-12 * scale).unwrap();
         close(inferred.normal.adhesion_coefficient(), impact.normal.adhesion_coefficient(), 1.0)?;
         prop_assert_eq!(inferred.normal.overall_restitution(), impact.normal.overall_restitution());
@@ -280,7 +280,7 @@ proptest! {
             );
         }
         let again = case.scene().impact_with_ratio(&case.motion, impact.tangential.impulse_ratio()).unwrap();
-        close(again.tangential.tangential(), impact.tangential.tangential(), scale)?;
+        close(again.tangential.velocity(), impact.tangential.velocity(), scale)?;
         close(again.tangential.peripheral(), impact.tangential.peripheral(), scale / case.sphere.gyration_ratio())?;
     }
 
@@ -290,7 +290,7 @@ proptest! {
         let law = ConstantRestitution::new(case.restitution).unwrap();
         let (scale, kappa) = (velocity_scale(&case), case.sphere.gyration_ratio());
         let impact = case.resisted();
-        let after = Departure { normal: impact.normal.rebound_speed(), tangential: impact.tangential.tangential() };
+        let after = Departure { normal: impact.normal.rebound_speed(), tangential: impact.tangential.velocity() };
         let inferred = infer_with_spins(&case.sphere, &law, &case.motion, &after, impact.tangential.spin(&case.sphere), 1e-12 * scale);
         // A couple that friction cannot hold reverses the slip; such data are refused.
         if case.motion.slip() * impact.tangential.slip() < -1e-9 * scale * scale || case.motion.slip() * impact.tangential.impulse_ratio() > 0.0 {
@@ -309,7 +309,7 @@ proptest! {
         prop_assume!(impact.tangential.slip() == 0.0);
         let law = ConstantRestitution::new(case.restitution).unwrap();
         let before = NormalMotion::new(speed(&case.motion)).unwrap().with_tangential(case.motion.tangential()).unwrap();
-        let after = Departure { normal: impact.normal.rebound_speed(), tangential: impact.tangential.tangential() };
+        let after = Departure { normal: impact.normal.rebound_speed(), tangential: impact.tangential.velocity() };
         let inferred = infer_assuming_rolling(&case.sphere, &law, &before, &after).unwrap();
         let peripheral = inferred.tangential.spin_before(&case.sphere) * case.sphere.radius();
         close(peripheral, case.motion.peripheral(), velocity_scale(&case) / case.sphere.gyration_ratio())?;

@@ -93,7 +93,7 @@ proptest! {
             prop_assert_eq!(single.classification.class(), double.classification.class());
         }
         close(single.impact.normal.overall_restitution(), e, amplified)?;
-        close(single.impact.tangential.tangential(), double.impact.tangential.tangential(), velocities * amplified)?;
+        close(single.impact.tangential.velocity(), double.impact.tangential.velocity(), velocities * amplified)?;
         close(single.impact.tangential.peripheral(), double.impact.tangential.peripheral(), 4.0 * velocities * amplified)?;
         if let (Some(single), Some(double)) = (single.classification.speed_over_critical, double.classification.speed_over_critical) {
             // v_c = k s/(k - s) has no digits left where s, the speed that adhesion takes, comes close to k.
@@ -134,7 +134,7 @@ proptest! {
             let (normal, tangential) = (result.impact.normal, result.impact.tangential);
             let values = [
                 normal.overall_restitution(), normal.rebound_speed(), normal.adhesion_coefficient(), normal.adhesion_loss(),
-                tangential.tangential(), tangential.spin(&result.sphere), tangential.impulse_ratio(), tangential.rolling_ratio(),
+                tangential.velocity(), tangential.spin(&result.sphere), tangential.impulse_ratio(), tangential.rolling_ratio(),
                 result.classification.speed_over_critical.unwrap_or(0.0),
                 result.classification.contact.friction_over_limit.unwrap_or(0.0),
                 ledger.before, ledger.after, ledger.lost(),

@@ -3,8 +3,8 @@
 use std::cell::Cell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use microimpact::contact::{Nodes, PhaseNodes, Share};
-use microimpact::{FixedPoint, Real};
+use microimpact::simulation::PhaseNodes;
+use microimpact::{FixedPoint, Real, lift_tables};
 
 /// Rounding to f64 alone.
 pub const EXACT: u8 = 0;
@@ -80,6 +80,10 @@ impl<const ROUNDING: u8> Real for Checked<ROUNDING> {
         Self::recorded(value)
     }
 
+    fn to_f64(self) -> f64 {
+        self.0
+    }
+
     fn is_finite(self) -> bool {
         self.0.is_finite()
     }
@@ -101,67 +105,6 @@ impl<const ROUNDING: u8> Real for Checked<ROUNDING> {
     }
 }
 
-impl<const ROUNDING: u8, const N: usize> Nodes<N> for Checked<ROUNDING> {
-    const Z: [Self; N] = all(<f64 as Nodes<N>>::Z);
-    const RUNNING: [[Self; N]; N] = rows(<f64 as Nodes<N>>::RUNNING);
-    const TURNING: [[Self; N]; N] = rows(<f64 as Nodes<N>>::TURNING);
-    const WHOLE: [Self; N] = all(<f64 as Nodes<N>>::WHOLE);
-    const WHOLE_TURNING: [Self; N] = all(<f64 as Nodes<N>>::WHOLE_TURNING);
-    const TAIL: [Self; N] = all(<f64 as Nodes<N>>::TAIL);
-    const LEGENDRE: [[Self; N]; N] = rows(<f64 as Nodes<N>>::LEGENDRE);
-}
-
-impl<const ROUNDING: u8, const N: usize> PhaseNodes<N> for Checked<ROUNDING> {
-    const Z: [Self; N] = all(<f64 as PhaseNodes<N>>::Z);
-    const SHARES: [Share<Self>; N] = {
-        let (zero, from) = (Checked(0.0), <f64 as PhaseNodes<N>>::SHARES);
-        let mut shares = [Share { radius: zero, square: zero, cubic: zero, quintic: zero }; N];
-        let mut i = 0;
-        while i < N {
-            let Share { radius, square, cubic, quintic } = from[i];
-            shares[i] = Share {
-                radius: Checked(radius),
-                square: Checked(square),
-                cubic: Checked(cubic),
-                quintic: Checked(quintic),
-            };
-            i += 1;
-        }
-        shares
-    };
-    const RUNNING: [[Self; N]; N] = rows(<f64 as PhaseNodes<N>>::RUNNING);
-    const RUNNING_ENDS: [(Self, Self); N] = {
-        let (mut pairs, mut i) = ([(Checked(0.0), Checked(0.0)); N], 0);
-        while i < N {
-            let (first, last) = <f64 as PhaseNodes<N>>::RUNNING_ENDS[i];
-            pairs[i] = (Checked(first), Checked(last));
-            i += 1;
-        }
-        pairs
-    };
-    const WHOLE: [Self; N] = all(<f64 as PhaseNodes<N>>::WHOLE);
-    const WHOLE_ENDS: (Self, Self) = {
-        let (first, last) = <f64 as PhaseNodes<N>>::WHOLE_ENDS;
-        (Checked(first), Checked(last))
-    };
-    const TAIL: [Self; N] = all(<f64 as PhaseNodes<N>>::TAIL);
-    const SLOWEST: Self = Checked(<FixedPoint as PhaseNodes<N>>::SLOWEST.to_f64());
-}
-
-const fn all<const ROUNDING: u8, const N: usize>(from: [f64; N]) -> [Checked<ROUNDING>; N] {
-    let (mut to, mut i) = ([Checked(0.0); N], 0);
-    while i < N {
-        to[i] = Checked(from[i]);
-        i += 1;
-    }
-    to
-}
-
-const fn rows<const ROUNDING: u8, const N: usize>(from: [[f64; N]; N]) -> [[Checked<ROUNDING>; N]; N] {
-    let (mut to, mut i) = ([[Checked(0.0); N]; N], 0);
-    while i < N {
-        to[i] = all(from[i]);
-        i += 1;
-    }
-    to
-}
+lift_tables!([const ROUNDING: u8] Checked<ROUNDING>, |wide: f64| Checked(wide), {
+    const SLOWEST: Self = Checked(<FixedPoint as PhaseNodes<NODES>>::SLOWEST.to_f64());
+});

@@ -1,7 +1,7 @@
 //! One measured impact: its coefficients with their standard errors, its class and how sure that is.
 
-use microimpact::rigid::{Departure, EnergyLedger, infer, infer_assuming_rolling, infer_with_spins};
 use microimpact::measure::NormalDistribution;
+use microimpact::rigid::{Departure, EnergyLedger, infer, infer_assuming_rolling, infer_with_spins};
 use microimpact::{
     Classification, ConstantRestitution, ContactClass, Dual, Impact, NormalMotion, Oblique, Outcome, Real,
     RestitutionLaw, RigidBody, SpeedRestitution, Sphere, SurfaceMotion, TangentialImpact,

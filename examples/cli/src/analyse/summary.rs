@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use microimpact::measure::{CalibrationError, Estimate, ImpulseRatios, Rebound, RestitutionFit, friction};
+use microimpact::measure::{CalibrationError, Estimate, ImpulseRatios, MeasuredRebound, RestitutionFit, friction};
 use microimpact::{CriticalSpeed, Sphere};
 
 use super::measured::{Measured, Number};
@@ -14,7 +14,7 @@ const SAMPLE: usize = 10_000;
 /// An impact of the sample.
 pub struct Point {
     /// Approach speed, m/s, and overall restitution.
-    pub rebound: Rebound<f64>,
+    pub rebound: MeasuredRebound<f64>,
     /// mu and mu_0.
     pub ratios: ImpulseRatios<f64>,
     /// Impulse ratio, positive where it slows the tangential motion.
@@ -82,7 +82,7 @@ impl Point {
         };
         let spin: f64 = tangential.spin_before(&measured.sphere).value.into();
         Some(Self {
-            rebound: Rebound { speed: normal, restitution: measured.restitution().value.into() },
+            rebound: MeasuredRebound { speed: normal, restitution: measured.restitution().value.into() },
             slowing: if along < 0.0 { ratios.measured } else { -ratios.measured },
             ratios,
             incidence: measured.incidence(),

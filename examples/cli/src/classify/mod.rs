@@ -128,7 +128,7 @@ impl<T: Scalar + AdaptiveNodes> Work for Both<T> {
             format!("{:.4}", contact.normal.overall_restitution()),
             format!("{:.4}", body.impact.normal.overall_restitution()),
             format!("{:.4}", contact.tangential.tangential() + T::ZERO),
-            format!("{:.4}", body.impact.tangential.tangential() + T::ZERO),
+            format!("{:.4}", body.impact.tangential.velocity() + T::ZERO),
             format!("{:.2e}", contact.tangential.spin() + T::ZERO),
             format!("{:.2e}", body.impact.tangential.spin(&body.sphere) + T::ZERO),
         ];

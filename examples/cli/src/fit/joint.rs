@@ -140,7 +140,8 @@ impl JointFit {
         for error in [known.noise, known.diameter.1] {
             // Deviations are counted in both.
             if Parameter::StandardError.check(error)? <= 0.0 {
-                return Err(InputError { parameter: Parameter::StandardError, fault: Fault::TooSmall }.into());
+                let (parameter, fault) = (Parameter::StandardError, Fault::TooSmall);
+                return Err(InputError { parameter, fault, value: error }.into());
             }
         }
         // Errors may carry a measurement beyond its range, but not far.

@@ -3,8 +3,8 @@
 use core::fmt::{self, LowerExp};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use microimpact::Real;
-use microimpact::contact::{PhaseNodes, Share};
+use microimpact::simulation::PhaseNodes;
+use microimpact::{Real, lift_tables};
 use micromath::F32Ext;
 
 /// Single precision with the functions of micromath.
@@ -56,6 +56,11 @@ impl Real for Approximate {
     }
 
     #[inline]
+    fn to_f64(self) -> f64 {
+        self.0.into()
+    }
+
+    #[inline]
     fn is_finite(self) -> bool {
         self.0.is_finite()
     }
@@ -81,51 +86,6 @@ impl Real for Approximate {
     }
 }
 
-impl<const N: usize> PhaseNodes<N> for Approximate {
-    const Z: [Self; N] = all(<f32 as PhaseNodes<N>>::Z);
-    const SHARES: [Share<Self>; N] = {
-        let (zero, from) = (Self(0.0), <f32 as PhaseNodes<N>>::SHARES);
-        let mut shares = [Share { radius: zero, square: zero, cubic: zero, quintic: zero }; N];
-        let mut i = 0;
-        while i < N {
-            let Share { radius, square, cubic, quintic } = from[i];
-            shares[i] =
-                Share { radius: Self(radius), square: Self(square), cubic: Self(cubic), quintic: Self(quintic) };
-            i += 1;
-        }
-        shares
-    };
-    const RUNNING: [[Self; N]; N] = {
-        let (mut rows, mut i) = ([[Self(0.0); N]; N], 0);
-        while i < N {
-            rows[i] = all(<f32 as PhaseNodes<N>>::RUNNING[i]);
-            i += 1;
-        }
-        rows
-    };
-    const RUNNING_ENDS: [(Self, Self); N] = {
-        let (mut pairs, mut i) = ([(Self(0.0), Self(0.0)); N], 0);
-        while i < N {
-            let (first, last) = <f32 as PhaseNodes<N>>::RUNNING_ENDS[i];
-            pairs[i] = (Self(first), Self(last));
-            i += 1;
-        }
-        pairs
-    };
-    const WHOLE: [Self; N] = all(<f32 as PhaseNodes<N>>::WHOLE);
-    const WHOLE_ENDS: (Self, Self) = {
-        let (first, last) = <f32 as PhaseNodes<N>>::WHOLE_ENDS;
-        (Self(first), Self(last))
-    };
-    const TAIL: [Self; N] = all(<f32 as PhaseNodes<N>>::TAIL);
-    const SLOWEST: Self = Self(<f32 as PhaseNodes<N>>::SLOWEST);
-}
-
-const fn all<const N: usize>(from: [f32; N]) -> [Approximate; N] {
-    let (mut to, mut i) = ([Approximate(0.0); N], 0);
-    while i < N {
-        to[i] = Approximate(from[i]);
-        i += 1;
-    }
-    to
-}
+lift_tables!(PhaseNodes for Approximate, |wide: f32| Approximate(wide), {
+    const SLOWEST: Self = Approximate(<f32 as PhaseNodes<NODES>>::SLOWEST);
+});

@@ -5,8 +5,8 @@ use core::marker::PhantomData;
 
 use microimpact::Stiffness;
 use microimpact::measure::{
-    CalibrationError, Estimate, ImpulseRatios, Rebound, RestitutionFit, adhesion_damping, friction, material_damping,
-    parameter, ring_strength,
+    CalibrationError, Estimate, ImpulseRatios, MeasuredRebound, RestitutionFit, adhesion_damping, friction,
+    material_damping, parameter, ring_strength,
 };
 use microimpact::contact::{Collocation, Method};
 
@@ -35,12 +35,16 @@ pub trait OfOneRebound {
     const MEASURED: (f64, f64);
 
     /// The parameter, to a relative tolerance.
-    fn find<T: Number>(rebound: &Rebound<T>, method: &impl Method<T, ()>, tolerance: T) -> Result<T, CalibrationError>;
+    fn find<T: Number>(
+        rebound: &MeasuredRebound<T>,
+        method: &impl Method<T, ()>,
+        tolerance: T,
+    ) -> Result<T, CalibrationError>;
 }
 
 /// A measured rebound of the sphere, and the method and the tolerance with which it is explained by the parameter `P`.
 pub struct OneRebound<T, M, P> {
-    rebound: Rebound<T>,
+    rebound: MeasuredRebound<T>,
     method: M,
     tolerance: T,
     parameter: PhantomData<P>,
@@ -52,7 +56,7 @@ impl<T: Number, M: Tolerant + Method<T, ()>, P: OfOneRebound> Calibration<T> for
 
     fn new() -> Option<Self> {
         let (speed, restitution) = P::MEASURED;
-        let rebound = Rebound { speed: given(speed), restitution: given(restitution) };
+        let rebound = MeasuredRebound { speed: given(speed), restitution: given(restitution) };
         Some(Self { rebound, method: M::new()?, tolerance: given(M::TOLERANCE), parameter: PhantomData })
     }
 
@@ -84,7 +88,11 @@ impl OfOneRebound for MaterialDamping {
     const MEASURED: (f64, f64) = (13.0, 0.909);
 
     #[inline(always)]
-    fn find<T: Number>(rebound: &Rebound<T>, method: &impl Method<T, ()>, tolerance: T) -> Result<T, CalibrationError> {
+    fn find<T: Number>(
+        rebound: &MeasuredRebound<T>,
+        method: &impl Method<T, ()>,
+        tolerance: T,
+    ) -> Result<T, CalibrationError> {
         material_damping(&elastic()?, method, rebound, tolerance)
     }
 }
@@ -97,7 +105,11 @@ impl OfOneRebound for AdhesionDamping {
     const MEASURED: (f64, f64) = (APPROACH_M_S, OVERALL_RESTITUTION);
 
     #[inline(always)]
-    fn find<T: Number>(rebound: &Rebound<T>, method: &impl Method<T, ()>, tolerance: T) -> Result<T, CalibrationError> {
+    fn find<T: Number>(
+        rebound: &MeasuredRebound<T>,
+        method: &impl Method<T, ()>,
+        tolerance: T,
+    ) -> Result<T, CalibrationError> {
         let damped = elastic()?.with_damping(given(MATERIAL_DAMPING))?;
         adhesion_damping(&damped, given(RING_N_M), method, rebound, tolerance)
     }
@@ -111,7 +123,11 @@ impl OfOneRebound for Radius {
     const MEASURED: (f64, f64) = (APPROACH_M_S, OVERALL_RESTITUTION);
 
     #[inline(always)]
-    fn find<T: Number>(rebound: &Rebound<T>, method: &impl Method<T, ()>, tolerance: T) -> Result<T, CalibrationError> {
+    fn find<T: Number>(
+        rebound: &MeasuredRebound<T>,
+        method: &impl Method<T, ()>,
+        tolerance: T,
+    ) -> Result<T, CalibrationError> {
         parameter((given(2e-6), given(20e-6)), surface_of, method, rebound, tolerance)
     }
 }
@@ -134,7 +150,7 @@ impl<T: Number> Calibration<T> for AdhesionStrength<T> {
 }
 
 /// k and W_A from speeds (m/s) and restitutions.
-pub struct RestitutionLaw<T>([Rebound<T>; REBOUNDS.len()]);
+pub struct RestitutionLaw<T>([MeasuredRebound<T>; REBOUNDS.len()]);
 
 /// Rebounds with k = 130 m/s and W_A = 2.22e-12 J, read to three digits, two of them misread.
 const REBOUNDS: [(f64, f64); 12] = [
@@ -158,7 +174,8 @@ impl<T: Number> Calibration<T> for RestitutionLaw<T> {
 
     fn new() -> Option<Self> {
         Some(Self(
-            REBOUNDS.map(|(speed, restitution)| Rebound { speed: given(speed), restitution: given(restitution) }),
+            REBOUNDS
+                .map(|(speed, restitution)| MeasuredRebound { speed: given(speed), restitution: given(restitution) }),
         ))
     }
 

@@ -3,9 +3,9 @@
 
 use core::hint::black_box;
 
-use microimpact::table::{BoundaryTable, Reading, Rebound, RestitutionTable, Separation, Single, Verdict};
-use microimpact::contact::{Collocation, Nodes, SimulatedImpact, TangentialContact};
-use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, SurfaceMotion};
+use microimpact::simulation::{Collocation, Nodes, SimulatedImpact, TangentialContact};
+use microimpact::table::{BoundaryTable, Lookup, RestitutionTable, Single, TableOutcome, TableRebound};
+use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, Separation, SurfaceMotion};
 
 use super::contacts::{exact_restitution, surface_of};
 use super::impacts::{CONTACTS, Impact};
@@ -52,7 +52,7 @@ impl<T: Number + Single> Scene<T> for Boundary<T> {
     const NAME: &'static str = "table/boundary";
     const PLANAR: bool = false;
     type Motion = NormalMotion<T>;
-    type Verdict = Verdict;
+    type Verdict = TableOutcome;
 
     fn new() -> Option<Self> {
         Some(Self { table: black_box(TABLE), radius: given(RADIUS_M) })
@@ -65,7 +65,7 @@ impl<T: Number + Single> Scene<T> for Boundary<T> {
     }
 
     #[inline(always)]
-    fn classify(&self, motion: &Self::Motion) -> Verdict {
+    fn classify(&self, motion: &Self::Motion) -> TableOutcome {
         self.table.classify(self.radius, motion)
     }
 
@@ -94,7 +94,7 @@ fn surface<T: Number + Nodes<7> + Single>() -> Result<Surface<T>, InputError> {
         let motion = NormalMotion::new(speed)?.with_tangential(along)?.with_peripheral_velocity(T::ZERO)?;
         let impact: SimulatedImpact<_, TangentialContact<_>, ()> = scene.observe(&method, &motion)?;
         let impulse = (along - impact.tangential.tangential()) / speed;
-        Ok(Rebound { restitution: impact.normal.overall_restitution(), impulse })
+        Ok(TableRebound { restitution: impact.normal.overall_restitution(), impulse })
     })
 }
 
@@ -102,7 +102,7 @@ impl<T: Number + Nodes<7> + Single> Scene<T> for Restitution<T> {
     const NAME: &'static str = "table/restitution";
     const PLANAR: bool = true;
     type Motion = PlanarMotion<T>;
-    type Verdict = (Reading<T>, Option<Separation<T>>);
+    type Verdict = (Lookup<T>, Option<Separation<T>>);
 
     fn new() -> Option<Self> {
         let friction = Coulomb::new(given(FRICTION)).ok()?;
@@ -120,9 +120,9 @@ impl<T: Number + Nodes<7> + Single> Scene<T> for Restitution<T> {
 
     #[inline(always)]
     fn classify(&self, motion: &Self::Motion) -> Self::Verdict {
-        let reading = self.table.read(self.radius, motion);
+        let reading = self.table.look_up(self.radius, motion);
         let separation = match reading {
-            Reading::Rebound { rebound, .. } => Some(rebound.separation(&self.friction, given(SOLID), motion)),
+            Lookup::Rebound { rebound, .. } => Some(rebound.separation(&self.friction, given(SOLID), motion)),
             _ => None,
         };
         (reading, separation)
@@ -137,28 +137,28 @@ impl<T: Number + Nodes<7> + Single> Scene<T> for Restitution<T> {
     }
 }
 
-impl<T> From<Verdict> for Answer<T> {
-    fn from(verdict: Verdict) -> Self {
+impl<T> From<TableOutcome> for Answer<T> {
+    fn from(verdict: TableOutcome) -> Self {
         let class = match verdict {
-            Verdict::Rebound => "rebound",
-            Verdict::Capture => "captured",
-            Verdict::TooCloseToCall => "too-close-to-call",
-            Verdict::OutsideTable => "outside-table",
+            TableOutcome::Rebound => "rebound",
+            TableOutcome::Capture => "captured",
+            TableOutcome::TooCloseToCall => "too-close-to-call",
+            TableOutcome::OutsideTable => "outside-table",
         };
         Self { class, speed_margin: None, friction_margin: None, restitution: None }
     }
 }
 
-impl<T> From<(Reading<T>, Option<Separation<T>>)> for Answer<T> {
-    fn from((reading, separation): (Reading<T>, Option<Separation<T>>)) -> Self {
+impl<T> From<(Lookup<T>, Option<Separation<T>>)> for Answer<T> {
+    fn from((reading, separation): (Lookup<T>, Option<Separation<T>>)) -> Self {
         let (class, restitution) = match reading {
-            Reading::Rebound { rebound, .. } => {
+            Lookup::Rebound { rebound, .. } => {
                 let slides = separation.is_some_and(|after| after.motion == SurfaceMotion::Sliding);
                 (if slides { "rebound-sliding" } else { "rebound-rolling" }, Some(rebound.restitution))
             }
-            Reading::Capture => ("captured", None),
-            Reading::TooCloseToCall => ("too-close-to-call", None),
-            Reading::OutsideTable => ("outside-table", None),
+            Lookup::Capture => ("captured", None),
+            Lookup::TooCloseToCall => ("too-close-to-call", None),
+            Lookup::OutsideTable => ("outside-table", None),
         };
         Self { class, speed_margin: None, friction_margin: None, restitution }
     }

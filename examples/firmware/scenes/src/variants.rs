@@ -4,8 +4,8 @@
 
 use core::hint::black_box;
 
-use microimpact::rigid::{NoRollingDissipation, RollingDissipation, WorkOfAdhesion};
-use microimpact::contact::{
+use microimpact::rigid::{RollingDissipation, WorkOfAdhesion};
+use microimpact::simulation::{
     Collocation, ConstantForce, FixedCost, HystereticDamping, Method, NoPeeling, NormalContact, Output, Peeling,
     PhaseSamples, Ring, SimulatedImpact, Contact, TangentialContact, TangentialScene, TangentialVelocities,
     Trajectory,
@@ -74,9 +74,8 @@ impl<T: Number> Components<T> for PlanarMotion<T> {
     }
 }
 
-/// A rigid body with adhesion `A`, friction `F` and rolling dissipation `D`.
-type Body<T, A = WorkOfAdhesion<T>, F = NoFriction, D = NoRollingDissipation> =
-    RigidBody<T, SpeedRestitution<T>, A, F, D>;
+/// A rigid body with adhesion `A` and what happens along the surface, `S`.
+type Body<T, A = WorkOfAdhesion<T>, S = NoFriction> = RigidBody<T, SpeedRestitution<T>, A, S>;
 
 /// A damped and adhesive sphere that an external force pulls to the surface.
 type Pulled<T> = Simulation<T, HystereticDamping<T>, Ring<T>, NoFriction, NoPeeling, ConstantForce<T>>;
@@ -168,7 +167,7 @@ variant! {
 variant! {
     /// Rolling dissipation too.
     RigidRolling: "rigid/rolling-dissipation",
-    scene: Body<T, WorkOfAdhesion<T>, Coulomb<T>, RollingDissipation<T>> = adhesive()
+    scene: Body<T, WorkOfAdhesion<T>, RollingDissipation<T>> = adhesive()
         .and_then(|scene| scene.with_friction(given(FRICTION)))
         .and_then(|scene| scene.with_rolling_dissipation(given(ROLLING_ARM_M))),
     impacts: IMPACTS as PlanarMotion<T>,

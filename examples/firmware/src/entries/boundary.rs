@@ -2,7 +2,7 @@
 
 use core::hint::black_box;
 
-use microimpact::table::{BoundarySlice, BoundaryTable, Reading, Rebound, RestitutionTable, Single};
+use microimpact::table::{BoundarySlice, BoundaryTable, Lookup, RestitutionTable, Single, TableRebound};
 use microimpact::{Coulomb, CriticalSpeed, InputError, NormalMotion, Sphere};
 
 use super::{any, keep, motions};
@@ -43,14 +43,14 @@ fn slice<T: Single>(cells: &mut [[i32; 4]], motion: &NormalMotion<T>) -> Result<
 
 fn restitution<const N: usize, const R: usize, const S: usize, T: Single>() -> Result<(), InputError> {
     let boundary = BoundaryTable::<N>::new(any::<T>(), |_| Ok(black_box(CriticalSpeed::At(any::<T>()))))?;
-    let source = |_, _| Ok(Rebound { restitution: any::<T>(), impulse: any() });
+    let source = |_, _| Ok(TableRebound { restitution: any::<T>(), impulse: any() });
     let table = RestitutionTable::<T, N, R, S>::new(boundary, any(), source)?;
     keep((table.error(), table.impulse_error(), table.boundary()));
     let (normal, oblique, planar) = motions(&Sphere::solid(any::<T>(), any())?)?;
     let friction = Coulomb::new(any::<T>())?;
-    for reading in [table.read(any(), &normal), table.read(any(), &oblique), table.read(any(), &planar)] {
+    for reading in [table.look_up(any(), &normal), table.look_up(any(), &oblique), table.look_up(any(), &planar)] {
         keep(reading);
-        if let Reading::Rebound { rebound, .. } = reading {
+        if let Lookup::Rebound { rebound, .. } = reading {
             keep(rebound.separation(&friction, any(), &oblique));
             keep(rebound.separation(&friction, any(), &planar));
         }

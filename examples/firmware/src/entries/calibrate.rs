@@ -3,11 +3,11 @@
 use core::hint::black_box;
 
 use microimpact::measure::{
-    CalibrationError, ImpulseRatios, Location, Rebound, RestitutionFit, adhesion_damping, estimate, friction,
+    CalibrationError, ImpulseRatios, Location, MeasuredRebound, RestitutionFit, adhesion_damping, estimate, friction,
     material_damping, parameter, ring_strength, rolling_motion,
 };
-use microimpact::contact::{Collocation, FixedCost, Method, Contact};
 use microimpact::measure::{ClassProbabilities, NormalDistribution, rebound_probability, stopped_slip};
+use microimpact::simulation::{Collocation, FixedCost, Method, Simulation};
 use microimpact::{
     Approach, Class, Coulomb, CriticalSpeed, Dual, InputError, NormalMotion, Parameter, Real, Sphere, Stiffness,
 };
@@ -21,7 +21,8 @@ pub(super) fn call_all<T: AnyNodes + NormalDistribution>() {
     keep(many::<T>());
     keep(duals::<T>());
     keep(probabilities::<T>());
-    keep(CalibrationError::from(InputError { parameter: Parameter::Radius, fault: microimpact::Fault::TooLarge }));
+    let fault = microimpact::Fault::TooLarge;
+    keep(CalibrationError::from(InputError { parameter: Parameter::Radius, fault, value: 2.0 }));
 }
 
 fn contact<T: AnyNodes>(
@@ -34,7 +35,7 @@ fn contact<T: AnyNodes>(
 
 fn one_impact<T: Real>(method: &impl Method<T, ()>) -> Result<(), CalibrationError> {
     let scene = Simulation::<T>::new(Sphere::solid(any(), any())?, Stiffness::new(any())?);
-    let rebound = Rebound::from_speeds(any(), any())?;
+    let rebound = MeasuredRebound::from_speeds(any(), any())?;
     keep(material_damping(&scene.with_ring(any(), any())?, method, &rebound, any()));
     keep(adhesion_damping(&scene.with_damping(any())?, any(), method, &rebound, any()));
     keep(ring_strength(scene.sphere(), Stiffness::new(any())?, any()));
@@ -45,7 +46,7 @@ fn one_impact<T: Real>(method: &impl Method<T, ()>) -> Result<(), CalibrationErr
 
 fn many<T: Real>() -> Result<(), CalibrationError> {
     let sphere = Sphere::solid(any(), any())?;
-    let rebounds = black_box([Rebound { speed: any::<T>(), restitution: any() }; 8]);
+    let rebounds = black_box([MeasuredRebound { speed: any::<T>(), restitution: any() }; 8]);
     let fit = RestitutionFit::of(&sphere, &rebounds)?;
     keep((fit.critical_speed(), fit.adhesion_coefficient(any())));
     let impacts = black_box([ImpulseRatios { measured: any::<T>(), rolling: any() }; 8]);

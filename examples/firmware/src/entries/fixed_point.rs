@@ -69,14 +69,14 @@ where
     Ok(())
 }
 
-fn impact<L, A, F, M>(scene: &RigidBody<FixedPoint, L, A, F>, motion: &M)
+fn impact<L, A, S, M>(scene: &RigidBody<FixedPoint, L, A, S>, motion: &M)
 where
     L: RestitutionLaw<FixedPoint>,
     A: ReboundAdhesion<FixedPoint>,
-    F: TangentialTerm<FixedPoint, M, microimpact::rigid::NoRollingDissipation>,
+    S: TangentialTerm<FixedPoint, M>,
     M: Approach<FixedPoint>,
 {
-    let impact: Impact<FixedPoint, F::Impact> = scene.impact(motion);
+    let impact: Impact<FixedPoint, S::Impact> = scene.impact(motion);
     keep(impact.tangential.classify(black_box(microimpact::Outcome::Capture)));
     keep(impact.normal);
     keep(scene.classify(motion));

@@ -4,13 +4,13 @@ use core::convert::Infallible;
 use core::hint::black_box;
 
 use embedded_hal::digital::{ErrorType, OutputPin};
-use microimpact::table::{BoundaryTable, Rebound, RestitutionTable, Single};
 use microimpact::instrument::link::{Decoder, Encoder, FrameFault, Inlet, PROTOCOL, Reply, Report, Request};
 use microimpact::instrument::{
     ClassLines, ClassSet, Classified, Classifier, Instrument, NoLines, NormalReading, ObliqueReading, PlanarReading,
     Queue, Reading, Rejection, Signal, Simulated, SpeedBins, Statistics, Tabulated, Tally, Verdict,
 };
-use microimpact::contact::{Collocation, FixedCost, Contact};
+use microimpact::simulation::{Collocation, FixedCost, Simulation};
+use microimpact::table::{BoundaryTable, RestitutionTable, Single, TableRebound};
 use microimpact::{
     Approach, Class, Coulomb, CriticalSpeed, InputError, NoFriction, Outcome, Real, RigidBody, SpeedRestitution,
     Sphere, Stiffness,
@@ -38,7 +38,7 @@ pub(super) fn call_all<T: AnyNodes + Single>() -> Result<(), InputError> {
     process::<T, _, _, 2>(fixed, &normal, lines())?;
     process::<T, _, _, 5>(exact, &oblique, lines())?;
     let boundary = BoundaryTable::<2>::new(any::<T>(), |_| Ok(black_box(CriticalSpeed::At(any::<T>()))))?;
-    let source = |_, _| Ok(Rebound { restitution: any::<T>(), impulse: any() });
+    let source = |_, _| Ok(TableRebound { restitution: any::<T>(), impulse: any() });
     let table = RestitutionTable::<T, 2, 3, 4>::new(boundary, any(), source)?;
     process::<T, _, _, 4>(Tabulated { table: boundary, sphere, friction: NoFriction }, &normal, lines())?;
     process::<T, _, _, 4>(Tabulated { table: boundary.as_slice(), sphere, friction: NoFriction }, &normal, lines())?;

@@ -3,8 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use microimpact::measure::{Rebound, RestitutionFit};
-use microimpact::contact::{Collocation, Everything, SimulatedImpact};
+use microimpact::measure::{MeasuredRebound, RestitutionFit};
+use microimpact::simulation::{Collocation, Everything, SimulatedImpact};
 use microimpact::{
     CriticalSpeed, InputError, NormalMotion, RigidBody, SpeedRestitution, rigid::WorkOfAdhesion as WorkTerm,
 };
@@ -80,7 +80,7 @@ impl Pair {
         let rebounds: Vec<_> = impacts
             .iter()
             .filter(|(speed, _)| *speed <= reach)
-            .map(|(speed, impact)| Rebound { speed: *speed, restitution: impact.normal.overall_restitution() })
+            .map(|(speed, impact)| MeasuredRebound { speed: *speed, restitution: impact.normal.overall_restitution() })
             .collect();
         let fit = RestitutionFit::of(&sphere, &rebounds)?;
         let rigid = RigidBody::new(sphere, SpeedRestitution::new(fit.restitution_speed.value)?)

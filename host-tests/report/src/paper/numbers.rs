@@ -1,6 +1,7 @@
 //! Every number that the paper computes, with ours beside it.
 
-use microimpact::measure::{Rebound, adhesion_damping, material_damping, ring_strength};
+use host_tests::table_1::ADHESION_COEFFICIENT;
+use microimpact::measure::{MeasuredRebound, adhesion_damping, material_damping, ring_strength};
 use microimpact::rigid::{Departure, infer_assuming_rolling};
 use microimpact::contact::{Collocation, Contact};
 use microimpact::{
@@ -92,7 +93,7 @@ fn rigid_body() -> Outcome<Vec<Number>> {
     let hertz = Hertz::new(&mean, stiffness, &motion);
     let on_mean = RigidBody::new(mean, constant).with_adhesion_coefficient(ADHESION_COEFFICIENT)?.impact(&motion);
     let adhesion = on_mean.normal.impulses(&mean).adhesion_rebound;
-    let angle = impact.tangential.tangential().atan2(impact.normal.rebound_speed()).to_degrees();
+    let angle = impact.tangential.velocity().atan2(impact.normal.rebound_speed()).to_degrees();
     Ok(vec![
         number("mass m, kg", 1.41e-12, sphere.mass(), ""),
         number("radius of gyration k, m", 3.20e-6, sphere.radius_of_gyration(), ""),
@@ -109,7 +110,7 @@ fn rigid_body() -> Outcome<Vec<Number>> {
             "the spin of the simulation",
         ),
         number("V_n, m/s", DEPARTURE.normal, impact.normal.rebound_speed(), "A21"),
-        number("V_t, m/s", DEPARTURE.tangential, impact.tangential.tangential(), "A22"),
+        number("V_t, m/s", DEPARTURE.tangential, impact.tangential.velocity(), "A22"),
         number(
             "spin after, rad/s",
             4.16e4,
@@ -154,7 +155,7 @@ fn figure_4() -> Outcome<Vec<Number>> {
     let spin = impact.spin_before(&steel);
     Ok(vec![
         number("r w, m/s", 1.54, spin * steel.radius(), "drawn as 1.51"),
-        number("V_t, m/s", 0.44, impact.tangential(), ""),
+        number("V_t, m/s", 0.44, impact.velocity(), ""),
         number("spin before, rad/s", 6.2e4, spin, "radius 25 um"),
     ])
 }
@@ -191,10 +192,10 @@ fn parameters() -> Outcome<Vec<Number>> {
     let (mean, stiffness, method) = (glass(MEAN_RADIUS)?, Stiffness::new(STIFFNESS)?, method()?);
     let strength = |share: f64| ring_strength(&mean, stiffness, share * MEAN_RADIUS);
     let (low, high) = (strength(0.05)?, strength(0.10)?);
-    let fast = Rebound { speed: FAST, restitution: SpeedRestitution::new(LAW_SPEED)?.restitution(FAST) };
-    let bare = Contact::hertz(mean, stiffness);
+    let fast = MeasuredRebound { speed: FAST, restitution: SpeedRestitution::new(LAW_SPEED)?.restitution(FAST) };
+    let bare = Simulation::new(mean, stiffness);
     let material = material_damping(&bare, &method, &fast, TOLERANCE)?;
-    let slow = Rebound { speed: SPEED, restitution: 0.62 };
+    let slow = MeasuredRebound { speed: SPEED, restitution: 0.62 };
     let adhesion = adhesion_damping(&bare.with_damping(ZETA_H)?, ADHESION, &method, &slow, TOLERANCE)?;
     Ok(vec![
         number("least f0, N/m", 128.3, low, "a/r = 0.05 at rest"),
