@@ -7,7 +7,7 @@ use microimpact::contact::{Collocation, Contact};
 use microimpact::{InputError, NormalMotion, Sphere, Stiffness};
 
 use clap::{Parser, ValueEnum};
-use microimpact::simulation::{Collocation, Simulation};
+use microimpact::contact::{Collocation, Contact};
 use microimpact::table::BoundaryTable;
 use microimpact::{InputError, Sphere, Stiffness};
 
@@ -73,7 +73,7 @@ impl Options {
         let method = Collocation::<9, f64>::new(1e-9)?;
         let table = BoundaryTable::<N>::new(self.smallest_radius, |radius| {
             let sphere = Sphere::solid(radius, self.density)?;
-            Simulation::new(sphere, Stiffness::new(self.stiffness)?)
+            Contact::hertz(sphere, Stiffness::new(self.stiffness)?)
                 .with_damping(self.zeta_h)?
                 .with_ring(self.adhesion, self.zeta_a)?
                 .critical_speed(&method)

@@ -81,7 +81,7 @@
 /// its own, the function `add_integrals`. In the block, `NODES` is the number of nodes.
 ///
 /// ```text
-/// lift_tables!(PhaseNodes for FixedPoint, |wide: f64| FixedPoint::nearest(wide), {
+/// lift_tables!([] FixedPoint, |wide: f64| FixedPoint::nearest(wide), {
 ///     const SLOWEST: Self = FixedPoint::nearest(5e-3);
 /// });
 /// ```

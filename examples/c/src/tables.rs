@@ -1,6 +1,6 @@
 //! Tables: capture or rebound, restitution, and sliding or rolling, without a simulation.
 
-use microimpact::simulation::{ContactImpulses, SimulatedImpact};
+use microimpact::contact::{ContactImpulses, SimulatedImpact};
 use microimpact::table::{self, BoundarySlice, Lookup, TableOutcome, TableRebound};
 use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, Sphere};
 

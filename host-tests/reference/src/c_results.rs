@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use microimpact::simulation::{
-    Collocation, ContactImpulses, HystereticDamping, Ring, Sample, SimulatedImpact, Simulation, TangentialContact,
+use microimpact::contact::{
+    Collocation, ContactImpulses, HystereticDamping, Ring, Sample, SimulatedImpact, Contact, TangentialContact,
     Trajectory,
 };
 use microimpact::table::{BoundarySlice, BoundaryTable, Lookup, RestitutionTable, TableRebound};

@@ -3,8 +3,8 @@
 use std::process::Command;
 
 use host_tests::run_example;
-use microimpact::simulation::{
-    Collocation, ContactImpulses, HystereticDamping, Nodes, Ring, SimulatedImpact, Simulation, TangentialContact,
+use microimpact::contact::{
+    Collocation, ContactImpulses, HystereticDamping, Nodes, Ring, SimulatedImpact, Contact, TangentialContact,
 };
 use microimpact::table::{BoundarySlice, BoundaryTable, Lookup, RestitutionTable, Single, TableOutcome, TableRebound};
 use microimpact::{

@@ -1,7 +1,7 @@
 //! What a scene does not use takes no room in it.
 
 use microimpact::rigid::NoMicroforce;
-use microimpact::simulation::{ContactWorks, SimulatedImpact, Simulation};
+use microimpact::contact::{ContactWorks, SimulatedImpact, Contact};
 use microimpact::{
     Classification, ConstantRestitution, ContactClass, Impact, NoAdhesion, NoFriction, NormalImpact, NormalMotion,
     ObliqueMotion, PlanarMotion, RigidBody, Sphere, Stiffness,

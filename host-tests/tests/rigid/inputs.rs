@@ -3,7 +3,7 @@
 use microimpact::measure::ring_strength;
 use microimpact::measure::{NormalDistribution, rebound_probability};
 use microimpact::rigid::{AdhesionCoefficient, Departure, WorkOfAdhesion, infer, infer_with_spins};
-use microimpact::simulation::{Collocation, DimensionlessImpact, FixedCost, RestCriterion, Simulation};
+use microimpact::contact::{Collocation, DimensionlessImpact, FixedCost, RestCriterion, Contact};
 use microimpact::table::{BoundaryTable, RestitutionTable, Single, TableRebound};
 use microimpact::{
     ConstantRestitution, Coulomb, CriticalSpeed, Dual, Fault, ImpactError, InFixedPoint, InputError, Material,

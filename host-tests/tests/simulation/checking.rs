@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use microimpact::simulation::PhaseNodes;
+use microimpact::contact::PhaseNodes;
 use microimpact::{FixedPoint, Real, lift_tables};
 
 /// Rounding to f64 alone.

@@ -1,8 +1,8 @@
 //! Probabilities of classes against Monte Carlo, and the two normal distributions against quadrature.
 
 use microimpact::measure::{ClassProbabilities, NormalDistribution, rebound_probability, stopped_slip};
-use microimpact::simulation::{
-    Collocation, HystereticDamping, Nodes, Ring, SimulatedImpact, Simulation, TangentialContact,
+use microimpact::contact::{
+    Collocation, HystereticDamping, Nodes, Ring, SimulatedImpact, Contact, TangentialContact,
 };
 use microimpact::{
     Approach, Class, Coulomb, CriticalSpeed, Dual, InputError, NormalMotion, ObliqueMotion, Outcome, PlanarMotion,

@@ -320,7 +320,11 @@ impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
         self.observe(law, before, rebound);
         self.roll(-late);
         if PEELS {
-            self.observe(law, &after(), rebound);
+            let rest = after();
+            // The end of the interval is known better than that of its first part: close to a turning point the last rate is
+            // not exact. The moment does next to nothing in the difference.
+            self.pass_rolling(end - dot(&T::WEIGHTS, &rest.rate) - self.now);
+            self.observe(law, &rest, rebound);
         } else {
             self.pass_rolling(end - self.now);
         }

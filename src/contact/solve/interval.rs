@@ -216,8 +216,11 @@ impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
     #[inline]
     fn settles(&mut self, change: T, scale: T, control: &Control<T>) -> Progress {
         let relative = control.settled * control.settled * scale.min(T::ONE);
-        // The rounding of positions does not shrink with the speed; a first sweep may hide behind it.
-        let rounding = T::constant(4.0) * T::EPSILON * T::EPSILON * scale.max(T::ONE);
+        // Rounding alone keeps the steps at this size for ever. A step is the residual over twice the speed. About eight
+        // roundings go into the residual, each of half an EPSILON of the square of the speed, so the step has an error of two
+        // EPSILON of the speed, and the change is the sum of their squares over N nodes. The rounding of positions does not
+        // shrink with the speed; a first iteration may hide behind it.
+        let rounding = T::constant(4.0 * N as f64) * T::EPSILON * T::EPSILON * scale.max(T::ONE);
         let enough = if self.sweeps > 1 { relative.max(rounding) } else { relative };
         let superlinear = self.sweeps > 1 && T::constant(SURPRISE) * change * change <= enough * self.change;
         if change <= enough || (superlinear && change * self.lateness() <= enough) {

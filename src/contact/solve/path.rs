@@ -117,7 +117,12 @@ pub(crate) fn find_end_of_slip<T: Nodes<N>, const N: usize>(
         // Newton's step, held between the places known to come before and after.
         let late = observer.residual(law, &first) * z;
         tries += 1;
-        if late.abs() <= close * z {
+        // The square of the speed has an error of the tolerance. The rate is one over the speed, so towards a turning point the
+        // last rate has that error over the square of the last speed, and its node makes up a fraction of the time, its
+        // weight. The residual is no more exact than their product: below it, steps go to and fro until the tries are spent.
+        let speed = first.y.last().copied().unwrap_or(T::ZERO);
+        let inexact = T::WEIGHTS.last().copied().unwrap_or(T::ZERO) * tolerance;
+        if (late.abs() - close * z) * speed * speed <= inexact * z {
             return (z, first, late);
         }
         if tries == MOST_SPLITS {
@@ -476,6 +481,11 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let two = T::constant(2.0);
         let control = Control { error: T::ONE / T::EPSILON, times: T::ZERO, ..self.control };
         let (law, sweeps) = (self.law, &mut self.effort.sweeps);
+        // The square of the speed has an error of the tolerance. Nearer to a turning point than the root of that, it is nothing
+        // but error, and so is the time of a part that ends there. The end of slip is then a step away that is no longer than
+        // the root of the tolerance; the error that remains is its square.
+        let ahead = turning_point.is_some_and(|peak| from.s != peak);
+        let z = if ahead { z.min(T::ONE - self.control.error.sqrt()) } else { z };
         let (z, first, late) = find_end_of_slip(law, self.observer, z, self.control.error, |z| match turning_point {
             Some(peak) if from.s == peak => {
                 leave(law, peak, (peak - to) * z * z, from.energy, course, &control, sweeps)

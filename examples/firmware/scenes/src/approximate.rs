@@ -3,7 +3,7 @@
 use core::fmt::{self, LowerExp};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use microimpact::simulation::PhaseNodes;
+use microimpact::contact::PhaseNodes;
 use microimpact::{Real, lift_tables};
 use micromath::F32Ext;
 

@@ -3,7 +3,7 @@
 
 use core::hint::black_box;
 
-use microimpact::simulation::{Collocation, Nodes, SimulatedImpact, TangentialContact};
+use microimpact::contact::{Collocation, Nodes, SimulatedImpact, TangentialContact};
 use microimpact::table::{BoundaryTable, Lookup, RestitutionTable, Single, TableOutcome, TableRebound};
 use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, Separation, SurfaceMotion};
 

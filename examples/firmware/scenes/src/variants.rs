@@ -5,7 +5,7 @@
 use core::hint::black_box;
 
 use microimpact::rigid::{RollingDissipation, WorkOfAdhesion};
-use microimpact::simulation::{
+use microimpact::contact::{
     Collocation, ConstantForce, FixedCost, HystereticDamping, Method, NoPeeling, NormalContact, Output, Peeling,
     PhaseSamples, Ring, SimulatedImpact, Contact, TangentialContact, TangentialScene, TangentialVelocities,
     Trajectory,

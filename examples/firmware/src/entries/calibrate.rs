@@ -7,7 +7,7 @@ use microimpact::measure::{
     material_damping, parameter, ring_strength, rolling_motion,
 };
 use microimpact::measure::{ClassProbabilities, NormalDistribution, rebound_probability, stopped_slip};
-use microimpact::simulation::{Collocation, FixedCost, Method, Simulation};
+use microimpact::contact::{Collocation, FixedCost, Method, Contact};
 use microimpact::{
     Approach, Class, Coulomb, CriticalSpeed, Dual, InputError, NormalMotion, Parameter, Real, Sphere, Stiffness,
 };

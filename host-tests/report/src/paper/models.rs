@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use microimpact::measure::{MeasuredRebound, RestitutionFit};
-use microimpact::simulation::{Collocation, Everything, SimulatedImpact};
+use microimpact::contact::{Collocation, Everything, SimulatedImpact};
 use microimpact::{
     CriticalSpeed, InputError, NormalMotion, RigidBody, SpeedRestitution, rigid::WorkOfAdhesion as WorkTerm,
 };

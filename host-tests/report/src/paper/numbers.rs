@@ -193,7 +193,7 @@ fn parameters() -> Outcome<Vec<Number>> {
     let strength = |share: f64| ring_strength(&mean, stiffness, share * MEAN_RADIUS);
     let (low, high) = (strength(0.05)?, strength(0.10)?);
     let fast = MeasuredRebound { speed: FAST, restitution: SpeedRestitution::new(LAW_SPEED)?.restitution(FAST) };
-    let bare = Simulation::new(mean, stiffness);
+    let bare = Contact::hertz(mean, stiffness);
     let material = material_damping(&bare, &method, &fast, TOLERANCE)?;
     let slow = MeasuredRebound { speed: SPEED, restitution: 0.62 };
     let adhesion = adhesion_damping(&bare.with_damping(ZETA_H)?, ADHESION, &method, &slow, TOLERANCE)?;
