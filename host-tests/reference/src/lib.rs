@@ -2,8 +2,8 @@
 
 pub mod c_results;
 
-use microimpact::contact::{HystereticDamping, Ring, Contact};
-use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, Real, Sphere, Stiffness};
+use microimpact::contact::{Contact, PaperScene};
+use microimpact::{InputError, NormalMotion, PlanarMotion, Real, Sphere, Stiffness};
 
 const CASES: &str = include_str!("../../data/cases.csv");
 
@@ -13,9 +13,6 @@ pub struct Case {
     names: csv::StringRecord,
     cells: csv::StringRecord,
 }
-
-/// A scene of the reference, still without a peeling moment.
-pub type Scene<T> = Simulation<T, HystereticDamping<T>, Ring<T>, Coulomb<T>>;
 
 /// All cases.
 ///
@@ -82,11 +79,11 @@ impl Case {
             .with_spin(&self.sphere()?, self.scalar("spin_rad_s"))
     }
 
-    /// The scene.
+    /// The scene, still without a peeling moment.
     ///
     /// # Errors
     /// A value that the number type cannot hold.
-    pub fn scene<T: Real>(&self) -> Result<Scene<T>, InputError> {
+    pub fn scene<T: Real>(&self) -> Result<PaperScene<T>, InputError> {
         Contact::hertz(self.sphere()?, Stiffness::new(self.scalar("stiffness_pa"))?)
             .with_damping(self.scalar("zeta_h"))?
             .with_ring(self.scalar("adhesion_n_m"), self.scalar("zeta_a"))?
