@@ -2,8 +2,8 @@
 //!
 //! `cargo run --example boundary`. The command line writes such a table for firmware: `cargo microimpact table`.
 
-use microimpact::table::{BoundaryTable, TableOutcome};
 use microimpact::contact::{Collocation, Contact};
+use microimpact::table::{BoundaryTable, TableOutcome};
 use microimpact::{InputError, NormalMotion, Sphere, Stiffness};
 
 use clap::{Parser, ValueEnum};

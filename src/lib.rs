@@ -15,8 +15,8 @@ mod motion;
 mod numbers;
 pub mod rigid;
 mod rolling;
-mod scene;
 pub mod table;
+mod terms;
 
 pub use bodies::{Hertz, Material, Sphere, Stiffness};
 pub use classify::{Class, Classification, ContactClass, CriticalSpeed, Outcome, SurfaceMotion};
@@ -29,4 +29,4 @@ pub use rigid::{
     ConstantRestitution, Impact, NormalImpact, RestitutionLaw, RigidBody, SpeedRestitution, TangentialImpact,
 };
 pub use rolling::Separation;
-pub use scene::{Coulomb, NoAdhesion, NoFriction};
+pub use terms::{Coulomb, NoAdhesion, NoFriction};

@@ -110,3 +110,30 @@ pub(crate) fn friction_over_limit<T: Real>(sliding: T, rolling: T) -> Option<T> 
     let limit = rolling.abs();
     (limit > T::ZERO).then(|| sliding.abs().saturating_div(limit))
 }
+
+/// Direction of a slip: its sign, or zero.
+#[inline]
+pub(crate) fn direction<T: Real>(slip: T) -> T {
+    if slip > T::ZERO {
+        T::ONE
+    } else if slip < T::ZERO {
+        -T::ONE
+    } else {
+        T::ZERO
+    }
+}
+
+/// Velocity of a sphere that rolls with the angular momentum about its contact point of two velocities.
+#[inline]
+pub(crate) fn rolling<T: Real>(velocity: T, peripheral: T, gyration_ratio: T) -> T {
+    (velocity + gyration_ratio * peripheral) / (T::ONE + gyration_ratio)
+}
+
+/// Roundings of [`rolling`] in units of its largest term.
+const ROUNDINGS: f64 = 8.0;
+
+/// Speed that is nothing but the rounding of [`rolling`].
+#[inline]
+pub(crate) fn rounding<T: Real>(velocity: T, peripheral: T, gyration_ratio: T) -> T {
+    T::constant(ROUNDINGS) * T::EPSILON * rolling(velocity.abs(), peripheral.abs(), gyration_ratio)
+}

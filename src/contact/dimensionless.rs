@@ -2,7 +2,7 @@
 
 use super::law::{Attraction, Damping, HertzLaw, HystereticDamping, NoForce, Ring};
 use super::scene::Contact;
-use super::solve::path::{End, NormalPath};
+use super::solve::path::NormalPath;
 use super::solve::{Method, Status};
 use crate::{Approach, InputError, Outcome, Parameter, Real};
 
@@ -63,17 +63,10 @@ pub struct DimensionlessContact<T> {
 }
 
 impl<T: Real> DimensionlessContact<T> {
-    pub(crate) fn new(path: &NormalPath<T>, energy: T) -> Self {
-        let outcome = match path.end {
-            End::Separation => Some(Outcome::Rebound),
-            End::Capture => Some(Outcome::Capture),
-            End::Budget | End::Unsupported => None,
-        };
-        let restitution_squared = match outcome {
-            Some(Outcome::Rebound) => path.energy.max(T::ZERO) / energy,
-            Some(Outcome::Capture) | None => T::ZERO,
-        };
-        Self { status: Status::of(path), outcome, restitution_squared }
+    #[inline]
+    fn new(path: &NormalPath<T>, energy: T) -> Self {
+        let restitution_squared = path.restitution_squared(energy);
+        Self { status: Status::of(path), outcome: path.outcome(), restitution_squared }
     }
 
     /// Overall restitution e; zero for a capture and where there is no solution.

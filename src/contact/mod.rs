@@ -29,7 +29,7 @@ pub use result::{NormalContact, SettledImpact, SimulatedImpact};
 pub use scene::{Classified, Contact};
 pub use solve::{
     Adaptive, AdaptiveNodes, Collocation, ErrorControl, FixedCost, Method, MotionToRest, Nodes, PhaseNodes,
-    PhaseSamples, RestCriterion, RungeKuttaGill, RunReport, Status,
+    PhaseSamples, RestCriterion, RunReport, RungeKuttaGill, Status,
 };
 pub use trajectory::{Recording, Sample, Trajectory};
 

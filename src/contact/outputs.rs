@@ -7,6 +7,7 @@ use super::law::Units;
 use super::solve::integrals;
 use super::solve::observer::Observer;
 use super::solve::path::{End, NormalPath};
+use super::solve::quantities;
 use crate::rigid::EnergyLedger;
 use crate::{Real, Sphere};
 
@@ -130,12 +131,12 @@ pub struct ContactTimes<T> {
 }
 
 impl<T: Real, S> Output<T, S> for Times {
-    type Observer = integrals::Times<T>;
+    type Observer = quantities::Times<T>;
     type Result = ContactTimes<T>;
 
     #[inline]
     fn begin(&self, _start: &S) -> Self::Observer {
-        integrals::Times::new()
+        quantities::Times::new()
     }
 
     fn finish(&self, times: Self::Observer, end: &Ended<'_, T>) -> ContactTimes<T> {

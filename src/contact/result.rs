@@ -1,7 +1,6 @@
 //! Results of a simulation, in SI units.
 
 use super::along::TangentialVelocities;
-use super::dimensionless::DimensionlessContact;
 use super::law::{ContactLaw, Units};
 use super::solve::path::NormalPath;
 use super::solve::{MotionToRest, RunReport, Status};
@@ -115,13 +114,12 @@ pub struct NormalContact<T> {
 impl<T: Real> NormalContact<T> {
     #[inline]
     pub(super) fn new<L: ContactLaw<T>>(path: &NormalPath<T>, approach: T, law: &L, units: &Units<T>) -> Self {
-        let contact = DimensionlessContact::new(path, units.energy);
         let indentation = |s: T| (s > T::ZERO).then(|| units.length * law.indentation(s));
         Self {
-            status: contact.status,
-            outcome: contact.outcome,
+            status: Status::of(path),
+            outcome: path.outcome(),
             approach,
-            restitution_squared: contact.restitution_squared,
+            restitution_squared: path.restitution_squared(units.energy),
             peak_indentation: indentation(path.peak),
             turning_indentation: indentation(path.turning),
         }

@@ -1,10 +1,12 @@
 //! Scenes: a sphere, the law of its contact, and what happens along the surface.
 
 use super::along::{Peeling, Surface};
-use super::law::{AnyLaw, Attraction, ConstantForce, ContactLaw, Damping, Groups, HertzLaw, HystereticDamping, Ring, Units};
+use super::law::{
+    AnyLaw, Attraction, ConstantForce, ContactLaw, Damping, Groups, HertzLaw, HystereticDamping, Ring, Units,
+};
 use super::outputs::{Ended, Output};
 use super::result::{NormalContact, SettledImpact, SimulatedImpact};
-use super::solve::integrals::Times;
+use super::solve::quantities::Times;
 use super::solve::{ErrorControl, Method, RestCriterion, RunReport, Status, critical};
 use super::{AnyScene, TangentialVelocities};
 use crate::{
@@ -91,10 +93,7 @@ impl<T: Real, D, A, X, S> Contact<T, HertzLaw<T, D, A, X>, S> {
     /// assert!(scene.with_damping(-1.0).is_err());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn with_damping(
-        self,
-        zeta: T,
-    ) -> Result<Contact<T, HertzLaw<T, HystereticDamping<T>, A, X>, S>, InputError> {
+    pub fn with_damping(self, zeta: T) -> Result<Contact<T, HertzLaw<T, HystereticDamping<T>, A, X>, S>, InputError> {
         Ok(Contact { sphere: self.sphere, law: self.law.with_damping(zeta)?, surface: self.surface })
     }
 
@@ -131,11 +130,7 @@ impl<T: Real, D, X, S> Contact<T, HertzLaw<T, D, NoAdhesion, X>, S> {
     /// assert!(scene.with_ring(-1.0, 0.0).is_err());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn with_ring(
-        self,
-        strength: T,
-        zeta: T,
-    ) -> Result<Contact<T, HertzLaw<T, D, Ring<T>, X>, S>, InputError> {
+    pub fn with_ring(self, strength: T, zeta: T) -> Result<Contact<T, HertzLaw<T, D, Ring<T>, X>, S>, InputError> {
         Ok(Contact { sphere: self.sphere, law: self.law.with_ring(strength, zeta)?, surface: self.surface })
     }
 }
@@ -203,10 +198,7 @@ impl<T: Real, D, X> Contact<T, HertzLaw<T, D, Ring<T>, X>, Coulomb<T>> {
     /// assert!(scene.with_peeling(-1.0).is_err());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn with_peeling(
-        self,
-        lambda: T,
-    ) -> Result<Contact<T, HertzLaw<T, D, Ring<T>, X>, Peeling<T>>, InputError> {
+    pub fn with_peeling(self, lambda: T) -> Result<Contact<T, HertzLaw<T, D, Ring<T>, X>, Peeling<T>>, InputError> {
         Ok(Contact { sphere: self.sphere, law: self.law, surface: Peeling::new(self.surface, lambda)? })
     }
 }
@@ -231,7 +223,11 @@ impl<T: Real> AnyScene<T> {
         let Self { sphere, law, surface } = self;
         let surface = Peeling::new(surface, lambda)?;
         if lambda > T::ZERO && !matches!(law, AnyLaw::Ring(_)) {
-            return Err(InputError { parameter: Parameter::PeelingMoment, fault: Fault::TooLarge, value: lambda.to_f64() });
+            return Err(InputError {
+                parameter: Parameter::PeelingMoment,
+                fault: Fault::TooLarge,
+                value: lambda.to_f64(),
+            });
         }
         Ok(Contact { sphere, law, surface })
     }

@@ -8,10 +8,10 @@ use heapless::{Vec, VecView};
 
 use super::law::ContactLaw;
 use super::outputs::{Ended, Output};
-use super::solve::integrals::Times;
 use super::solve::interval::{Interval, dot, integrals};
 use super::solve::nodes::Nodes;
 use super::solve::observer::Observer;
+use super::solve::quantities::Times;
 use crate::Real;
 
 /// A moment of an impact, in SI units or dimensionless.

@@ -3,11 +3,9 @@
 use core::fmt;
 
 use super::ClassSet;
-use crate::rigid::{MicroforceTerm, ReboundAdhesion, TangentialOutcome, TangentialTerm};
 use crate::contact::{Classified as ContactClassified, Contact, ContactLaw, Method, Surface};
-use crate::{
-    Approach, Class, Classification, ContactClass, InputError, Outcome, Real, RestitutionLaw, RigidBody,
-};
+use crate::rigid::{MicroforceTerm, ReboundAdhesion, TangentialOutcome, TangentialTerm};
+use crate::{Approach, Class, Classification, ContactClass, InputError, Outcome, Real, RestitutionLaw, RigidBody};
 
 /// A classifier for motions `M` with numbers `T`.
 ///
@@ -205,7 +203,8 @@ where
     fn verdict(&self, motion: &B) -> Result<Verdict<T, Self::Class>, Rejection> {
         let impact = self.scene.solve(motion, &self.method)?;
         let outcome = impact.normal.outcome().ok_or(Rejection::Unsolved)?;
-        let classification = Classification { outcome, speed_over_critical: None, contact: impact.tangential.contact() };
+        let classification =
+            Classification { outcome, speed_over_critical: None, contact: impact.tangential.contact() };
         let restitution = Some(impact.normal.overall_restitution());
         Ok(Verdict { class: Classified::class(&classification), restitution })
     }

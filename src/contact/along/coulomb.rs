@@ -1,14 +1,15 @@
 //! Coulomb's friction: sliding, then rolling. Without a peeling moment the velocities after the impact follow from the impulse
 //! of the elastic force alone.
 
-use super::rolling::{direction, rolling, rounding};
 use super::{SlipStart, Surface};
 use crate::contact::law::{ContactLaw, Units};
-use crate::contact::solve::integrals::{Integrals, Quantities, Times, observe_by_integrals};
+use crate::contact::solve::integrals::{Integrals, observe_by_integrals};
 use crate::contact::solve::interval::Interval;
 use crate::contact::solve::nodes::Nodes;
 use crate::contact::solve::observer::Observer;
 use crate::contact::solve::path::{End, NormalPath};
+use crate::contact::solve::quantities::{Quantities, Times};
+use crate::rolling::{Friction, friction_over_limit, rolling, rounding};
 use crate::{ContactClass, Coulomb, InputError, Oblique, Real, Sphere, SurfaceMotion};
 
 /// Velocities before contact and the impulse of the elastic force, from which those after it follow.
@@ -19,35 +20,6 @@ pub struct SurfaceImpulse<T> {
     velocity: T,
     peripheral: T,
     elastic: T,
-}
-
-impl<T: Real> SurfaceImpulse<T> {
-    /// What friction can change of the slip.
-    #[inline]
-    fn reach(&self) -> T {
-        self.friction * self.elastic * (T::ONE + T::ONE / self.gyration_ratio)
-    }
-
-    /// Whether the sphere still slides, and its tangential and peripheral velocities; a captured one goes on until it rolls.
-    #[inline]
-    fn after(&self, captured: bool) -> (bool, [T; 2]) {
-        let (v, u, kappa) = (self.velocity, self.peripheral, self.gyration_ratio);
-        let slip = v - u;
-        let ends = slip.abs() <= self.reach() || (captured && self.friction > T::ZERO);
-        if ends {
-            let rolling = rolling(v, u, kappa);
-            return (false, [rolling, rolling]);
-        }
-        let impulse = direction(slip) * (self.friction * self.elastic);
-        (true, [v - impulse, u + impulse / kappa])
-    }
-
-    /// Whether it would roll with no more than a speed of rounding.
-    #[inline]
-    fn rests(&self) -> bool {
-        let (v, u, kappa) = (self.velocity, self.peripheral, self.gyration_ratio);
-        rolling(v, u, kappa).abs() <= rounding(v, u, kappa)
-    }
 }
 
 impl<T: Real> Quantities<T> for SurfaceImpulse<T> {
@@ -97,13 +69,22 @@ impl<T: Real, B: Oblique<T>> Surface<T, B> for Coulomb<T> {
         units: &Units<T>,
     ) -> TangentialVelocities<T> {
         let captured = path.end == End::Capture;
-        let (sliding, [velocity, peripheral]) = observer.after(captured);
+        let SurfaceImpulse { friction, gyration_ratio, velocity: v, peripheral: u, elastic } = *observer;
+        let impulses = Friction::against(v - u, friction * elastic, sphere.contact_inertia());
+        let sliding = !impulses.rolls && !(captured && friction > T::ZERO);
+        let (velocity, peripheral) = if sliding {
+            (v + impulses.total, u - impulses.total / gyration_ratio)
+        } else {
+            let rolling = rolling(v, u, gyration_ratio);
+            (rolling, rolling)
+        };
+        let rests = captured && velocity.abs() <= rounding(v, u, gyration_ratio);
         TangentialVelocities {
-            motion: surface_motion(sliding, captured && observer.rests()),
+            motion: surface_motion(sliding, rests),
             velocity: velocity * units.speed,
             spin: peripheral * units.speed / sphere.radius(),
-            slip: (observer.velocity - observer.peripheral).abs(),
-            reach: observer.reach(),
+            sliding_friction: impulses.sliding,
+            rolling_friction: impulses.rolling,
         }
     }
 }
@@ -160,10 +141,10 @@ pub struct TangentialVelocities<T> {
     pub(super) motion: SurfaceMotion,
     pub(super) velocity: T,
     pub(super) spin: T,
-    /// Size of the slip before contact, in units of the impact.
-    pub(super) slip: T,
-    /// What friction can change of it, or zero where that is not known.
-    pub(super) reach: T,
+    /// Friction impulse of a sphere that slides throughout, in units of the impact.
+    pub(super) sliding_friction: T,
+    /// Friction impulse after which it rolls; zero where nothing slips or a peeling moment acts.
+    pub(super) rolling_friction: T,
 }
 
 impl<T: Real> TangentialVelocities<T> {
@@ -231,7 +212,7 @@ impl<T: Real> TangentialVelocities<T> {
     /// ```
     #[inline]
     pub fn friction_over_limit(&self) -> Option<T> {
-        (self.slip > T::ZERO && self.reach >= T::ZERO).then(|| self.reach.saturating_div(self.slip))
+        friction_over_limit(self.sliding_friction, self.rolling_friction)
     }
 
     /// The same as a part of a [`Classification`](crate::Classification).

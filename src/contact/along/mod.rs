@@ -4,7 +4,6 @@ mod coulomb;
 mod motion;
 mod peeling;
 mod relaxation;
-mod rolling;
 
 pub use coulomb::TangentialVelocities;
 pub use motion::TangentialMotion;

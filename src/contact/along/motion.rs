@@ -12,13 +12,13 @@
 
 use super::SlipStart;
 use super::relaxation::{SLOW, relaxed};
-use super::rolling::{direction, rolling, rounding};
 use crate::Real;
 use crate::contact::law::ContactLaw;
-use crate::contact::solve::integrals::Times;
 use crate::contact::solve::interval::{Interval, dot, integrals};
 use crate::contact::solve::nodes::Nodes;
 use crate::contact::solve::observer::Observer;
+use crate::contact::solve::quantities::Times;
+use crate::rolling::{direction, rolling, rounding};
 
 /// The tangential motion so far, in units of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,12 +83,7 @@ impl<T: Real, const PEELS: bool> TangentialMotion<T, PEELS> {
     }
 
     /// Energy that the peeling moment takes over an interval, from the peripheral velocities at the nodes.
-    fn peeled<const N: usize>(
-        &self,
-        law: &impl ContactLaw<T>,
-        interval: &Interval<T, N>,
-        peripheral: &[T; N],
-    ) -> T
+    fn peeled<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, peripheral: &[T; N]) -> T
     where
         T: Nodes<N>,
     {
@@ -168,12 +163,7 @@ impl<T: Real, const PEELS: bool> TangentialMotion<T, PEELS> {
         let velocity_after = self.velocity - force * whole;
         if !PEELS {
             let peripheral = impulse.map(|impulse| self.peripheral + turn * impulse);
-            return Slide {
-                velocity,
-                peripheral,
-                velocity_after,
-                peripheral_after: self.peripheral + turn * whole,
-            };
+            return Slide { velocity, peripheral, velocity_after, peripheral_after: self.peripheral + turn * whole };
         }
         let (decay, whole_decay) = self.decay(law, interval, T::ONE);
         if whole_decay > T::constant(SLOW) {

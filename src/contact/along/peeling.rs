@@ -1,10 +1,10 @@
 //! Coulomb's friction with a moment that slows the spin.
 
 use super::coulomb::surface_motion;
-use super::rolling::rolling;
 use super::{SlipStart, Surface, TangentialMotion, TangentialVelocities};
 use crate::contact::law::{ContactLaw, Units};
 use crate::contact::solve::path::{End, NormalPath};
+use crate::rolling::rolling;
 use crate::{Coulomb, InputError, Oblique, Parameter, Real, Sphere};
 
 /// Coulomb's friction and the peeling moment g = -lambda c_A a theta' against the spin (B10).
@@ -85,8 +85,8 @@ impl<T: Real, B: Oblique<T>> Surface<T, B> for Peeling<T> {
             motion: surface_motion(sliding, captured && velocity.abs() <= observer.rounding),
             velocity: velocity * units.speed,
             spin: peripheral * units.speed / sphere.radius(),
-            slip: T::ZERO,
-            reach: T::ZERO,
+            sliding_friction: T::ZERO,
+            rolling_friction: T::ZERO,
         }
     }
 }

@@ -7,8 +7,8 @@
 // Indices run over arrays of the length that their loops count to.
 #![allow(clippy::indexing_slicing, clippy::needless_range_loop)]
 
-use crate::contact::solve::nodes::Nodes;
 use crate::contact::solve::interval::{coefficients, dot, eliminate, series};
+use crate::contact::solve::nodes::Nodes;
 
 /// Decay over an interval up to which variation of constants is exact to the accuracy of the nodes.
 pub(crate) const SLOW: f64 = 1.0;

@@ -5,9 +5,9 @@
 //! estimates the time, and the step is repeated up to it. As the forces are not smooth where x = 0, the error falls with
 //! the power 3/2 of the step with adhesion and 5/2 without, not 4.
 
-use super::integrals::{Quantities, Times};
 use super::observer::Observer;
 use super::path::{Effort, End, Method, NormalPath};
+use super::quantities::{Quantities, Times};
 use super::well::barrier;
 use crate::Real;
 use crate::contact::law::ContactLaw;

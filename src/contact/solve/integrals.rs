@@ -6,35 +6,9 @@
 use super::interval::{Interval, dot};
 use super::nodes::Nodes;
 use super::observer::Observer;
+use super::quantities::{Quantities, Times};
 use crate::Real;
 use crate::contact::law::ContactLaw;
-
-/// Quantities that are integrated together; none at all is `()`.
-pub trait Quantities<T: Real>: Copy {
-    /// `of` each quantity and its counterpart.
-    #[must_use]
-    fn combine(self, other: Self, of: impl Fn(T, T) -> T + Copy) -> Self;
-}
-
-impl<T: Real> Quantities<T> for () {
-    #[inline]
-    fn combine(self, (): Self, _of: impl Fn(T, T) -> T + Copy) {}
-}
-
-impl<T: Real> Quantities<T> for [T; 2] {
-    #[inline]
-    fn combine(self, other: Self, of: impl Fn(T, T) -> T + Copy) -> Self {
-        let ([a, b], [c, d]) = (self, other);
-        [of(a, c), of(b, d)]
-    }
-}
-
-impl<T: Real, A: Quantities<T>, B: Quantities<T>> Quantities<T> for (A, B) {
-    #[inline]
-    fn combine(self, other: Self, of: impl Fn(T, T) -> T + Copy) -> Self {
-        (self.0.combine(other.0, of), self.1.combine(other.1, of))
-    }
-}
 
 /// Integrals over the motion.
 pub trait Integrals<T: Real>: Quantities<T> {
@@ -93,19 +67,6 @@ macro_rules! observe_by_integrals {
 
 pub(crate) use observe_by_integrals;
 
-/// Times since first touch and up to the peak, in units of the scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Times<T> {
-    pub(crate) now: T,
-    pub(crate) peak: T,
-}
-
-impl<T: Real> Times<T> {
-    pub(crate) fn new() -> Self {
-        Self { now: T::ZERO, peak: T::ZERO }
-    }
-}
-
 impl<T: Real> Quantities<T> for Times<T> {
     #[inline]
     fn combine(self, other: Self, of: impl Fn(T, T) -> T + Copy) -> Self {
@@ -120,7 +81,6 @@ impl<T: Real> Integrals<T> for Times<T> {
         let approaches = !rebound && self.peak == self.now;
         Self { now: T::ONE, peak: if approaches { T::ONE } else { T::ZERO } }
     }
-
 }
 
 impl<T: Real> Observer<T> for Times<T> {

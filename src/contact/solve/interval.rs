@@ -372,7 +372,8 @@ pub(crate) fn leave<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     let mut state = Sweeps::from(&free, &loss, &taken_from_turning_point(&loss));
     // A sixth of the loss over the speed is what a sweep leaves of an error.
     let contraction = T::constant(0.34) * strongest * state.half_inverse[0];
-    let mut accepted = possible && contraction < T::constant(0.4) && state.settle(&free, &loss, &T::TURNING_INTEGRATION, control);
+    let mut accepted =
+        possible && contraction < T::constant(0.4) && state.settle(&free, &loss, &T::TURNING_INTEGRATION, control);
     *sweeps += state.sweeps;
     let lost = half * dot(&T::TURNING_WEIGHTS, &state.power);
     let (rate, y) = from_turning_point(law, &s, &state, depth.abs(), &mut accepted);
@@ -438,7 +439,11 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     let mut estimated = true;
     loop {
         // Seen from the turning point the losses of the way there are still to come. A first step goes by their estimate.
-        let change = if estimated { T::ONE } else { state.sweep(&free, &loss, |free, lost| free + lost, &T::TURNING_INTEGRATION) };
+        let change = if estimated {
+            T::ONE
+        } else {
+            state.sweep(&free, &loss, |free, lost| free + lost, &T::TURNING_INTEGRATION)
+        };
         estimated = false;
         lost = half * dot(&T::TURNING_WEIGHTS, &state.power);
         let excess = if by_speed {

@@ -11,6 +11,7 @@ pub(super) mod nodes;
 pub(super) mod observer;
 pub(super) mod path;
 mod phase;
+pub(super) mod quantities;
 mod rest;
 mod run;
 mod well;

@@ -3,9 +3,9 @@
 //! Methods that divide the motion into intervals show them in the order of time. The method with a fixed time step carries
 //! the observer's own state along with the motion.
 
-use super::integrals::{Quantities, Times};
 use super::interval::Interval;
 use super::nodes::Nodes;
+use super::quantities::{Quantities, Times};
 use crate::Real;
 use crate::contact::law::ContactLaw;
 

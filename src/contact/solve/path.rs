@@ -4,8 +4,8 @@ use super::interval::{Control, Course, Interval, Point, arrive, leave, pass};
 use super::nodes::Nodes;
 use super::observer::Observer;
 use super::well;
-use crate::Real;
 use crate::contact::law::ContactLaw;
+use crate::{Outcome, Real};
 
 /// How the normal motion ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,6 +66,22 @@ pub(crate) struct Effort<T> {
 }
 
 impl<T: Real> NormalPath<T> {
+    /// Rebound or capture; `None` where the method found no solution.
+    #[inline]
+    pub(crate) fn outcome(&self) -> Option<Outcome> {
+        match self.end {
+            End::Separation => Some(Outcome::Rebound),
+            End::Capture => Some(Outcome::Capture),
+            End::Budget | End::Unsupported => None,
+        }
+    }
+
+    /// Square of the overall restitution of a sphere that came with a kinetic energy; zero unless it rebounds.
+    #[inline]
+    pub(crate) fn restitution_squared(&self, energy: T) -> T {
+        if self.end == End::Separation { self.energy.max(T::ZERO) / energy } else { T::ZERO }
+    }
+
     /// That of a law that the method cannot represent.
     pub(crate) fn unsupported(energy: T) -> Self {
         Self { end: End::Unsupported, energy, peak: T::ZERO, turning: T::ZERO, effort: Effort::NONE }

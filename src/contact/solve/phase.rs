@@ -247,7 +247,13 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     }
 
     /// The phase between two places z, in the order of time.
-    pub(crate) fn part<const M: usize>(&self, law: &impl ContactLaw<T>, gains: &[T; M], from: T, to: T) -> Interval<T, M>
+    pub(crate) fn part<const M: usize>(
+        &self,
+        law: &impl ContactLaw<T>,
+        gains: &[T; M],
+        from: T,
+        to: T,
+    ) -> Interval<T, M>
     where
         T: PhaseSamples<N, M>,
     {
