@@ -3,7 +3,6 @@
 use core::fmt::{self, LowerExp};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use microimpact::contact::PhaseNodes;
 use microimpact::{Real, lift_tables};
 use micromath::F32Ext;
 
@@ -86,6 +85,4 @@ impl Real for Approximate {
     }
 }
 
-lift_tables!(PhaseNodes for Approximate, |wide: f32| Approximate(wide), {
-    const SLOWEST: Self = Approximate(<f32 as PhaseNodes<NODES>>::SLOWEST);
-});
+lift_tables!(Approximate, |wide: f32| Approximate(wide));

@@ -4,11 +4,11 @@
 use core::marker::PhantomData;
 
 use microimpact::Stiffness;
+use microimpact::contact::{Collocation, Method};
 use microimpact::measure::{
     CalibrationError, Estimate, ImpulseRatios, MeasuredRebound, RestitutionFit, adhesion_damping, friction,
     material_damping, parameter, ring_strength,
 };
-use microimpact::contact::{Collocation, Method};
 
 use super::contacts::{Setting, elastic, surface_of};
 use super::scenes::{Number, given, sphere};
@@ -37,7 +37,7 @@ pub trait OfOneRebound {
     /// The parameter, to a relative tolerance.
     fn find<T: Number>(
         rebound: &MeasuredRebound<T>,
-        method: &impl Method<T, ()>,
+        method: &impl Method<T>,
         tolerance: T,
     ) -> Result<T, CalibrationError>;
 }
@@ -50,7 +50,7 @@ pub struct OneRebound<T, M, P> {
     parameter: PhantomData<P>,
 }
 
-impl<T: Number, M: Tolerant + Method<T, ()>, P: OfOneRebound> Calibration<T> for OneRebound<T, M, P> {
+impl<T: Number, M: Tolerant + Method<T>, P: OfOneRebound> Calibration<T> for OneRebound<T, M, P> {
     const NAME: &'static str = P::NAME;
     type Answer = [T; 1];
 
@@ -90,7 +90,7 @@ impl OfOneRebound for MaterialDamping {
     #[inline(always)]
     fn find<T: Number>(
         rebound: &MeasuredRebound<T>,
-        method: &impl Method<T, ()>,
+        method: &impl Method<T>,
         tolerance: T,
     ) -> Result<T, CalibrationError> {
         material_damping(&elastic()?, method, rebound, tolerance)
@@ -107,7 +107,7 @@ impl OfOneRebound for AdhesionDamping {
     #[inline(always)]
     fn find<T: Number>(
         rebound: &MeasuredRebound<T>,
-        method: &impl Method<T, ()>,
+        method: &impl Method<T>,
         tolerance: T,
     ) -> Result<T, CalibrationError> {
         let damped = elastic()?.with_damping(given(MATERIAL_DAMPING))?;
@@ -125,7 +125,7 @@ impl OfOneRebound for Radius {
     #[inline(always)]
     fn find<T: Number>(
         rebound: &MeasuredRebound<T>,
-        method: &impl Method<T, ()>,
+        method: &impl Method<T>,
         tolerance: T,
     ) -> Result<T, CalibrationError> {
         parameter((given(2e-6), given(20e-6)), surface_of, method, rebound, tolerance)
@@ -238,7 +238,7 @@ pub fn visit_calibrations(visitor: &mut impl CalibrationVisitor) {
     visit_calibrations_of::<f64, Collocation<9, f64>>(visitor);
 }
 
-fn visit_calibrations_of<T: Number, M: Tolerant + Method<T, ()>>(visitor: &mut impl CalibrationVisitor) {
+fn visit_calibrations_of<T: Number, M: Tolerant + Method<T>>(visitor: &mut impl CalibrationVisitor) {
     visitor.visit::<T, OneRebound<T, M, MaterialDamping>>();
     visitor.visit::<T, OneRebound<T, M, AdhesionDamping>>();
     visitor.visit::<T, AdhesionStrength<T>>();

@@ -2,13 +2,12 @@
 //! and a ring, and then with friction and spin too.
 
 use core::hint::black_box;
-use core::marker::PhantomData;
 
 use microimpact::contact::{
-    Attraction, Collocation, Damping, FixedCost, HystereticDamping, Method, NoPeeling, NormalContact, Ring, Scale,
-    SimulatedImpact, Contact, SurfaceState, TangentialContact, TangentialScene, TangentialVelocities,
+    Collocation, Contact, ContactLaw, FixedCost, HertzLaw, Method, NormalContact, Output, PaperScene, RingScene,
+    SimulatedImpact, Slip, Surface, TangentialVelocities,
 };
-use microimpact::{Class, Coulomb, InputError, NoFriction, NormalMotion, Outcome, PlanarMotion, Sphere, Stiffness};
+use microimpact::{Class, Coulomb, InputError, NormalMotion, Outcome, PlanarMotion, Sphere, Stiffness};
 
 use super::impacts::{CONTACTS, Impact};
 use super::scenes::{Answer, Measured, Number, Scene, Visitor, given};
@@ -63,22 +62,20 @@ setting!(
 setting!(Oblique<Collocation<7, f32>>, "simulation/oblique", Setting::new().map(Self));
 setting!(Oblique<Collocation<9, f64>>, "simulation/oblique", Setting::new().map(Self));
 
-pub(super) type Surface<T, F = NoFriction> = Simulation<T, HystereticDamping<T>, Ring<T>, F>;
-
 /// Normal impacts only.
 pub struct NormalContacts<T, M> {
-    scene: Surface<T>,
+    scene: RingScene<T>,
     method: M,
 }
 
-/// Friction and spin, with a result `G` along the surface.
-pub struct ObliqueContacts<T, M, G> {
-    scene: Surface<T, Coulomb<T>>,
+/// Friction and spin, with an output `O`.
+pub struct ObliqueContacts<T, M, O> {
+    scene: PaperScene<T>,
     method: Oblique<M>,
-    result: PhantomData<G>,
+    output: O,
 }
 
-impl<T: Number, M: Setting + Method<T, ()>> Scene<T> for NormalContacts<T, M> {
+impl<T: Number, M: Setting + Method<T>> Scene<T> for NormalContacts<T, M> {
     const NAME: &'static str = M::SCENE;
     const PLANAR: bool = false;
     type Motion = NormalMotion<T>;
@@ -108,20 +105,19 @@ impl<T: Number, M: Setting + Method<T, ()>> Scene<T> for NormalContacts<T, M> {
     }
 }
 
-impl<T: Number, M, G: SurfaceState> Scene<T> for ObliqueContacts<T, M, G>
+impl<T: Number, M: Method<T>, O> Scene<T> for ObliqueContacts<T, M, O>
 where
     Oblique<M>: Setting,
-    Coulomb<T>: TangentialScene<T, PlanarMotion<T>, Ring<T>, NoPeeling, G>,
-    M: Method<T, ((), <Coulomb<T> as TangentialScene<T, PlanarMotion<T>, Ring<T>, NoPeeling, G>>::Observer)>,
+    O: Output<T, <Coulomb<T> as Surface<T, PlanarMotion<T>>>::Start> + Copy + Default,
 {
     const NAME: &'static str = Oblique::<M>::SCENE;
     const PLANAR: bool = true;
     type Motion = PlanarMotion<T>;
-    type Verdict = Result<SimulatedImpact<T, G, ()>, InputError>;
+    type Verdict = Result<(SimulatedImpact<T, TangentialVelocities<T>>, O::Result), InputError>;
 
     fn new() -> Option<Self> {
         let scene = surface().and_then(|surface| surface.with_friction(given(FRICTION))).ok()?;
-        Some(Self { scene, method: Setting::new()?, result: PhantomData })
+        Some(Self { scene, method: Setting::new()?, output: O::default() })
     }
 
     // What is counted is the library, not a second call around it.
@@ -135,7 +131,7 @@ where
 
     #[inline(always)]
     fn classify(&self, motion: &Self::Motion) -> Self::Verdict {
-        self.scene.observe(&self.method.0, motion)
+        self.scene.solve_for(motion, &self.method.0, self.output)
     }
 
     fn restitution(impact: &Impact) -> Option<f64> {
@@ -147,37 +143,32 @@ where
     }
 }
 
-pub(super) fn surface<T: Number>() -> Result<Surface<T>, InputError> {
+pub(super) fn surface<T: Number>() -> Result<RingScene<T>, InputError> {
     surface_of(given(RADIUS_M))
 }
 
 /// The surface, and a sphere of the same material with another radius.
-pub(super) fn surface_of<T: Number>(radius: T) -> Result<Surface<T>, InputError> {
+pub(super) fn surface_of<T: Number>(radius: T) -> Result<RingScene<T>, InputError> {
     elastic_of(radius)?.with_damping(given(MATERIAL_DAMPING))?.with_ring(given(RING_N_M), given(RING_DAMPING))
 }
 
 /// The same without damping and adhesion.
-pub(super) fn elastic<T: Number>() -> Result<Simulation<T>, InputError> {
+pub(super) fn elastic<T: Number>() -> Result<Contact<T, HertzLaw<T>>, InputError> {
     elastic_of(given(RADIUS_M))
 }
 
-fn elastic_of<T: Number>(radius: T) -> Result<Simulation<T>, InputError> {
+fn elastic_of<T: Number>(radius: T) -> Result<Contact<T, HertzLaw<T>>, InputError> {
     let sphere = Sphere::solid(radius, given(DENSITY_KG_M3))?;
     Ok(Contact::hertz(sphere, Stiffness::new(given(STIFFNESS_PA))?))
 }
 
 /// Overall restitution in f64, by the most exact method.
-pub(super) fn exact_restitution<D, A, X>(
-    scene: Result<Simulation<f64, D, A, NoFriction, NoPeeling, X>, InputError>,
+pub(super) fn exact_restitution<L: ContactLaw<f64>>(
+    scene: Result<Contact<f64, L>, InputError>,
     impact: &Impact,
-) -> Option<f64>
-where
-    D: Scale<f64, Scaled: Damping<f64>>,
-    A: Scale<f64, Scaled: Attraction<f64>>,
-    X: Scale<f64, Scaled: Attraction<f64>>,
-{
+) -> Option<f64> {
     let method = Collocation::<14, f64>::new(1e-13).ok()?;
-    let contact = scene.ok()?.normal_impact(&method, &NormalMotion::new(impact.approach_m_s).ok()?).ok()?;
+    let contact = scene.ok()?.solve_normal(&NormalMotion::new(impact.approach_m_s).ok()?, &method).ok()?;
     Some(contact.overall_restitution())
 }
 
@@ -192,8 +183,8 @@ impl<T: Number> From<Result<NormalContact<T>, InputError>> for Answer<T> {
     }
 }
 
-impl<T: Number, G: SurfaceState> From<Result<SimulatedImpact<T, G, ()>, InputError>> for Answer<T> {
-    fn from(verdict: Result<SimulatedImpact<T, G, ()>, InputError>) -> Self {
+impl<T: Number> From<Result<SimulatedImpact<T, TangentialVelocities<T>>, InputError>> for Answer<T> {
+    fn from(verdict: Result<SimulatedImpact<T, TangentialVelocities<T>>, InputError>) -> Self {
         let class = verdict.as_ref().map_or(REFUSED, |impact| match impact.class() {
             Some(Class::ReboundSliding) => "rebound-sliding",
             Some(Class::ReboundRolling) => "rebound-rolling",
@@ -203,6 +194,15 @@ impl<T: Number, G: SurfaceState> From<Result<SimulatedImpact<T, G, ()>, InputErr
             None => UNDECIDED,
         });
         answer(class, verdict.ok().map(|impact| impact.normal))
+    }
+}
+
+impl<T: Number, V, O> From<Result<(SimulatedImpact<T, V>, O), InputError>> for Answer<T>
+where
+    Result<SimulatedImpact<T, V>, InputError>: Into<Self>,
+{
+    fn from(verdict: Result<(SimulatedImpact<T, V>, O), InputError>) -> Self {
+        verdict.map(|(impact, _)| impact).into()
     }
 }
 
@@ -216,11 +216,11 @@ pub fn visit_contacts(visitor: &mut impl Visitor) {
     visitor.visit::<f32, NormalContacts<f32, FixedCost<4>>>();
     visitor.visit::<f32, NormalContacts<f32, FixedCost<5>>>();
     visitor.visit::<f32, NormalContacts<f32, FixedCost<7>>>();
-    visitor.visit::<f32, ObliqueContacts<f32, FixedCost<5, 7>, TangentialVelocities<f32>>>();
-    visitor.visit::<f32, ObliqueContacts<f32, FixedCost<7, 9>, TangentialVelocities<f32>>>();
+    visitor.visit::<f32, ObliqueContacts<f32, FixedCost<5, 7>, ()>>();
+    visitor.visit::<f32, ObliqueContacts<f32, FixedCost<7, 9>, ()>>();
     visitor.visit::<f32, NormalContacts<f32, Collocation<5, f32>>>();
     visitor.visit::<f32, NormalContacts<f32, Collocation<7, f32>>>();
-    visitor.visit::<f32, ObliqueContacts<f32, Collocation<7, f32>, TangentialContact<f32>>>();
+    visitor.visit::<f32, ObliqueContacts<f32, Collocation<7, f32>, Slip>>();
     visitor.visit::<f64, NormalContacts<f64, Collocation<9, f64>>>();
-    visitor.visit::<f64, ObliqueContacts<f64, Collocation<9, f64>, TangentialContact<f64>>>();
+    visitor.visit::<f64, ObliqueContacts<f64, Collocation<9, f64>, Slip>>();
 }

@@ -3,14 +3,14 @@
 
 use core::hint::black_box;
 
+use microimpact::contact::{DimensionlessContact, DimensionlessImpact, FixedCost, RingScene};
 use microimpact::rigid::WorkOfAdhesion;
-use microimpact::contact::{DimensionlessContact, DimensionlessImpact, FixedCost};
 use microimpact::{
     Classification, ContactClass, Coulomb, FixedPoint, InFixedPoint, NormalMotion, Outcome, PlanarMotion, RigidBody,
     SpeedRestitution,
 };
 
-use super::contacts::{Surface, UNDECIDED, exact_restitution, surface};
+use super::contacts::{UNDECIDED, exact_restitution, surface};
 use super::impacts::{CONTACTS, Impact};
 use super::scenes::{Answer, Measured, Normal, Planar, Scene, Visitor};
 
@@ -70,7 +70,7 @@ rigid_scene!(FixedPointPlanar, Planar, "planar/work-fixed-point", true, PlanarMo
 
 /// A simulated contact with normal impacts only.
 pub struct FixedPointContacts {
-    scene: Surface<f32>,
+    scene: RingScene<f32>,
     method: FixedCost<4>,
 }
 

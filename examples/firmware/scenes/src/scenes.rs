@@ -4,8 +4,8 @@
 use core::fmt::LowerExp;
 use core::hint::black_box;
 
-use microimpact::rigid::{AdhesionCoefficient, ReboundAdhesion, WorkOfAdhesion};
 use microimpact::contact::FixedCost;
+use microimpact::rigid::{AdhesionCoefficient, ReboundAdhesion, WorkOfAdhesion};
 use microimpact::{
     Class, Classification, ContactClass, Coulomb, InputError, NormalMotion, Outcome, PlanarMotion, Real, RigidBody,
     SpeedRestitution, Sphere,

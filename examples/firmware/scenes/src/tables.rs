@@ -3,7 +3,7 @@
 
 use core::hint::black_box;
 
-use microimpact::contact::{Collocation, Nodes, SimulatedImpact, TangentialContact};
+use microimpact::contact::{Collocation, Nodes};
 use microimpact::table::{BoundaryTable, Lookup, RestitutionTable, Single, TableOutcome, TableRebound};
 use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, Separation, SurfaceMotion};
 
@@ -92,8 +92,8 @@ fn surface<T: Number + Nodes<7> + Single>() -> Result<Surface<T>, InputError> {
         let scene = surface_of::<T>(radius)?.with_friction(T::ONE)?;
         let along = T::constant(10.0) * speed;
         let motion = NormalMotion::new(speed)?.with_tangential(along)?.with_peripheral_velocity(T::ZERO)?;
-        let impact: SimulatedImpact<_, TangentialContact<_>, ()> = scene.observe(&method, &motion)?;
-        let impulse = (along - impact.tangential.tangential()) / speed;
+        let impact = scene.solve(&motion, &method)?;
+        let impulse = (along - impact.tangential.velocity()) / speed;
         Ok(TableRebound { restitution: impact.normal.overall_restitution(), impulse })
     })
 }

@@ -4,18 +4,18 @@
 
 use core::hint::black_box;
 
-use microimpact::rigid::{RollingDissipation, WorkOfAdhesion};
 use microimpact::contact::{
-    Collocation, ConstantForce, FixedCost, HystereticDamping, Method, NoPeeling, NormalContact, Output, Peeling,
-    PhaseSamples, Ring, SimulatedImpact, Contact, TangentialContact, TangentialScene, TangentialVelocities,
-    Trajectory,
+    Collocation, ConstantForce, Contact, FixedCost, HertzLaw, HertzScene, HystereticDamping, Method, NormalContact,
+    PaperScene, Peeling, PhaseSamples, Recording, Ring, RingScene, SimulatedImpact, Slip, SlipHistory,
+    TangentialVelocities, Trajectory,
 };
+use microimpact::rigid::{RollingDissipation, WorkOfAdhesion};
 use microimpact::{
     Classification, ContactClass, Coulomb, InputError, NoAdhesion, NoFriction, NormalMotion, ObliqueMotion,
     PlanarMotion, RigidBody, SpeedRestitution, Sphere,
 };
 
-use super::contacts::{Surface, elastic, exact_restitution, surface};
+use super::contacts::{elastic, exact_restitution, surface};
 use super::impacts::{CONTACTS, IMPACTS, Impact};
 use super::scenes::{Answer, Measured, Number, Scene, Visitor, bare_scene, given};
 use super::table_1::{FRICTION, MATERIAL_DAMPING, WORK_OF_ADHESION_J};
@@ -78,7 +78,7 @@ impl<T: Number> Components<T> for PlanarMotion<T> {
 type Body<T, A = WorkOfAdhesion<T>, S = NoFriction> = RigidBody<T, SpeedRestitution<T>, A, S>;
 
 /// A damped and adhesive sphere that an external force pulls to the surface.
-type Pulled<T> = Simulation<T, HystereticDamping<T>, Ring<T>, NoFriction, NoPeeling, ConstantForce<T>>;
+type Pulled<T> = Contact<T, HertzLaw<T, HystereticDamping<T>, Ring<T>, ConstantForce<T>>>;
 
 /// A scene with a name, from its parts.
 macro_rules! variant {
@@ -87,6 +87,7 @@ macro_rules! variant {
         $name:ident: $label:literal,
         scene: $scene:ty = $new:expr,
         $(by $method:ident: $type:ty = $make:expr,)?
+        $(for $output:expr,)?
         impacts: $impacts:ident as $motion:ty,
         $classify:ident -> $verdict:ty,
         $(exact: $exact:expr,)?
@@ -116,7 +117,7 @@ macro_rules! variant {
 
             #[inline(always)]
             fn classify(&self, motion: &Self::Motion) -> Self::Verdict {
-                self.scene.$classify($(&self.$method,)? motion)
+                self.scene.$classify(motion $(, &self.$method)? $(, $output)?)
             }
 
             $(
@@ -183,26 +184,26 @@ macro_rules! fixed_cost {
             scene: $scene = $new,
             by method: FixedCost<5> = FixedCost::new(black_box(3)),
             impacts: CONTACTS as NormalMotion<T>,
-            normal_impact -> Result<NormalContact<T>, InputError>,
+            solve_normal -> Result<NormalContact<T>, InputError>,
             exact: $new,
-            where T: PhaseSamples<5, 7>
+            where T: PhaseSamples<5, 9>
         }
     };
 }
 
 fixed_cost! {
     /// Hertz's force alone.
-    FixedCostBare: "fixed-cost/bare", Simulation<T> = elastic()
+    FixedCostBare: "fixed-cost/bare", Contact<T, HertzLaw<T>> = elastic()
 }
 
 fixed_cost! {
     /// Damping too.
-    FixedCostDamping: "fixed-cost/damping", Simulation<T, HystereticDamping<T>> = damped()
+    FixedCostDamping: "fixed-cost/damping", HertzScene<T> = damped()
 }
 
 fixed_cost! {
     /// Damping and adhesion.
-    FixedCostAdhesion: "fixed-cost/adhesion", Surface<T> = surface()
+    FixedCostAdhesion: "fixed-cost/adhesion", RingScene<T> = surface()
 }
 
 fixed_cost! {
@@ -213,10 +214,10 @@ fixed_cost! {
 variant! {
     /// Friction and spin in place of the force.
     FixedCostFriction: "fixed-cost/friction",
-    scene: Surface<T, Coulomb<T>> = surface().and_then(|scene| scene.with_friction(given(FRICTION))),
+    scene: PaperScene<T> = surface().and_then(|scene| scene.with_friction(given(FRICTION))),
     by method: FixedCost<5, 7> = FixedCost::<5>::new(black_box(3)).map(FixedCost::with_outputs),
     impacts: CONTACTS as PlanarMotion<T>,
-    observe -> Result<SimulatedImpact<T, TangentialVelocities<T>, ()>, InputError>,
+    solve -> Result<SimulatedImpact<T, TangentialVelocities<T>>, InputError>,
     exact: surface(),
     where T: PhaseSamples<5, 7>
 }
@@ -224,17 +225,11 @@ variant! {
 /// How exactly a number type is to be simulated: with as many nodes as suit its tolerance.
 pub trait Tolerated: Number {
     /// The method.
-    type Method: Method<Self, ((), Observed<Self>)>
-        + Method<Self, (Recorded<Self, 16>, ())>
-        + Method<Self, (Recorded<Self, 32>, ())>;
+    type Method: Method<Self>;
 
     /// The method, validated.
     fn method() -> Result<Self::Method, InputError>;
 }
-
-type Observed<T> =
-    <Coulomb<T> as TangentialScene<T, PlanarMotion<T>, Ring<T>, Peeling<T>, TangentialContact<T>>>::Observer;
-type Recorded<T, const N: usize> = <Trajectory<T, N> as Output<T>>::Observer;
 
 impl Tolerated for f32 {
     type Method = Collocation<7, Self>;
@@ -255,12 +250,13 @@ impl Tolerated for f64 {
 variant! {
     /// Friction, spin and a peeling moment.
     CollocationPeeling: "collocation/peeling",
-    scene: Simulation<T, HystereticDamping<T>, Ring<T>, Coulomb<T>, Peeling<T>> = surface()
+    scene: RingScene<T, Peeling<T>> = surface()
         .and_then(|scene| scene.with_friction(given(FRICTION)))
         .and_then(|scene| scene.with_peeling(given(PEELING_N_M))),
     by method: T::Method = T::method(),
+    for Slip,
     impacts: CONTACTS as PlanarMotion<T>,
-    observe -> Result<SimulatedImpact<T, TangentialContact<T>, ()>, InputError>,
+    solve_for -> Result<(SimulatedImpact<T, TangentialVelocities<T>>, SlipHistory<T>), InputError>,
     exact: surface(),
     where T: Tolerated
 }
@@ -271,10 +267,11 @@ macro_rules! recording {
         variant! {
             $(#[$documentation])*
             $name: $label,
-            scene: Surface<T> = surface(),
+            scene: RingScene<T> = surface(),
             by method: T::Method = T::method(),
+            for Recording::<$samples>,
             impacts: CONTACTS as NormalMotion<T>,
-            observe -> Result<SimulatedImpact<T, (), Trajectory<T, $samples>>, InputError>,
+            solve_for -> Result<(SimulatedImpact<T, ()>, Trajectory<T, $samples>), InputError>,
             exact: surface(),
             where T: Tolerated
         }
@@ -291,8 +288,8 @@ recording! {
     CollocationRecording32: "collocation/recording-32", 32
 }
 
-impl<T: Number, const N: usize> From<Result<SimulatedImpact<T, (), Trajectory<T, N>>, InputError>> for Answer<T> {
-    fn from(verdict: Result<SimulatedImpact<T, (), Trajectory<T, N>>, InputError>) -> Self {
+impl<T: Number> From<Result<SimulatedImpact<T, ()>, InputError>> for Answer<T> {
+    fn from(verdict: Result<SimulatedImpact<T, ()>, InputError>) -> Self {
         verdict.map(|impact| impact.normal).into()
     }
 }
@@ -301,7 +298,7 @@ fn adhesive<T: Number>() -> Result<Body<T>, InputError> {
     bare_scene()?.with_work_of_adhesion(given(WORK_OF_ADHESION_J))
 }
 
-fn damped<T: Number>() -> Result<Simulation<T, HystereticDamping<T>>, InputError> {
+fn damped<T: Number>() -> Result<HertzScene<T>, InputError> {
     elastic()?.with_damping(given(MATERIAL_DAMPING))
 }
 
@@ -315,7 +312,7 @@ pub fn visit_variants(visitor: &mut impl Visitor) {
     visit_variants_of::<f64>(visitor);
 }
 
-fn visit_variants_of<T: Number + PhaseSamples<5, 7>>(visitor: &mut impl Visitor) {
+fn visit_variants_of<T: Number + PhaseSamples<5, 7> + PhaseSamples<5, 9>>(visitor: &mut impl Visitor) {
     visitor.visit::<T, RigidBare<T>>();
     visitor.visit::<T, RigidAdhesion<T>>();
     visitor.visit::<T, RigidFriction<T>>();

@@ -1,7 +1,7 @@
 //! The inputs of an impact, as plain numbers in SI units.
 
-use microimpact::contact::{HystereticDamping, Ring, Contact};
-use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, Real, Sphere, Stiffness};
+use microimpact::contact::{Contact, PaperScene, RingScene};
+use microimpact::{InputError, NormalMotion, PlanarMotion, Real, Sphere, Stiffness};
 
 use crate::table_1::{
     APPROACH_M_S, DENSITY_KG_M3, FRICTION, MATERIAL_DAMPING, RADIUS_M, RING_DAMPING, RING_N_M, STIFFNESS_PA,
@@ -46,18 +46,12 @@ pub const TABLE_1: Inputs = Inputs {
     spin: 1.454e5,
 };
 
-/// Damped, with adhesion, without friction.
-pub type NormalScene<T> = Simulation<T, HystereticDamping<T>, Ring<T>>;
-
-/// The same with friction.
-pub type ObliqueScene<T> = Simulation<T, HystereticDamping<T>, Ring<T>, Coulomb<T>>;
-
 impl Inputs {
     /// The scene along the normal and its motion.
     ///
     /// # Errors
     /// A value outside its range.
-    pub fn normal<T: Real>(&self) -> Result<(NormalScene<T>, NormalMotion<T>), InputError> {
+    pub fn normal<T: Real>(&self) -> Result<(RingScene<T>, NormalMotion<T>), InputError> {
         let sphere = Sphere::solid(T::constant(self.radius), T::constant(self.density))?;
         let scene = Contact::hertz(sphere, Stiffness::new(T::constant(self.stiffness))?)
             .with_damping(T::constant(self.material_damping))?
@@ -69,7 +63,7 @@ impl Inputs {
     ///
     /// # Errors
     /// A value outside its range.
-    pub fn oblique<T: Real>(&self) -> Result<(ObliqueScene<T>, PlanarMotion<T>), InputError> {
+    pub fn oblique<T: Real>(&self) -> Result<(PaperScene<T>, PlanarMotion<T>), InputError> {
         let (scene, motion) = self.normal()?;
         let motion =
             motion.with_tangential(T::constant(self.tangential))?.with_spin(scene.sphere(), T::constant(self.spin))?;

@@ -3,10 +3,9 @@
 use core::hint::black_box;
 
 use microimpact::contact::{
-    Adaptive, AdaptiveNodes, Collocation, FixedCost, Method, NoPeeling, Nodes, PhaseNodes, PhaseSamples, Ring,
-    RungeKuttaGill, SimulatedImpact, Status, TangentialContact, TangentialScene, TangentialVelocities,
+    Adaptive, AdaptiveNodes, Collocation, FixedCost, Method, Nodes, PhaseSamples, RungeKuttaGill, Slip, Status,
 };
-use microimpact::{Coulomb, FixedPoint, PlanarMotion, Real};
+use microimpact::{FixedPoint, Real};
 
 use super::inputs::Inputs;
 use super::{Amount, Contestant, Extent, Number, Reply, Task, Variant, Visitor};
@@ -22,7 +21,16 @@ pub const PAPER: &str = "the paper's method";
 
 /// A number type with the tables of all methods.
 pub trait Tables:
-    Number + AdaptiveNodes + Nodes<5> + PhaseNodes<4> + PhaseSamples<5, 7> + PhaseSamples<7, 9> + PhaseSamples<9, 11>
+    Number
+    + AdaptiveNodes
+    + Nodes<5>
+    + PhaseSamples<4, 9>
+    + PhaseSamples<5, 7>
+    + PhaseSamples<5, 9>
+    + PhaseSamples<7, 9>
+    + PhaseSamples<9, 9>
+    + PhaseSamples<9, 11>
+    + PhaseSamples<13, 9>
 {
 }
 
@@ -30,10 +38,13 @@ impl<T> Tables for T where
     T: Number
         + AdaptiveNodes
         + Nodes<5>
-        + PhaseNodes<4>
+        + PhaseSamples<4, 9>
         + PhaseSamples<5, 7>
+        + PhaseSamples<5, 9>
         + PhaseSamples<7, 9>
+        + PhaseSamples<9, 9>
         + PhaseSamples<9, 11>
+        + PhaseSamples<13, 9>
 {
 }
 
@@ -95,9 +106,8 @@ pub fn oblique<T: Tables>(inputs: &Inputs, extent: Extent, visitor: &mut impl Vi
             Contestant { task: Task::Oblique, method: PAPER, variant: Variant::Only, amount: Amount::Steps(steps) };
         let method = RungeKuttaGill::new(steps);
         visitor.visit::<T>(contestant, move || {
-            let impact: SimulatedImpact<T, TangentialContact<T>, ()> =
-                black_box(&scene).observe(black_box(&method), black_box(&motion)).ok()?;
-            let surface = Some([impact.tangential.tangential(), impact.tangential.spin()]);
+            let (impact, slip) = black_box(&scene).solve_for(black_box(&motion), black_box(&method), Slip).ok()?;
+            let surface = Some([slip.velocity, slip.spin]);
             solved(impact.normal.overall_restitution(), surface, impact.run.status)
         });
     }
@@ -114,7 +124,7 @@ pub fn fixed_point(inputs: &Inputs, extent: Extent, visitor: &mut impl Visitor) 
 
 fn in_fixed_point<const N: usize>(inputs: &Inputs, sweeps: u32, visitor: &mut impl Visitor)
 where
-    FixedPoint: PhaseNodes<N>,
+    FixedPoint: PhaseSamples<N, 9>,
 {
     let impact = inputs.normal::<f32>().and_then(|(scene, motion)| scene.dimensionless(&motion)?.in_fixed_point());
     let (Ok(impact), Ok(method)) = (impact, FixedCost::<N>::new(sweeps)) else { return };
@@ -130,7 +140,11 @@ where
     });
 }
 
-fn fixed_cost<T: Number + PhaseNodes<N>, const N: usize>(inputs: &Inputs, sweeps: u32, visitor: &mut impl Visitor) {
+fn fixed_cost<T: Number + PhaseSamples<N, 9>, const N: usize>(
+    inputs: &Inputs,
+    sweeps: u32,
+    visitor: &mut impl Visitor,
+) {
     let Ok(method) = FixedCost::<N>::new(sweeps) else { return };
     visit_normal::<T, _>(inputs, FIXED_COST, Variant::Nodes(N), Amount::Sweeps(sweeps), method, visitor);
 }
@@ -158,7 +172,7 @@ fn oblique_collocation<T: Number + Nodes<N>, const N: usize>(
     visit_oblique(inputs, COLLOCATION, Variant::Nodes(N), Amount::Tolerance(tolerance), visitor, method);
 }
 
-fn visit_normal<T: Number, M: Method<T, ()> + 'static>(
+fn visit_normal<T: Number, M: Method<T> + 'static>(
     inputs: &Inputs,
     name: &'static str,
     variant: Variant,
@@ -168,16 +182,12 @@ fn visit_normal<T: Number, M: Method<T, ()> + 'static>(
 ) {
     let Ok((scene, motion)) = inputs.normal::<T>() else { return };
     visitor.visit::<T>(Contestant { task: Task::Normal, method: name, variant, amount }, move || {
-        let contact = black_box(&scene).normal_impact(black_box(&method), black_box(&motion)).ok()?;
+        let contact = black_box(&scene).solve_normal(black_box(&motion), black_box(&method)).ok()?;
         solved(contact.overall_restitution(), None, contact.status())
     });
 }
 
-/// What is integrated for velocities along the surface.
-type Velocities<T> =
-    <Coulomb<T> as TangentialScene<T, PlanarMotion<T>, Ring<T>, NoPeeling, TangentialVelocities<T>>>::Observer;
-
-fn visit_oblique<T: Number, M: Method<T, ((), Velocities<T>)> + 'static>(
+fn visit_oblique<T: Number, M: Method<T> + 'static>(
     inputs: &Inputs,
     name: &'static str,
     variant: Variant,
@@ -187,9 +197,8 @@ fn visit_oblique<T: Number, M: Method<T, ((), Velocities<T>)> + 'static>(
 ) {
     let Ok((scene, motion)) = inputs.oblique::<T>() else { return };
     visitor.visit::<T>(Contestant { task: Task::Oblique, method: name, variant, amount }, move || {
-        let impact: SimulatedImpact<T, TangentialVelocities<T>, ()> =
-            black_box(&scene).observe(black_box(&method), black_box(&motion)).ok()?;
-        let surface = Some([impact.tangential.tangential, impact.tangential.spin]);
+        let impact = black_box(&scene).solve(black_box(&motion), black_box(&method)).ok()?;
+        let surface = Some([impact.tangential.velocity(), impact.tangential.spin()]);
         solved(impact.normal.overall_restitution(), surface, impact.run.status)
     });
 }
