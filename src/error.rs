@@ -9,8 +9,14 @@ use crate::Real;
 /// range.
 macro_rules! parameters {
     (
-        physics {$($(#[doc = $text:literal])+ $physical:ident: $name:literal, $unit:literal, $smallest:literal to $largest:literal;)+}
-        settings {$($(#[doc = $note:literal])+ $setting:ident: $label:literal, $least:literal to $most:literal;)+}
+        physics {$(
+            $(#[doc = $text:literal])+
+            $physical:ident: $name:literal, $unit:literal, $smallest:literal to $largest:literal;
+        )+}
+        settings {$(
+            $(#[doc = $note:literal])+
+            $setting:ident: $label:literal, $least:literal to $most:literal;
+        )+}
     ) => {
         /// A quantity that a caller supplies, with its unit and its valid range.
         ///
@@ -246,7 +252,7 @@ impl Parameter {
         } else {
             Fault::TooLarge
         };
-        InputError { parameter: self, fault, value: value.to_f64() }
+        InputError { parameter: self, fault, value: value.to_f64() as f32 }
     }
 }
 
@@ -293,8 +299,8 @@ pub struct InputError {
     pub parameter: Parameter,
     /// How the value misses its range.
     pub fault: Fault,
-    /// The value found, in the unit of the parameter.
-    pub value: f64,
+    /// The value found, in the unit of the parameter, rounded to f32.
+    pub value: f32,
 }
 
 impl PartialEq for InputError {
@@ -316,6 +322,12 @@ impl fmt::Display for InputError {
         let Self { parameter, fault, value } = *self;
         let (smallest, largest) = parameter.range();
         let unit = Unit(parameter.unit());
+        // Rounding to f32 may move a value onto the bound that it misses.
+        let value = match fault {
+            Fault::TooSmall if f64::from(value) >= smallest => value.next_down(),
+            Fault::TooLarge if f64::from(value) <= largest => value.next_up(),
+            _ => value,
+        };
         write!(f, "{} is {}", parameter.name(), Number(value))?;
         if value.is_finite() {
             write!(f, "{unit}")?;
@@ -340,7 +352,7 @@ impl InputError {
         let (smallest, largest) = self.parameter.range();
         match self.parameter {
             Parameter::ApproachSpeed | Parameter::WorkOfAdhesion | Parameter::RollingArm | Parameter::PeelingMoment
-                if (smallest..=largest).contains(&-self.value) =>
+                if (smallest..=largest).contains(&-f64::from(self.value)) =>
             {
                 write!(f, "; enter {value}{unit} as {}", Number(-self.value))
             }
@@ -355,19 +367,15 @@ impl InputError {
 impl core::error::Error for InputError {}
 
 /// A number as a person writes it: with an exponent if it is very large or very small.
-struct Number(f64);
+struct Number<T>(T);
 
-impl fmt::Display for Number {
+impl<T: Real + fmt::Display + fmt::LowerExp> fmt::Display for Number<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let size = self.0.abs();
-        let plain = size == 0.0 || (1e-3..1e4).contains(&size) || !size.is_finite();
-        // An f32 that was stored as f64 has seven digits; the others come from the conversion.
-        let single = self.0 as f32;
-        match (plain, f64::from(single) == self.0) {
-            (true, true) => write!(f, "{single}"),
-            (true, false) => write!(f, "{}", self.0),
-            (false, true) => write!(f, "{single:e}"),
-            (false, false) => write!(f, "{:e}", self.0),
+        let size = self.0.abs().to_f64();
+        if size == 0.0 || (1e-3..1e4).contains(&size) || !size.is_finite() {
+            write!(f, "{}", self.0)
+        } else {
+            write!(f, "{:e}", self.0)
         }
     }
 }

@@ -111,7 +111,7 @@ impl<T: Real> Sphere<T> {
         let radius = Parameter::Radius.check(radius)?;
         let thickness = Parameter::Thickness.check(thickness)?;
         if thickness > radius {
-            let value = thickness.to_f64();
+            let value = thickness.to_f64() as f32;
             return Err(InputError { parameter: Parameter::Thickness, fault: Fault::ExceedsRadius, value });
         }
         let depth = thickness / radius;

@@ -226,7 +226,7 @@ impl<T: Real> AnyScene<T> {
             return Err(InputError {
                 parameter: Parameter::PeelingMoment,
                 fault: Fault::TooLarge,
-                value: lambda.to_f64(),
+                value: lambda.to_f64() as f32,
             });
         }
         Ok(Contact { sphere, law, surface })

@@ -3,7 +3,9 @@
 use crate::table::TableOutcome;
 use crate::{Class, Outcome};
 
-/// A set of classes with indices from zero: [`Outcome`] without friction, [`Class`] with friction, [`TableOutcome`] for a table.
+/// A set of classes with indices from zero.
+///
+/// [`Outcome`] is the set without friction, [`Class`] with friction, and [`TableOutcome`] that of a boundary table.
 ///
 /// ```
 /// use microimpact::instrument::ClassSet;

@@ -43,7 +43,7 @@ impl<T: Real, const BINS: usize> SpeedBins<T, BINS> {
         let mut before = T::ZERO;
         for edge in edges {
             if Parameter::ApproachSpeed.check(edge)? <= before {
-                let value = edge.to_f64();
+                let value = edge.to_f64() as f32;
                 return Err(InputError { parameter: Parameter::ApproachSpeed, fault: Fault::TooSmall, value });
             }
             before = edge;

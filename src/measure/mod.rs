@@ -1,8 +1,8 @@
 //! From measurements to parameters and probabilities.
 //!
 //! * **One impact** determines one parameter of a contact, such as the damping, the strength of adhesion or the radius:
-//!   [`material_damping`], [`adhesion_damping`], [`ring_strength`] and [`parameter`]. The search is bracketed, and its length is
-//!   bounded. [`estimate`] gives the standard error, from derivatives.
+//!   [`material_damping`], [`adhesion_damping`], [`ring_strength`] and [`parameter`]. The search is bracketed and ends after a
+//!   bounded number of steps. [`estimate`] adds the standard error, from derivatives.
 //! * **Many impacts** determine the restitution law and the work of adhesion ([`RestitutionFit`]), the friction coefficient
 //!   ([`friction`]) or the spin ([`rolling_motion`]), each with its standard error. Outliers do not change the result.
 //! * **Uncertain inputs** give [probabilities of the classes](ClassProbabilities). The margins of a class are assumed to be

@@ -319,7 +319,7 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
         let units = |octaves: T| (octaves.single() * super::logarithm::OCTAVE as f32) as i32;
         let radius = T::from_single(self.boundary.radius_at(self.first + units(row / self.per_octave)));
         let critical = self.boundary.logarithm_at(radius);
-        let outside = || InputError { parameter: Parameter::Radius, fault: Fault::TooLarge, value: radius.to_f64() };
+        let outside = || InputError { parameter: Parameter::Radius, fault: Fault::TooLarge, value: radius.single() };
         let critical = critical.ok_or_else(outside)?;
         let speed = T::from_single(number(critical.saturating_add(units(root * root))));
         let rebound = source(radius, Parameter::ApproachSpeed.check(speed)?)?;

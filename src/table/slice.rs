@@ -22,8 +22,8 @@ const LARGEST_MARGIN: u32 = 590_000;
 /// lowest power. The variable is zero in the middle of the cell.
 type Cubic = [i32; 4];
 
-/// A [`BoundaryTable`](super::BoundaryTable) with any number of cells, which are stored elsewhere: in flash, or in the memory of
-/// a C program.
+/// A [`BoundaryTable`](super::BoundaryTable) with any number of cells, which are stored elsewhere: in flash, or in the memory
+/// of a C program.
 ///
 /// ```
 /// use microimpact::table::{BoundarySlice, TableOutcome};
@@ -230,7 +230,7 @@ impl<'a> BoundarySlice<'a> {
                 (true, true) => Fault::TooSmall,
                 (true, false) => Fault::TooLarge,
             };
-            return Err(InputError { parameter: Parameter::Radius, fault, value: smallest as f64 });
+            return Err(InputError { parameter: Parameter::Radius, fault, value: smallest });
         }
         Ok(Self { cells, first: middle_of_cell(smallest), margin })
     }
@@ -248,7 +248,7 @@ impl<'a> BoundarySlice<'a> {
                 let value = at(cubic, place);
                 if value < slowest || value > fastest {
                     let fault = if value < slowest { Fault::TooSmall } else { Fault::TooLarge };
-                    let value = number(value) as f64;
+                    let value = number(value);
                     return Err(InputError { parameter: Parameter::CriticalSpeed, fault, value });
                 }
                 place += PARTS as i32 / 4;
@@ -261,7 +261,7 @@ impl<'a> BoundarySlice<'a> {
             margin if margin < LARGEST_ERROR || widest_jump(self.cells) > 2 * margin => Fault::TooSmall,
             _ => return Ok(self),
         };
-        let value = (self.margin as f32 * UNIT) as f64;
+        let value = self.margin as f32 * UNIT;
         Err(InputError { parameter: Parameter::BoundaryMargin, fault, value })
     }
 }
@@ -306,7 +306,7 @@ fn exact_critical_speed<T: Single>(
     let (fault, value) = match critical(radius)? {
         CriticalSpeed::At(speed) => return Ok(exact_logarithm(Parameter::CriticalSpeed.check(speed)?.single())),
         CriticalSpeed::AlwaysRebounds => (Fault::TooSmall, 0.0),
-        CriticalSpeed::NeverRebounds => (Fault::TooLarge, f64::INFINITY),
+        CriticalSpeed::NeverRebounds => (Fault::TooLarge, f32::INFINITY),
     };
     Err(InputError { parameter: Parameter::CriticalSpeed, fault, value })
 }
