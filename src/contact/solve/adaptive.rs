@@ -1,4 +1,4 @@
-//! The method that chooses by itself: whole phases where damping is mild and the tolerance not too small, else intervals.
+//! The method that chooses for itself: whole phases if damping is mild and the tolerance not too small, else intervals.
 
 use super::collocation::{Collocation, ErrorControl, at_least_rounding};
 use super::critical::Trial;
@@ -11,11 +11,12 @@ use super::rest::{RestCriterion, Settling};
 use crate::contact::law::ContactLaw;
 use crate::{InputError, Parameter, Real};
 
-/// Error control by whatever is fastest for a scene and a tolerance: mild damping lets each phase be one polynomial, with as
-/// many nodes as the tolerance needs; everything else goes to [`Collocation`].
+/// The method to use where code size does not matter. It controls its error, and chooses what is fastest for a scene and a
+/// tolerance.
 ///
-/// It contains the code for every number of nodes: firmware that knows its scenes does better with
-/// [`FixedCost`](super::FixedCost) or one [`Collocation`].
+/// If damping is mild, each phase is one polynomial with as many nodes as the tolerance needs. Everything else goes to
+/// [`Collocation`]. The method contains the code for every number of nodes. In firmware that knows its scenes,
+/// [`FixedCost`](super::FixedCost) or one [`Collocation`] is smaller.
 ///
 /// ```
 /// use microimpact::contact::{Adaptive, Contact};
@@ -135,47 +136,61 @@ impl<T: AdaptiveNodes> Method<T> for Adaptive<T> {
     fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
         let tolerance = self.tolerance;
         let whole_phases = law.loss_power() >= WEIGHT_POWER && !law.may_have_barrier();
-        let mut attempts = Attempts { tolerance, allowed: if whole_phases { 2 } else { 0 } };
-        // Each number of nodes from the tolerance on that it mostly reaches, with times and without, to one that fewer reach
-        // with ease.
+        let mut attempts = Attempts { tolerance, allowed: if whole_phases { ATTEMPTS } else { 0 } };
+        // Nodes of a phase and of its outputs, and the range of tolerances for which they are tried. It begins where most
+        // mildly damped scenes reach the tolerance, with times and without, and ends where fewer nodes always do.
         macro_rules! try_phases {
-            ($nodes:literal, $outputs:literal, $timed:literal, $untimed:literal, $enough:literal) => {
-                let reached = T::constant(if O::TIMED { $timed } else { $untimed });
-                if tolerance >= reached
-                    && tolerance < T::constant($enough)
+            ($nodes:literal, $outputs:literal, timed $timed:literal, untimed $untimed:literal, to $largest:literal) => {
+                let smallest = T::constant(if O::TIMED { $timed } else { $untimed });
+                if tolerance >= smallest
+                    && tolerance < T::constant($largest)
                     && let Some(path) = attempts.phases::<L, O, $nodes, $outputs>(law, energy, observer)
                 {
                     return path;
                 }
             };
         }
-        try_phases!(5, 10, 3e-5, 1e-5, 1.0);
-        try_phases!(7, 13, 5e-7, 3e-7, 1e-4);
-        try_phases!(9, 16, 2e-8, 1e-8, 1e-5);
-        try_phases!(10, 18, 7e-9, 2e-9, 2e-7);
-        // To divide so many nodes where the sphere begins to roll costs more than intervals do.
+        try_phases!(5, 10, timed 3e-5, untimed 1e-5, to 1.0);
+        try_phases!(7, 13, timed 5e-7, untimed 3e-7, to 1e-4);
+        try_phases!(9, 16, timed 2e-8, untimed 1e-8, to 1e-5);
+        try_phases!(10, 18, timed 7e-9, untimed 2e-9, to 2e-7);
+        // Dividing a phase of so many nodes where the sphere begins to roll costs more than intervals do.
         if !O::EVENTS {
-            try_phases!(13, 24, 6e-10, 3e-11, 5e-8);
-            try_phases!(14, 26, 2e-10, 8e-12, 2e-9);
+            try_phases!(13, 24, timed 6e-10, untimed 3e-11, to 5e-8);
+            try_phases!(14, 26, timed 2e-10, untimed 8e-12, to 2e-9);
         }
         by_intervals!(tolerance, solve(law, energy, observer))
     }
 }
 
-/// Sweeps that a phase may take.
-const MOST_SWEEPS: u32 = 12;
+/// Attempts at whole phases: a second one, with more nodes, only if the error of the first was a little too large.
+const ATTEMPTS: u32 = 2;
 
-/// Square of the change of the speeds, over that of the tolerance, at which the sweeps end.
-const SETTLED: f64 = 0.1;
+/// Estimated error over the tolerance, up to which more nodes may be enough: two more gain about two digits.
+const NEARLY: f64 = 100.0;
 
-/// Square of the change of the speeds above which their reciprocals are renewed.
+/// Iterations that a phase may take. Converging ones take half as many at the smallest tolerance.
+const MOST_PHASE_ITERATIONS: u32 = 12;
+
+/// Square of the change of the speeds, over that of the tolerance, at which the iterations end. The error that remains is of
+/// the order of the square of the change.
+const CONVERGED: f64 = 0.1;
+
+/// Square of the change of the speeds above which their reciprocals are renewed: below it their error does not slow down
+/// convergence.
 const UNSTEADY: f64 = 1e-3;
 
-/// Loss over speed at the peak beyond which sweeps take longer than intervals.
+/// Loss over speed at the peak above which iterations take longer than intervals.
 const STRONGEST: f64 = 5.0;
 
-/// Both phases by `N` nodes and their outputs by `M`, unless the motion does not lend itself to it or the estimated error is
-/// too large.
+/// Estimated error of times over the square of the part of them that the nodes for outputs do not resolve.
+const TIME_TAIL_ERROR: f64 = 0.1;
+
+/// Remaining energy over its estimated error, up to which the outcome is left to intervals.
+const UNDECIDED: f64 = 4.0;
+
+/// Both phases by `N` nodes and their outputs by `M`, unless the motion is not suited to it or the estimated error is too
+/// large.
 fn phases<T, L, O, const N: usize, const M: usize>(
     law: &L,
     energy: T,
@@ -191,14 +206,14 @@ where
     if phase.loss[0] > T::constant(STRONGEST) * phase.speed[0] {
         return Err(Failed::ByFar);
     }
-    let mut sweeps = 0;
-    let mut settle = |phase: &mut Phase<T, N>, after: &mut dyn FnMut(&mut Phase<T, N>, T)| {
-        let (enough, mut before) = (T::constant(SETTLED) * tolerance * tolerance, T::ZERO);
-        for _ in 0..MOST_SWEEPS {
-            let (gained, change) = phase.sweep::<true>();
-            sweeps += 1;
+    let mut iterations = 0;
+    let mut iterate = |phase: &mut Phase<T, N>, after: &mut dyn FnMut(&mut Phase<T, N>, T)| {
+        let (enough, mut before) = (T::constant(CONVERGED) * tolerance * tolerance, T::ZERO);
+        for _ in 0..MOST_PHASE_ITERATIONS {
+            let (gained, change) = phase.iterate::<true>();
+            iterations += 1;
             after(phase, gained);
-            // Sweeps converge superlinearly.
+            // The iterations converge superlinearly.
             if change <= enough || change * change <= enough * before {
                 return Ok(gained);
             }
@@ -210,7 +225,7 @@ where
         Err(Failed::ByFar)
     };
     let mut at_peak = energy;
-    settle(&mut phase, &mut |phase, lost| {
+    iterate(&mut phase, &mut |phase, lost| {
         at_peak = phase.correct_peak(law, energy, lost);
         phase.describe(law, false);
     })?;
@@ -219,14 +234,14 @@ where
     let mut error = tails.error_of_energy();
     let judge = |error: T| match error {
         _ if error <= tolerance => Ok(()),
-        _ if error <= T::constant(100.0) * tolerance => Err(Failed::ByLittle),
+        _ if error <= T::constant(NEARLY) * tolerance => Err(Failed::ByLittle),
         _ => Err(Failed::ByFar),
     };
     let approach = O::OBSERVES.then(|| phase.samples::<M>(law, false));
     let timed = |interval: &Option<Interval<T, M>>, least: T| {
         let Some(interval) = interval else { return least };
-        let share = tail_of_times::<T, M>(&interval.rate);
-        least.max(T::constant(0.1) * share * share)
+        let unresolved = tail_of_times::<T, M>(&interval.rate);
+        least.max(T::constant(TIME_TAIL_ERROR) * unresolved * unresolved)
     };
     if O::TIMED {
         error = error.max(timed(&approach, tails.error_of_times()));
@@ -234,7 +249,7 @@ where
     judge(error)?;
     let before = phase.clone();
     phase.turn(law);
-    let gained = settle(&mut phase, &mut |_, _| {})?;
+    let gained = iterate(&mut phase, &mut |_, _| {})?;
     let tails = phase.tails(energy);
     error = error.max(tails.error_of_energy());
     let left = at_peak + gained;
@@ -246,7 +261,7 @@ where
         error = error.max(timed(&rebound, tails.error_of_times()));
     }
     judge(error)?;
-    if left.abs() <= T::constant(4.0) * error * energy {
+    if left.abs() <= T::constant(UNDECIDED) * error * energy {
         return Err(Failed::ByLittle);
     }
     if let (Some(approach), Some(rebound)) = (&approach, &rebound) {
@@ -254,7 +269,7 @@ where
         show(law, &phase, rebound, true, tolerance, observer);
     }
     let end = if left > T::ZERO { End::Separation } else { End::Capture };
-    let effort = Effort { intervals: 2, refused: 0, sweeps, nodes: N as u32, error };
+    let effort = Effort { intervals: 2, refused: 0, iterations, nodes: N as u32, error };
     Ok(NormalPath { end, energy: left, peak, turning: T::ZERO, effort })
 }
 
@@ -271,15 +286,15 @@ pub(super) fn show<T, O, const N: usize, const M: usize>(
     O: Observer<T>,
 {
     let rolls_at = if O::EVENTS { observer.rolls_at(law, whole) } else { None };
-    let Some(share) = rolls_at else {
+    let Some(fraction) = rolls_at else {
         return observer.observe(law, whole, rebound);
     };
     let gains = phase.gains::<M>();
-    let place = |share: T| if rebound { share } else { T::ONE - share };
-    let first = |share: T| phase.part(law, &gains, place(T::ZERO), place(share));
-    let (share, part, late) = find_end_of_slip(law, observer, share, tolerance, first);
-    let late = late / share * part.rate.last().copied().unwrap_or(T::ZERO);
-    let mut rest = || phase.part(law, &gains, place(share), place(T::ONE));
+    let place = |fraction: T| if rebound { fraction } else { T::ONE - fraction };
+    let first = |fraction: T| phase.part(law, &gains, place(T::ZERO), place(fraction));
+    let (fraction, part, late) = find_end_of_slip(law, observer, fraction, tolerance, first);
+    let late = late / fraction * part.rate.last().copied().unwrap_or(T::ZERO);
+    let mut rest = || phase.part(law, &gains, place(fraction), place(T::ONE));
     observer.observe_rolling(law, whole, &part, late, &mut rest, rebound);
 }
 
@@ -288,10 +303,11 @@ pub(super) fn show<T, O, const N: usize, const M: usize>(
 enum Failed {
     /// A few nodes more may be enough.
     ByLittle,
+    /// More nodes are no use.
     ByFar,
 }
 
-/// Attempts at whole phases: a second one only where the first was not enough by little.
+/// Attempts at whole phases.
 struct Attempts<T> {
     tolerance: T,
     allowed: u32,

@@ -55,8 +55,8 @@ impl<const N: usize, T: Real> Collocation<N, T> {
     pub(super) fn control(&self, timed: bool) -> Control<T> {
         let times = if timed { T::ONE } else { T::constant(UNTIMED) };
         // Changes of one unit in the last place never end.
-        let settled = (T::constant(CONVERGED) * self.tolerance).max(T::constant(2.0) * T::EPSILON);
-        Control { settled, error: self.tolerance, times }
+        let converged = (T::constant(CONVERGED) * self.tolerance).max(T::constant(2.0) * T::EPSILON);
+        Control { converged, error: self.tolerance, times }
     }
 }
 

@@ -40,8 +40,8 @@ pub(crate) fn critical_speed<T: Real>(
 /// What becomes of a sphere that arrives with a kinetic energy.
 pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(tolerance: T, law: &L, energy: T) -> Trial<T> {
     let (half, two) = (T::constant(0.5), T::constant(2.0));
-    let settled = (T::constant(0.1) * tolerance).max(T::constant(4.0) * T::EPSILON);
-    let mut control = Control { settled, error: tolerance, times: T::ZERO };
+    let converged = (T::constant(0.1) * tolerance).max(T::constant(4.0) * T::EPSILON);
+    let mut control = Control { converged, error: tolerance, times: T::ZERO };
     let Some((barrier, bottom)) = well(law).filter(|(_, bottom)| law.damping(*bottom, true) > T::ZERO) else {
         return Trial::Free;
     };
@@ -54,7 +54,7 @@ pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(toleranc
     control.error = (control.error * share * share).max(unattainable());
     // Where the well is shallow, speeds are small in it.
     let scale = (two * depth).sqrt().min(T::ONE);
-    let finer = Control { settled: control.settled * scale, ..control };
+    let finer = Control { converged: control.converged * scale, ..control };
     let at_rest = Point { s: barrier, energy: rest, speed_squared: T::ZERO };
     let captured = Trial::Tried { rebounds: false, excess: None };
     let Some(departure) = Follower::from(law, finer, &mut (), at_rest).ascend::<N>(bottom) else {
@@ -207,14 +207,14 @@ impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
             return None;
         }
         self.leave_peak::<N>(peak - to).ok()?;
-        let Control { settled, error, .. } = self.control;
+        let Control { converged, error, .. } = self.control;
         let mut length = self.at.s - to;
         while self.at.s > to {
             // Strong damping leaves a speed that is small against what the potential drives; it counts by itself.
             let square = self.at.speed_squared;
             let driven = (self.law.potential(self.at.s) - self.law.potential(to)).max(T::ZERO);
             let share = square / (square + driven);
-            self.control.settled = settled * square.sqrt().min(T::ONE);
+            self.control.converged = converged * square.sqrt().min(T::ONE);
             // There errors are no longer squares.
             let stiff = if share < T::constant(0.2) { T::constant(1e-4) } else { T::ONE };
             let strict = error * stiff * (share * share).max(T::constant(1e-4));
@@ -249,8 +249,8 @@ impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
         T: Nodes<N>,
     {
         let polynomial = if from_rest { (T::ZERO, step) } else { (step, T::ZERO) };
-        let mut sweeps = 0;
-        let interval: Interval<T, N> = pass(self.law, &self.at, polynomial, course, &self.control, &mut sweeps);
+        let mut iterations = 0;
+        let interval: Interval<T, N> = pass(self.law, &self.at, polynomial, course, &self.control, &mut iterations);
         let factor = self.length_factor(N, &interval);
         let taken = self.take(&interval, course, None).ok()?;
         let length = step.abs() * if taken { factor } else { factor.min(T::constant(0.7)) };

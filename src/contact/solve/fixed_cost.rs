@@ -1,4 +1,4 @@
-//! A method of fixed cost for firmware: approach and rebound are one polynomial each, in a fixed number of sweeps.
+//! A method of fixed cost for firmware: approach and rebound are one polynomial each, in a fixed number of iterations.
 
 #[cfg(doc)]
 use super::Collocation;
@@ -77,14 +77,22 @@ impl<const N: usize> FixedCost<N> {
 /// Nodes beyond those of a phase that the end of sliding needs: the square of the speed is that much a higher polynomial.
 const NODES_OF_EVENTS: usize = 4;
 
-/// What the last sweeps may still change of the energy left, over the energy before.
-const SETTLED: f64 = 0.003;
+/// Change of the remaining energy by the last iterations, over the energy before, up to which they count as converged.
+const CONVERGED: f64 = 0.003;
 
-/// What a sweep changes of the energy left, over the energy before, above which the reciprocals of the speeds are renewed.
+/// Change of the remaining energy by an iteration, over the energy before, above which the reciprocals of the speeds are
+/// renewed: below it their error changes the energy by less than its square.
 const UNSTEADY: f64 = 0.01;
 
-/// Loss over speed at the peak up to which a motion can be trusted.
+/// Loss over speed at the peak above which iterations can converge to a wrong value: the error that an iteration leaves is in
+/// proportion to it.
 const STRONGEST: f64 = 30.0;
+
+/// Remaining energy over the energy before, above which there is no solution: no phase gains energy, but for rounding.
+const LARGEST_GAIN: f64 = 1.0001;
+
+/// Change by the last iterations over the energy that a capture lacks, below which its sign is certain.
+const CLEAR_CAPTURE: f64 = 0.25;
 
 /// Tolerance to which the end of sliding is found within a phase, for outputs that need it.
 const END_OF_SLIP: f64 = 1e-9;
@@ -118,21 +126,21 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         let moves = |by: T| by.abs() > T::constant(UNSTEADY) * energy;
         let mut phase = Phase::<T, N>::approach(law, energy);
         let mut lost = phase.estimate;
-        // How far the last sweep has still moved the energy lost.
+        // Change of the energy lost by the last iteration.
         let (mut moved, mut at_peak) = (T::ZERO, energy);
-        for sweep in 0..self.iterations {
-            if sweep > 0 {
+        for iteration in 0..self.iterations {
+            if iteration > 0 {
                 phase.describe(law, false);
             }
             if moves(moved) {
                 phase.renew();
             }
             let before = lost;
-            lost = phase.sweep::<false>().0;
+            lost = phase.iterate::<false>().0;
             moved = lost - before;
             at_peak = phase.correct_peak(law, energy, lost);
         }
-        let unsettled = moved.abs();
+        let changed = moved.abs();
         observe(&phase, false);
         phase.turn(law);
         let mut gained = T::ZERO;
@@ -144,26 +152,25 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
                 phase.renew_slowest();
             }
             let before = gained;
-            gained = phase.sweep::<false>().0;
+            gained = phase.iterate::<false>().0;
             moved = gained - before;
         }
-        let unsettled = unsettled + moved.abs();
+        let changed = changed + moved.abs();
         observe(&phase, true);
         let left = at_peak + gained;
-        // What a sweep leaves of an error grows with the loss over the speed: beyond this bound it can settle on a wrong
-        // value. Of a capture only the sign counts.
-        let mild = -phase.loss[0] <= T::constant(STRONGEST) * phase.speed[0] && left <= T::constant(1.0001) * energy;
-        let settled =
-            unsettled <= T::constant(SETTLED) * energy || (left < T::ZERO && unsettled < T::constant(-0.25) * left);
+        let mild = -phase.loss[0] <= T::constant(STRONGEST) * phase.speed[0] && left <= T::constant(LARGEST_GAIN) * energy;
+        // Of a capture only the sign counts.
+        let converged = changed <= T::constant(CONVERGED) * energy
+            || (left < T::ZERO && changed < T::constant(-CLEAR_CAPTURE) * left);
         // A sphere that comes slower than a barrier is high never meets the peak computed here.
         let (_, escape) = barrier(law);
-        let end = match mild && settled && energy > escape {
+        let end = match mild && converged && energy > escape {
             false => End::Budget,
             true if left > escape => End::Separation,
             true => End::Capture,
         };
-        let error = unsettled.saturating_div(energy);
-        let effort = Effort { intervals: 2, refused: 0, sweeps: 2 * self.iterations, nodes: N as u32, error };
+        let error = changed.saturating_div(energy);
+        let effort = Effort { intervals: 2, refused: 0, iterations: 2 * self.iterations, nodes: N as u32, error };
         NormalPath { end, energy: left, peak: phase.peak, turning: T::ZERO, effort }
     }
 }

@@ -138,7 +138,7 @@ where
     if path.end == End::Budget && held(depth, speed) {
         path.end = End::Capture;
     }
-    path.effort.sweeps = path.effort.intervals + path.effort.refused;
+    path.effort.iterations = path.effort.intervals + path.effort.refused;
     observer.ended(&state.1, &times);
     Some(path)
 }

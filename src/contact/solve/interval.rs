@@ -2,7 +2,7 @@
 //!
 //! Along an interval s is a polynomial of z on 0..1 and y^2 = free(z) - integral of loss(z) y dz, where `free` is the square of
 //! the speed without losses. Away from turning points y itself is smooth in z. Towards a turning point z = 0 it vanishes
-//! like z, so that s = peak - depth z^2 and y = z u with u smooth. Sweeps over all nodes at once converge superlinearly while
+//! like z, so that s = peak - depth z^2 and y = z u with u smooth. Iterations over all nodes at once converge superlinearly while
 //! the loss is a small part of the energy; Newton's method takes over where it is not.
 
 // Indices run over arrays of the length that their loops count to.
@@ -15,8 +15,8 @@ use crate::contact::law::ContactLaw;
 /// How exactly an interval is solved.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Control<T> {
-    /// Change of the speeds at which the sweeps end.
-    pub(crate) settled: T,
+    /// Change of the speeds at which the iterations end.
+    pub(crate) converged: T,
     /// Largest error that an interval may have.
     pub(crate) error: T,
     /// How much of the error of the time that the interval takes counts: one where times are asked for, a tenth where only the
@@ -131,25 +131,25 @@ pub(crate) fn series<T: Real, const N: usize, const M: usize>(
 }
 
 /// The unknowns of an interval while they are iterated.
-struct Sweeps<T, const N: usize> {
+struct Iterations<T, const N: usize> {
     /// Speeds, or speeds over z.
     speed: [T; N],
-    /// Half their reciprocals, which follow by multiplication alone, and a sweep late.
+    /// Half their reciprocals, which follow by multiplication alone, and an iteration late.
     half_inverse: [T; N],
     /// Loss times speed.
     power: [T; N],
     /// Square of the last change.
     change: T,
-    sweeps: u32,
+    iterations: u32,
 }
 
 /// By how much, squared, the next change may be larger than the last two let expect.
-const SURPRISE: f64 = 100.0;
+const SUPERLINEAR_MARGIN: f64 = 100.0;
 
-/// Sweeps that an interval may take.
-const MOST_SWEEPS: u32 = 20;
+/// Iterations that an interval may take.
+const MOST_ITERATIONS: u32 = 20;
 
-impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
+impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
     /// Speeds without losses, less an estimate of what those take from them.
     #[inline]
     fn from(free: &[T; N], loss: &[T; N], taken: &[T; N]) -> Self {
@@ -160,13 +160,13 @@ impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
             half_inverse[j] = T::constant(0.5) / speed[j];
             power[j] = loss[j] * speed[j];
         }
-        Self { speed, half_inverse, power, change: T::constant(1e9), sweeps: 0 }
+        Self { speed, half_inverse, power, change: T::constant(1e9), iterations: 0 }
     }
 
-    /// One sweep: Heron's step for the root at every node. `lost` makes the square of a speed from the free one and the
+    /// One iteration: Heron's step for the root at every node. `lost` makes the square of a speed from the free one and the
     /// integral of the losses.
     #[inline]
-    fn sweep(&mut self, free: &[T; N], loss: &[T; N], lost: impl Fn(T, T) -> T, table: &[[T; N]; N]) -> T {
+    fn iterate(&mut self, free: &[T; N], loss: &[T; N], lost: impl Fn(T, T) -> T, table: &[[T; N]; N]) -> T {
         let two = T::constant(2.0);
         let mut step = integrals(table, &self.power);
         // One short loop for each array, which the compiler turns into vectors.
@@ -182,11 +182,11 @@ impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
         for j in 0..N {
             self.power[j] = loss[j] * self.speed[j];
         }
-        self.sweeps += 1;
+        self.iterations += 1;
         dot(&step, &step)
     }
 
-    /// Changes all speeds by a share of themselves, unless it is so large that a sweep does better; the square of what they
+    /// Changes all speeds by a share of themselves, unless it is so large that an iteration does better; the square of what they
     /// are to change by, over their own.
     #[inline]
     fn scale(&mut self, share: T) -> T {
@@ -210,30 +210,30 @@ impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
         }
     }
 
-    /// Whether the sweeps have settled after a change of this square, of speeds of which the square is `scale`. They converge
+    /// Whether the iterations have converged after a change of this square, of speeds of which the square is `scale`. They converge
     /// superlinearly: the next change is at most this one squared over the one before, or the share of this one by which the
     /// reciprocals were late.
     #[inline]
-    fn settles(&mut self, change: T, scale: T, control: &Control<T>) -> Progress {
-        let relative = control.settled * control.settled * scale.min(T::ONE);
+    fn has_converged(&mut self, change: T, scale: T, control: &Control<T>) -> Progress {
+        let relative = control.converged * control.converged * scale.min(T::ONE);
         // Rounding alone keeps the steps at this size for ever. A step is the residual over twice the speed. About eight
         // roundings go into the residual, each of half an EPSILON of the square of the speed, so the step has an error of two
         // EPSILON of the speed, and the change is the sum of their squares over N nodes. The rounding of positions does not
         // shrink with the speed; a first iteration may hide behind it.
         let rounding = T::constant(4.0 * N as f64) * T::EPSILON * T::EPSILON * scale.max(T::ONE);
-        let enough = if self.sweeps > 1 { relative.max(rounding) } else { relative };
-        let superlinear = self.sweeps > 1 && T::constant(SURPRISE) * change * change <= enough * self.change;
+        let enough = if self.iterations > 1 { relative.max(rounding) } else { relative };
+        let superlinear = self.iterations > 1 && T::constant(SUPERLINEAR_MARGIN) * change * change <= enough * self.change;
         if change <= enough || (superlinear && change * self.lateness() <= enough) {
-            return Progress::Settled;
+            return Progress::Converged;
         }
-        if change < T::constant(4.0) * self.change && self.sweeps < MOST_SWEEPS {
+        if change < T::constant(4.0) * self.change && self.iterations < MOST_ITERATIONS {
             self.change = change;
             return Progress::Converging;
         }
         Progress::Diverging
     }
 
-    /// Square of the largest share by which a reciprocal was wrong in the last sweep, which is what is left of it.
+    /// Square of the largest share by which a reciprocal was wrong in the last iteration, which is what is left of it.
     #[inline]
     fn lateness(&self) -> T {
         let mut largest = T::ZERO;
@@ -244,12 +244,12 @@ impl<T: Nodes<N>, const N: usize> Sweeps<T, N> {
         largest
     }
 
-    fn settle(&mut self, free: &[T; N], loss: &[T; N], table: &[[T; N]; N], control: &Control<T>) -> bool {
+    fn converge(&mut self, free: &[T; N], loss: &[T; N], table: &[[T; N]; N], control: &Control<T>) -> bool {
         let scale = free[0].max(free[N - 1]);
         loop {
-            let change = self.sweep(free, loss, |free, lost| free - lost, table);
-            match self.settles(change, scale, control) {
-                Progress::Settled => return true,
+            let change = self.iterate(free, loss, |free, lost| free - lost, table);
+            match self.has_converged(change, scale, control) {
+                Progress::Converged => return true,
                 Progress::Diverging => return false,
                 Progress::Converging => {}
             }
@@ -276,7 +276,7 @@ pub(crate) fn tail_of_times<T: Nodes<N>, const N: usize>(rate: &[T; N]) -> T {
 }
 
 enum Progress {
-    Settled,
+    Converged,
     Converging,
     Diverging,
 }
@@ -289,7 +289,7 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     (first, second): (T, T),
     course: Course,
     control: &Control<T>,
-    sweeps: &mut u32,
+    iterations: &mut u32,
 ) -> Interval<T, N> {
     let (two, half) = (T::constant(2.0), T::constant(0.5));
     let (mut s, mut free, mut loss, mut length) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
@@ -307,7 +307,7 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
         };
         loss[j] = two * length[j] * law.loss(s[j], course.rebound);
         possible &= free[j] > T::ZERO;
-        // Half of what the losses have taken so far, over the speed, is what a sweep leaves of an error.
+        // Half of what the losses have taken so far, over the speed, is what an iteration leaves of an error.
         let here = T::WEIGHTS[j] * loss[j];
         taken[j] = half * (reach + half * here);
         reach = reach + here;
@@ -317,14 +317,14 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
         loss = loss.map(|loss| -loss);
         taken = taken.map(|taken| -taken);
     }
-    let mut state = Sweeps::from(&free, &loss, &taken);
+    let mut state = Iterations::from(&free, &loss, &taken);
     let mut accepted = possible;
     let mut newton = false;
-    if possible && !(contracting && state.settle(&free, &loss, &T::INTEGRATION, control)) {
+    if possible && !(contracting && state.converge(&free, &loss, &T::INTEGRATION, control)) {
         newton = true;
         accepted = solve_strongly_damped(&free, &loss, &mut state, control);
     }
-    *sweeps += state.sweeps;
+    *iterations += state.iterations;
     let lost = dot(&T::WEIGHTS, &state.power);
     let mut rate = [T::ZERO; N];
     for j in 0..N {
@@ -333,7 +333,7 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     }
     let error = if possible { state.error(free[0].max(free[N - 1]), &rate, control) } else { T::ONE };
     let last = state.speed[N - 1];
-    // Newton's method knows the speed at the end, sweeps know the energy lost; where almost all is lost the one counts,
+    // Newton's method knows the speed at the end, iterations know the energy lost; where almost all is lost the one counts,
     // elsewhere the other.
     let speed_squared = if newton { last * last } else { free[N - 1] - lost };
     let energy = if newton && speed_squared < T::constant(0.1) * from.energy.abs() {
@@ -354,7 +354,7 @@ pub(crate) fn leave<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     energy: T,
     course: Course,
     control: &Control<T>,
-    sweeps: &mut u32,
+    iterations: &mut u32,
 ) -> Interval<T, N> {
     let (two, half) = (T::constant(2.0), T::constant(0.5));
     let (mut s, mut free, mut loss) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
@@ -369,12 +369,12 @@ pub(crate) fn leave<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     if course.reversed {
         loss = loss.map(|loss| -loss);
     }
-    let mut state = Sweeps::from(&free, &loss, &taken_from_turning_point(&loss));
-    // A sixth of the loss over the speed is what a sweep leaves of an error.
+    let mut state = Iterations::from(&free, &loss, &taken_from_turning_point(&loss));
+    // A sixth of the loss over the speed is what an iteration leaves of an error.
     let contraction = T::constant(0.34) * strongest * state.half_inverse[0];
     let mut accepted =
-        possible && contraction < T::constant(0.4) && state.settle(&free, &loss, &T::TURNING_INTEGRATION, control);
-    *sweeps += state.sweeps;
+        possible && contraction < T::constant(0.4) && state.converge(&free, &loss, &T::TURNING_INTEGRATION, control);
+    *iterations += state.iterations;
     let lost = half * dot(&T::TURNING_WEIGHTS, &state.power);
     let (rate, y) = from_turning_point(law, &s, &state, depth.abs(), &mut accepted);
     let error = state.error(free[N - 1], &rate, control);
@@ -391,7 +391,7 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     guess: T,
     course: Course,
     control: &Control<T>,
-    sweeps: &mut u32,
+    iterations: &mut u32,
 ) -> Interval<T, N> {
     let (two, half) = (T::constant(2.0), T::constant(0.5));
     let inwards = guess > from.s;
@@ -409,7 +409,7 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     if (depth > T::ZERO) != inwards || turning <= T::ZERO {
         return refused(turning, false);
     }
-    // What a sweep leaves of an error is known beforehand, so a strongly damped arrival costs nothing.
+    // What an iteration leaves of an error is known beforehand, so a strongly damped arrival costs nothing.
     let reach =
         T::constant(0.68) * depth.abs() * law.loss(if course.rebound { from.s } else { turning }, course.rebound);
     let stopping = two * depth * law.mean_slope(turning, from.s);
@@ -430,7 +430,7 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     if free.iter().any(|free| *free <= T::ZERO) {
         return refused(turning, true);
     }
-    let mut state = Sweeps::from(&free, &loss, &taken_from_turning_point(&loss).map(|taken| -taken));
+    let mut state = Iterations::from(&free, &loss, &taken_from_turning_point(&loss).map(|taken| -taken));
     let mut accepted = false;
     let slow = from.speed_squared < T::constant(0.1) * from.energy.abs();
     // Where the potential is a sum of large terms, as far inside, or the speed is small, what it rises by is known better.
@@ -442,7 +442,7 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
         let change = if estimated {
             T::ONE
         } else {
-            state.sweep(&free, &loss, |free, lost| free + lost, &T::TURNING_INTEGRATION)
+            state.iterate(&free, &loss, |free, lost| free + lost, &T::TURNING_INTEGRATION)
         };
         estimated = false;
         lost = half * dot(&T::TURNING_WEIGHTS, &state.power);
@@ -465,8 +465,8 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
             break;
         }
 
-        match state.settles(change, scale, control) {
-            Progress::Settled => {
+        match state.has_converged(change, scale, control) {
+            Progress::Converged => {
                 accepted = true;
                 break;
             }
@@ -477,7 +477,7 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
             }
         }
     }
-    *sweeps += state.sweeps;
+    *iterations += state.iterations;
     let (rate, y) = from_turning_point(law, &s, &state, depth.abs(), &mut accepted);
     let last = state.speed[N - 1];
     let error = state.error(last * last, &rate, control);
@@ -520,7 +520,7 @@ fn taken_from_turning_point<T: Nodes<N>, const N: usize>(loss: &[T; N]) -> [T; N
 fn from_turning_point<T: Nodes<N>, const N: usize>(
     law: &impl ContactLaw<T>,
     s: &[T; N],
-    state: &Sweeps<T, N>,
+    state: &Iterations<T, N>,
     depth: T,
     accepted: &mut bool,
 ) -> ([T; N], [T; N]) {
@@ -538,7 +538,7 @@ fn from_turning_point<T: Nodes<N>, const N: usize>(
 fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
     free: &[T; N],
     loss: &[T; N],
-    state: &mut Sweeps<T, N>,
+    state: &mut Iterations<T, N>,
     control: &Control<T>,
 ) -> bool {
     let speed = &mut state.speed;
@@ -547,8 +547,8 @@ fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
         // As if the loss so far had acted at this node's speed.
         speed[j] = if loss[j] > T::ZERO { root * root / (root + T::constant(0.3) * loss[j]) } else { root };
     }
-    let enough = control.settled.max(T::constant(4.0) * T::EPSILON);
-    let mut settled = false;
+    let enough = control.converged.max(T::constant(4.0) * T::EPSILON);
+    let mut converged = false;
     for _ in 0..10 {
         let (mut jacobian, mut residual) = ([[T::ZERO; N]; N], [T::ZERO; N]);
         for j in 0..N {
@@ -575,9 +575,9 @@ fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
         for j in 0..N {
             speed[j] = speed[j] + share * residual[j];
         }
-        state.sweeps += 1;
+        state.iterations += 1;
         if largest * largest <= enough {
-            settled = true;
+            converged = true;
             break;
         }
         if largest >= T::constant(1e9) {
@@ -587,7 +587,7 @@ fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
     for j in 0..N {
         state.power[j] = loss[j] * speed[j];
     }
-    settled
+    converged
 }
 
 /// Solves a system of linear equations in place, with row pivoting; `false` where it is singular.

@@ -58,8 +58,8 @@ pub trait Method<T: Real> {
 pub(crate) struct Effort<T> {
     pub(crate) intervals: u32,
     pub(crate) refused: u32,
-    pub(crate) sweeps: u32,
-    /// Evaluations in each sweep.
+    pub(crate) iterations: u32,
+    /// Evaluations in each iteration.
     pub(crate) nodes: u32,
     /// Largest estimated error of an interval.
     pub(crate) error: T,
@@ -89,12 +89,12 @@ impl<T: Real> NormalPath<T> {
 }
 
 impl<T: Real> Effort<T> {
-    pub(crate) const NONE: Self = Self { intervals: 0, refused: 0, sweeps: 0, nodes: 0, error: T::ZERO };
+    pub(crate) const NONE: Self = Self { intervals: 0, refused: 0, iterations: 0, nodes: 0, error: T::ZERO };
 
     pub(crate) fn add(&mut self, other: &Self) {
         self.intervals += other.intervals;
         self.refused += other.refused;
-        self.sweeps += other.sweeps;
+        self.iterations += other.iterations;
         self.error = self.error.max(other.error);
     }
 }
@@ -218,7 +218,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         loop {
             if self.at.s > self.law.start() {
                 let arrival: Interval<T, N> =
-                    arrive(self.law, &self.at, beyond, Course::APPROACH, &self.control, &mut self.effort.sweeps);
+                    arrive(self.law, &self.at, beyond, Course::APPROACH, &self.control, &mut self.effort.iterations);
                 if self.take(&arrival, Course::APPROACH, Some(arrival.end.s))? {
                     return Ok(());
                 }
@@ -236,7 +236,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                     (length, T::ZERO),
                     Course::APPROACH,
                     &self.control,
-                    &mut self.effort.sweeps,
+                    &mut self.effort.iterations,
                 );
                 let factor = self.length_factor(N, &interval);
                 if self.take(&interval, Course::APPROACH, None)? {
@@ -320,7 +320,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 }
                 let guess = self.outer_turning_point();
                 let arrival: Interval<T, N> =
-                    arrive(self.law, &self.at, guess, Course::REBOUND, &self.control, &mut self.effort.sweeps);
+                    arrive(self.law, &self.at, guess, Course::REBOUND, &self.control, &mut self.effort.iterations);
                 if self.take(&arrival, Course::REBOUND, Some(arrival.end.s))? {
                     return Ok(self.at.s);
                 }
@@ -340,7 +340,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 let to_the_end = length >= self.at.s - outermost;
                 let step = if to_the_end { outermost - self.at.s } else { -length };
                 let interval: Interval<T, N> =
-                    pass(self.law, &self.at, (step, T::ZERO), Course::REBOUND, &self.control, &mut self.effort.sweeps);
+                    pass(self.law, &self.at, (step, T::ZERO), Course::REBOUND, &self.control, &mut self.effort.iterations);
                 let factor = self.length_factor(N, &interval);
                 if self.take(&interval, Course::REBOUND, None)? {
                     length = length * factor;
@@ -381,15 +381,15 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let signed = |length: T| if course.rebound { length } else { -length };
         let from = self.at.s;
         let mut depth = longest;
-        // What a sweep leaves of an error grows with the root of the depth.
+        // What an iteration leaves of an error grows with the root of the depth.
         let reach = T::constant(0.68) * self.law.loss(from, course.rebound);
         let stiffness = T::constant(0.2) * signed(self.law.slope(from));
         if reach * reach * depth > stiffness {
             depth = stiffness / (reach * reach);
         }
         loop {
-            let (energy, sweeps) = (self.at.energy, &mut self.effort.sweeps);
-            let interval: Interval<T, N> = leave(self.law, from, signed(depth), energy, course, &self.control, sweeps);
+            let (energy, iterations) = (self.at.energy, &mut self.effort.iterations);
+            let interval: Interval<T, N> = leave(self.law, from, signed(depth), energy, course, &self.control, iterations);
             let factor = self.length_factor(N, &interval);
             if self.take(&interval, course, Some(from))? {
                 return Ok(depth);
@@ -496,7 +496,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let (from, to) = (self.at, whole.end.s);
         let two = T::constant(2.0);
         let control = Control { error: T::ONE / T::EPSILON, times: T::ZERO, ..self.control };
-        let (law, sweeps) = (self.law, &mut self.effort.sweeps);
+        let (law, iterations) = (self.law, &mut self.effort.iterations);
         // The square of the speed has an error of the tolerance. Nearer to a turning point than the root of that, it is nothing
         // but error, and so is the time of a part that ends there. The end of slip is then a step away that is no longer than
         // the root of the tolerance; the error that remains is its square.
@@ -504,13 +504,13 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let z = if ahead { z.min(T::ONE - self.control.error.sqrt()) } else { z };
         let (z, first, late) = find_end_of_slip(law, self.observer, z, self.control.error, |z| match turning_point {
             Some(peak) if from.s == peak => {
-                leave(law, peak, (peak - to) * z * z, from.energy, course, &control, sweeps)
+                leave(law, peak, (peak - to) * z * z, from.energy, course, &control, iterations)
             }
             Some(peak) => {
                 let depth = peak - from.s;
-                pass(law, &from, (two * depth * z, -(depth * z * z)), course, &control, sweeps)
+                pass(law, &from, (two * depth * z, -(depth * z * z)), course, &control, iterations)
             }
-            None => pass(law, &from, ((to - from.s) * z, T::ZERO), course, &control, sweeps),
+            None => pass(law, &from, ((to - from.s) * z, T::ZERO), course, &control, iterations),
         });
         let late = late / z * first.rate.last().copied().unwrap_or(T::ZERO);
         let mut middle = first.end;
@@ -521,14 +521,14 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let mut after = || match turning_point {
             Some(peak) if from.s == peak => {
                 let depth = peak - to;
-                pass(law, &middle, (-(two * depth * z * rest), -(depth * rest * rest)), course, &control, sweeps)
+                pass(law, &middle, (-(two * depth * z * rest), -(depth * rest * rest)), course, &control, iterations)
             }
             Some(peak) => {
                 let back = Course { reversed: true, ..course };
-                let back = leave(law, peak, peak - middle.s, whole.end.energy, back, &control, sweeps);
+                let back = leave(law, peak, peak - middle.s, whole.end.energy, back, &control, iterations);
                 Interval { forward: false, end: whole.end, ..back }
             }
-            None => pass(law, &middle, (to - middle.s, T::ZERO), course, &control, sweeps),
+            None => pass(law, &middle, (to - middle.s, T::ZERO), course, &control, iterations),
         };
         self.observer.observe_rolling(law, whole, &first, late, &mut after, course.rebound);
     }

@@ -1,8 +1,9 @@
 //! A whole phase of the motion, approach or rebound, as one polynomial.
 //!
-//! With the contact radius s = a (1 - z^2) below its peak a and the speed y = z u, both phases run from z = 0 at the peak to
-//! z = 1 at s = 0, and u^2 = free(z) +- integral of z^2 loss(z) u dz / z^2 with plus on approach, seen backwards. Where damping
-//! is mild and the sphere is not slow, u is so smooth that few nodes give it everywhere, and all else are integrals over it.
+//! With the coordinate s = a (1 - z^2) below its peak a and the speed y = z u, both phases run from z = 0 at the peak to z = 1
+//! at s = 0, and u^2 = free(z) +- integral of z^2 loss(z) u dz / z^2. The sign is plus for the approach, which is seen
+//! backwards. If damping is mild and the sphere is not slow, u is so smooth that few nodes represent it everywhere. All
+//! outputs are integrals over it.
 
 // Indices run over arrays of the length that their loops count to.
 #![allow(clippy::indexing_slicing, clippy::needless_range_loop)]
@@ -12,10 +13,29 @@ use super::nodes::{Nodes, PhaseNodes, PhaseSamples};
 use crate::Real;
 use crate::contact::law::{ContactLaw, Fraction};
 
+/// Weights of the losses at the first and the last node in the estimate of the energy that they take: as if the losses were
+/// linear in the square of the coordinate, and the speed everywhere that of the middle of the phase. An estimate, which the
+/// iterations correct: the better it is, the fewer of them a method of fixed cost needs for an error.
+const FIRST_LOSS_WEIGHT: f64 = 0.56;
+const LAST_LOSS_WEIGHT: f64 = 0.36;
+
+/// Estimated error of e^2 over the square of the part of the losses that the nodes do not resolve: Gauss quadrature is exact
+/// to twice the degree of interpolation, so that errors go with squares.
+const ENERGY_ERROR: f64 = 0.5;
+
+/// The same for the reciprocal speed, over the energy that a phase loses. The tests of `Adaptive` against the reference fail
+/// if the estimates are too low or too high.
+const SLOWNESS_ERROR: f64 = 0.03;
+
+/// Estimated relative error of times over the parts of the losses and, to the fourth power, of the reciprocal speed that the
+/// nodes do not resolve. The same tests hold them.
+const TIME_ERROR_OF_LOSSES: f64 = 2e-3;
+const TIME_ERROR_OF_SLOWNESS: f64 = 0.06;
+
 /// Speeds over z at the nodes, and what they follow from.
 #[derive(Clone)]
 pub(crate) struct Phase<T, const N: usize> {
-    /// Peak contact radius.
+    /// Peak coordinate.
     pub(crate) peak: T,
     /// Squares without losses.
     pub(crate) free: [T; N],
@@ -28,7 +48,7 @@ pub(crate) struct Phase<T, const N: usize> {
     pub(crate) estimate: T,
 }
 
-/// What a phase loses over an energy, and what its nodes cannot represent.
+/// Relative energy loss of a phase, and estimates of the parts that its nodes do not resolve.
 pub(crate) struct Tails<T> {
     pub(crate) lost: T,
     /// Of the losses, over the energy.
@@ -38,22 +58,22 @@ pub(crate) struct Tails<T> {
 }
 
 impl<T: Real> Tails<T> {
-    /// Estimated error of e^2; quadrature is exact to twice the degree of the polynomial, so that it goes with squares.
+    /// Estimated error of e^2.
     pub(crate) fn error_of_energy(&self) -> T {
         let power = self.power * self.power / (self.lost + T::SMALLEST);
-        let slowness = T::constant(0.03) * self.lost * self.slowness * self.slowness;
-        T::constant(0.5) * power.max(slowness)
+        let slowness = T::constant(SLOWNESS_ERROR) * self.lost * self.slowness * self.slowness;
+        T::constant(ENERGY_ERROR) * power.max(slowness)
     }
 
-    /// Estimated error of integrals over time, in proportion to themselves, where the quadrature itself is exact.
+    /// Estimated relative error of integrals over time, if the quadrature itself is exact.
     pub(crate) fn error_of_times(&self) -> T {
         let square = self.slowness * self.slowness;
-        (T::constant(2e-3) * self.power).max(T::constant(0.06) * square * square)
+        (T::constant(TIME_ERROR_OF_LOSSES) * self.power).max(T::constant(TIME_ERROR_OF_SLOWNESS) * square * square)
     }
 }
 
 impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
-    /// The approach to the peak that an energy reaches, and what damping is estimated to take on the way.
+    /// The approach to the peak that an energy reaches, with an estimate of the energy that damping takes.
     pub(crate) fn approach<L: ContactLaw<T>>(law: &L, energy: T) -> Self {
         let zeros = [T::ZERO; N];
         let mut phase =
@@ -68,8 +88,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
             let root = if law.may_have_barrier() { free.max(T::SMALLEST).sqrt() } else { free.sqrt() };
             phase.speed[j] = root + Self::gain(ends, j);
         }
-        // The speed half-way stands for all.
-        let (first, last) = (T::constant(0.56) * T::END_WEIGHTS.0, T::constant(0.36) * T::END_WEIGHTS.1);
+        let (first, last) = (T::constant(FIRST_LOSS_WEIGHT) * T::END_WEIGHTS.0, T::constant(LAST_LOSS_WEIGHT) * T::END_WEIGHTS.1);
         phase.estimate = (first * ends.0 + last * ends.1) * (phase.speed[(N - 1) / 2] + phase.speed[N / 2]);
         let before = phase.peak;
         phase.correct_peak(law, energy, phase.estimate);
@@ -82,12 +101,12 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         phase
     }
 
-    /// From the approach to the rebound from the same peak, with what damping takes estimated.
+    /// From the approach to the rebound from the same peak, with an estimate of the losses.
     pub(crate) fn turn(&mut self, law: &impl ContactLaw<T>) {
         let before = self.ends();
         self.describe(law, true);
         let after = self.ends();
-        // What damping gave to the one, seen backwards, it takes from the other; what the losses differ by comes on top.
+        // Seen backwards, damping adds energy to the approach; it takes energy from the rebound.
         let change = (before.0 + after.0, before.1 + after.1);
         for j in 0..N {
             let speed = self.free[j] / self.speed[j] + Self::gain(change, j);
@@ -127,18 +146,18 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         drop + drop
     }
 
-    /// One sweep, with a step of Newton's method for the root at every node: the energy that the losses then give and, where
-    /// it is `MEASURED`, the square of the change of the speeds.
+    /// One iteration, with a step of Newton's method for the root at every node. Returns the energy of the losses and, if the
+    /// change is `MEASURED`, the square of the change of the speeds.
     ///
-    /// It multiplies by reciprocals of earlier speeds, which is as good as to divide while the speeds change little.
+    /// It multiplies by reciprocals of earlier speeds. That converges as fast as a division while the speeds change little.
     #[inline(never)]
-    pub(crate) fn sweep<const MEASURED: bool>(&mut self) -> (T, T) {
+    pub(crate) fn iterate<const MEASURED: bool>(&mut self) -> (T, T) {
         let half = T::constant(0.5);
         let mut square = self.free;
         T::add_integrals(&mut square, &self.loss, &self.speed);
         let (before, inverse) = (self.speed, self.half_inverse);
         for j in 0..N {
-            // A captured sphere turns before s = 0: the floor lets the loss exceed the energy all the same.
+            // A captured sphere turns before s = 0. The floor keeps the speed positive, so that the loss exceeds the energy.
             let speed = before[j] + inverse[j] * (square[j] - before[j] * before[j]);
             self.speed[j] = speed.max(T::SLOWEST);
         }
@@ -153,7 +172,8 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         (half * gained, change)
     }
 
-    /// One of Newton's steps for the peak whose potential, with what was lost on the way, is the energy; the energy there.
+    /// A step of Newton's method for the peak, where the potential and the losses add up to the energy. Returns the energy
+    /// at the peak.
     #[inline]
     pub(crate) fn correct_peak(&mut self, law: &impl ContactLaw<T>, energy: T, lost: T) -> T {
         let excess = law.potential(self.peak) + lost - energy;
@@ -164,8 +184,8 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         energy - (lost - growth * step)
     }
 
-    /// What the nodes cannot represent of the losses, as a share of the energy, and of the reciprocal speed, which is smooth
-    /// except near the slow end of a phase.
+    /// The unresolved parts of the losses, over the energy, and of the reciprocal speed, which is smooth except near the slow
+    /// end of a phase.
     pub(crate) fn tails(&self, energy: T) -> Tails<T> {
         let (mut power_tail, mut lost, mut slowness_tail, mut slowness) = (T::ZERO, T::ZERO, T::ZERO, T::ZERO);
         for k in 0..N {
@@ -186,15 +206,15 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         (T::constant(0.5) * self.loss[0], T::constant(0.5) * self.loss[N - 1])
     }
 
-    /// What losses linear in m^2, given by half their [`ends`](Self::ends), add to the speed at node j, to first order and as
-    /// if the speed were the same everywhere.
+    /// Speed that losses linear in m^2 add at node j, from half their [`ends`](Self::ends): to first order, and as if the
+    /// speed were the same everywhere.
     #[inline]
     fn gain((first, last): (T, T), j: usize) -> T {
         let (of_first, of_last) = T::END_INTEGRATION[j];
         first * of_first + last * of_last
     }
 
-    /// The whole phase at Radau's nodes, for what is integrated along it; z runs against time on approach.
+    /// The whole phase at Radau's nodes, for integrals along it. On approach z runs against time.
     pub(crate) fn samples<const M: usize>(&self, law: &impl ContactLaw<T>, rebound: bool) -> Interval<T, M>
     where
         T: PhaseSamples<N, M>,
@@ -232,7 +252,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         }
     }
 
-    /// Gains over z as a polynomial, in those of Legendre, from which [`part`](Self::part) reads the phase anywhere.
+    /// Gains over z as a series of Legendre polynomials, from which [`part`](Self::part) evaluates the phase anywhere.
     pub(crate) fn gains<const M: usize>(&self) -> [T; M]
     where
         T: PhaseSamples<N, M>,

@@ -155,7 +155,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
                 course = if course.rebound { Course::APPROACH } else { Course::REBOUND };
                 (ahead, behind) = (behind, self.at.s);
             }
-            self.effort = Effort { intervals: 0, refused: 0, sweeps: 0, nodes: N as u32, error: T::ZERO };
+            self.effort = Effort { intervals: 0, refused: 0, iterations: 0, nodes: N as u32, error: T::ZERO };
             let swing = self.swing::<N>(&well, ahead, course, &mut settling.creeps);
             path.effort.add(&self.effort);
             turned = swing == Ok(true);
@@ -208,7 +208,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
         loop {
             if !*creeps {
                 let arrival: Interval<T, N> =
-                    arrive(self.law, &self.at, beyond, course, &self.control, &mut self.effort.sweeps);
+                    arrive(self.law, &self.at, beyond, course, &self.control, &mut self.effort.iterations);
                 if self.take(&arrival, course, Some(arrival.end.s))? {
                     return Ok(true);
                 }
@@ -221,7 +221,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
                 let step = if *creeps { length.min(self.creeping_length(well)) } else { length };
                 let polynomial = (along(step), T::ZERO);
                 let interval: Interval<T, N> =
-                    pass(self.law, &self.at, polynomial, course, &self.control, &mut self.effort.sweeps);
+                    pass(self.law, &self.at, polynomial, course, &self.control, &mut self.effort.iterations);
                 let factor = self.length_factor(N, &interval);
                 if self.take(&interval, course, None)? {
                     length = step * factor.max(T::ONE);

@@ -72,7 +72,7 @@ impl<T: Real> RunReport<T> {
             status: Status::of(path),
             steps: effort.intervals,
             refused: effort.refused,
-            evaluations: effort.sweeps.saturating_mul(effort.nodes),
+            evaluations: effort.iterations.saturating_mul(effort.nodes),
             estimated_error: effort.error,
         }
     }
