@@ -1,7 +1,7 @@
 //! The contact simulation.
 
-use microimpact::contact::{Collocation, HystereticDamping, Ring, SimulatedImpact, Contact, TangentialContact};
-use microimpact::{Coulomb, CriticalSpeed, InputError, Sphere, Stiffness};
+use microimpact::contact::{self, AnyLaw, AnyScene, Collocation, SimulatedImpact, TangentialVelocities};
+use microimpact::{CriticalSpeed, InputError, Sphere, Stiffness};
 
 use crate::memory;
 use crate::status::{Class, Error, Failure, Motion, Status, finish, followed};
@@ -28,8 +28,8 @@ pub struct ContactScene {
     pub tolerance: f32,
 }
 
-type Surface = Simulation<f32, HystereticDamping<f32>, Ring<f32>>;
-type Scene = Simulation<f32, HystereticDamping<f32>, Ring<f32>, Coulomb<f32>>;
+/// Its law of contact is chosen at run time, so that there is one solver for all scenes.
+type Scene = AnyScene<f32>;
 type Method = Collocation<7, f32>;
 
 /// What suits single precision.
@@ -37,22 +37,24 @@ const TOLERANCE: f32 = 1e-6;
 
 impl ContactScene {
     pub(crate) fn check(self) -> Result<(Scene, Method), InputError> {
-        let (surface, method) = self.surface()?;
-        Ok((surface.with_friction(self.friction)?, method))
+        let sphere = Sphere::solid(self.radius, self.density)?;
+        let scene = contact::Contact::new(sphere, self.law()?).with_friction(self.friction)?;
+        Ok((scene, Collocation::new(self.tolerance)?))
     }
 
-    /// The scene without friction.
-    pub(crate) fn surface(self) -> Result<(Surface, Method), InputError> {
-        let scene = Contact::hertz(Sphere::solid(self.radius, self.density)?, Stiffness::new(self.stiffness)?)
-            .with_damping(self.material_damping)?
-            .with_ring(self.adhesion_strength, self.adhesion_damping)?;
-        Ok((scene, Collocation::new(self.tolerance)?))
+    fn law(self) -> Result<AnyLaw<f32>, InputError> {
+        let stiffness = Stiffness::new(self.stiffness)?;
+        let without_adhesion = AnyLaw::hertz(stiffness).with_damping(self.material_damping)?;
+        if self.adhesion_strength == 0.0 && self.adhesion_damping == 0.0 {
+            return Ok(without_adhesion);
+        }
+        AnyLaw::ring(stiffness, self.adhesion_strength, self.adhesion_damping)?.with_damping(self.material_damping)
     }
 
     /// The speed below which the surface holds a sphere of the same material.
     pub(crate) fn critical_speed(self, radius: f32) -> Result<CriticalSpeed<f32>, InputError> {
-        let (surface, method) = Self { radius, ..self }.surface()?;
-        surface.critical_speed(&method)
+        let (scene, method) = Self { radius, friction: 0.0, ..self }.check()?;
+        scene.critical_speed(&method)
     }
 }
 
@@ -127,8 +129,8 @@ pub unsafe extern "C" fn microimpact_simulate(
                     return Err(Failure::Status(Status::Capacity));
                 }
                 let motion = followed(memory::read(memory::element(motions, done)))?;
-                let contact = simulate(&scene, &method, motion)?;
-                followed(memory::write(memory::element_mut(results, done), contact))?;
+                let impact = scene.solve(&motion.check()?, &method)?;
+                followed(memory::write(memory::element_mut(results, done), Contact::of(&impact)?))?;
                 done += 1;
             }
             Ok(())
@@ -139,19 +141,15 @@ pub unsafe extern "C" fn microimpact_simulate(
     }
 }
 
-fn simulate(scene: &Scene, method: &Method, motion: Motion) -> Result<Contact, Failure> {
-    let impact: SimulatedImpact<f32, TangentialContact<f32>, ()> = scene.observe(method, &motion.check()?)?;
-    contact(&impact)
-}
-
-/// What C is told of an impact, whatever was observed besides.
-pub(crate) fn contact<O>(impact: &SimulatedImpact<f32, TangentialContact<f32>, O>) -> Result<Contact, Failure> {
-    let class = impact.class().ok_or(Failure::Status(Status::Unsolved))?;
-    Ok(Contact {
-        impact_class: class.into(),
-        restitution: impact.normal.overall_restitution(),
-        peak_indentation: impact.normal.peak_indentation().unwrap_or(-1.0),
-        tangential: impact.tangential.tangential(),
-        spin: impact.tangential.spin(),
-    })
+impl Contact {
+    pub(crate) fn of(impact: &SimulatedImpact<f32, TangentialVelocities<f32>>) -> Result<Self, Failure> {
+        let class = impact.class().ok_or(Failure::Status(Status::Unsolved))?;
+        Ok(Self {
+            impact_class: class.into(),
+            restitution: impact.normal.overall_restitution(),
+            peak_indentation: impact.normal.peak_indentation().unwrap_or(-1.0),
+            tangential: impact.tangential.velocity(),
+            spin: impact.tangential.spin(),
+        })
+    }
 }

@@ -1,8 +1,7 @@
 //! Tables: capture or rebound, restitution, and sliding or rolling, without a simulation.
 
-use microimpact::contact::{ContactImpulses, SimulatedImpact};
 use microimpact::table::{self, BoundarySlice, Lookup, TableOutcome, TableRebound};
-use microimpact::{Coulomb, InputError, NormalMotion, PlanarMotion, Sphere};
+use microimpact::{Coulomb, InputError, PlanarMotion, Sphere};
 
 use crate::memory;
 use crate::simulation::ContactScene;
@@ -174,10 +173,13 @@ impl Made {
         let gyration_ratio = Sphere::solid(smallest_radius, scene.density)?.gyration_ratio();
         let boundary = table::BoundaryTable::new(smallest_radius, |radius| scene.critical_speed(radius))?;
         let table = table::RestitutionTable::new(boundary, speed_ratio, |radius, speed| {
-            let (surface, method) = ContactScene { radius, ..scene }.surface()?;
-            let impact: SimulatedImpact<_, (), ContactImpulses<f32>> =
-                surface.observe(&method, &NormalMotion::new(speed)?)?;
-            let impulse = impact.outputs.elastic / (surface.sphere().mass() * speed);
+            // Friction of one takes the impulse of the elastic force from a velocity with which the sphere slides throughout: no
+            // other solver than that of the simulation.
+            let (scene, method) = ContactScene { radius, friction: 1.0, ..scene }.check()?;
+            let along = 10.0 * speed;
+            let motion = Motion { approach: speed, tangential: along, peripheral: 0.0 }.check()?;
+            let impact = scene.solve(&motion, &method)?;
+            let impulse = (along - impact.tangential.velocity()) / speed;
             Ok(TableRebound { restitution: impact.normal.overall_restitution(), impulse })
         })?;
         Ok(Self { mark: MARK, table, friction, gyration_ratio })

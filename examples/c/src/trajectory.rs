@@ -1,9 +1,9 @@
 //! The course of a simulated impact.
 
-use microimpact::contact::{self, SimulatedImpact, TangentialContact, Trajectory};
+use microimpact::contact::{self, Recording, Slip, Trajectory};
 
 use crate::memory;
-use crate::simulation::{Contact, ContactScene, contact};
+use crate::simulation::{Contact, ContactScene};
 use crate::status::{Error, Failure, Motion, Status, finish, followed};
 
 /// Least room for a trajectory: first touch, peak, beginning of rolling and end.
@@ -28,9 +28,9 @@ pub struct Sample {
     pub elastic: f32,
 }
 
-impl From<simulation::Sample<f32>> for Sample {
-    fn from(sample: simulation::Sample<f32>) -> Self {
-        let simulation::Sample { time, indentation, velocity, force, elastic } = sample;
+impl From<contact::Sample<f32>> for Sample {
+    fn from(sample: contact::Sample<f32>) -> Self {
+        let contact::Sample { time, indentation, velocity, force, elastic } = sample;
         Self { time, indentation, velocity, force, elastic }
     }
 }
@@ -64,12 +64,12 @@ pub unsafe extern "C" fn microimpact_simulate_trajectory(
             followed(memory::room(samples))?;
             let (scene, method) = followed(memory::read(scene))?.check()?;
             let motion = followed(memory::read(motion))?.check()?;
-            let impact: SimulatedImpact<f32, TangentialContact<f32>, Trajectory<f32, LARGEST_TRAJECTORY>> =
-                scene.observe(&method, &motion)?;
-            followed(memory::write(result, contact(&impact)?))?;
+            let (impact, (_, trajectory)) =
+                scene.solve_for(&motion, &method, (Slip, Recording::<LARGEST_TRAJECTORY>))?;
+            followed(memory::write(result, Contact::of(&impact)?))?;
             let mut done = 0;
-            let mut thinning = Thinning::new(&impact.outputs, capacity);
-            for sample in impact.outputs.samples().filter(|sample| thinning.keeps(sample)).take(capacity) {
+            let mut thinning = Thinning::new(&trajectory, capacity);
+            for sample in trajectory.samples().filter(|sample| thinning.keeps(sample)).take(capacity) {
                 followed(memory::write(memory::element_mut(samples, done), sample.into()))?;
                 done += 1;
             }
@@ -82,7 +82,7 @@ pub unsafe extern "C" fn microimpact_simulate_trajectory(
 /// What decides which samples of a trajectory are kept where there is room for fewer.
 struct Thinning {
     /// First touch, peak, beginning of rolling and end, each until it has come.
-    marked: [Option<simulation::Sample<f32>>; SMALLEST_TRAJECTORY],
+    marked: [Option<contact::Sample<f32>>; SMALLEST_TRAJECTORY],
     /// Intervals of time of which one other sample is kept each, to the second; none where there is room for all.
     rate: Option<f32>,
     /// The first interval of which none has been kept.
@@ -106,7 +106,7 @@ impl Thinning {
         }
     }
 
-    fn keeps(&mut self, sample: &simulation::Sample<f32>) -> bool {
+    fn keeps(&mut self, sample: &contact::Sample<f32>) -> bool {
         let Some(rate) = self.rate else { return true };
         if self.marked.iter_mut().any(|marked| marked.take_if(|marked| marked == sample).is_some()) {
             return true;

@@ -3,8 +3,7 @@
 use std::fmt::Write;
 
 use microimpact::contact::{
-    Collocation, ContactImpulses, HystereticDamping, Ring, Sample, SimulatedImpact, Contact, TangentialContact,
-    Trajectory,
+    Collocation, Contact, ContactLaw, PaperScene, Recording, RingScene, Sample, Slip, Trajectory,
 };
 use microimpact::table::{BoundarySlice, BoundaryTable, Lookup, RestitutionTable, TableRebound};
 use microimpact::{
@@ -75,14 +74,14 @@ fn impacts() -> Result<String, InputError> {
                 impact.tangential.peripheral(),
             ],
         );
-        let impact: SimulatedImpact<f32, TangentialContact<f32>, ()> = contact.observe(&method, &motion)?;
+        let impact = contact.solve(&motion, &method)?;
         line(
             &mut simulated,
             &format!("contact {index} {}", impact.class().map_or(u8::MAX, |class| class as u8)),
             &[
                 impact.normal.overall_restitution(),
                 impact.normal.peak_indentation().unwrap_or(-1.0),
-                impact.tangential.tangential(),
+                impact.tangential.velocity(),
                 impact.tangential.spin(),
             ],
         );
@@ -95,25 +94,22 @@ fn impacts() -> Result<String, InputError> {
 fn trajectories() -> Result<String, InputError> {
     let c = f32::constant;
     let contact = surface(c(RADIUS_M))?.with_friction(c(FRICTION))?;
-    let sphere = Sphere::solid(c(RADIUS_M), c(DENSITY_KG_M3))?;
-    // Absent terms are strengths of zero in C.
-    let elastic = Contact::hertz(sphere, Stiffness::new(c(STIFFNESS_PA))?)
-        .with_damping(0.0)?
-        .with_ring(0.0, 0.0)?
-        .with_friction(0.0)?;
+    // In C, a strength of zero is an absent term.
+    let elastic = Contact::hertz(*contact.sphere(), Stiffness::new(c(STIFFNESS_PA))?).with_friction(0.0)?;
+    Ok(trajectories_of("trajectory", &contact)? + &trajectories_of("elastic", &elastic)?)
+}
+
+fn trajectories_of<L: ContactLaw<f32>>(name: &str, scene: &Contact<f32, L, Coulomb<f32>>) -> Result<String, InputError> {
     let method = Collocation::<7, f32>::new(1e-6)?;
     let mut text = String::new();
-    for (name, scene) in [("trajectory", contact), ("elastic", elastic)] {
-        for (index, before) in MOTIONS.into_iter().enumerate() {
-            let impact: SimulatedImpact<f32, TangentialContact<f32>, Trajectory<f32, 64>> =
-                scene.observe(&method, &motion(before)?)?;
-            let whole: Vec<Sample<f32>> = impact.outputs.samples().collect();
-            for samples in [&whole, &least(&impact.outputs)] {
-                let class = impact.class().map_or(u8::MAX, |class| class as u8);
-                line(&mut text, &format!("{name} {index} {class}"), &[impact.normal.overall_restitution()]);
-                for Sample { time, indentation, velocity, force, elastic } in samples {
-                    line(&mut text, "sample", &[*time, *indentation, *velocity, *force, *elastic]);
-                }
+    for (index, before) in MOTIONS.into_iter().enumerate() {
+        let (impact, (_, trajectory)) = scene.solve_for(&motion(before)?, &method, (Slip, Recording::<64>))?;
+        let whole: Vec<Sample<f32>> = trajectory.samples().collect();
+        for samples in [&whole, &least(&trajectory)] {
+            let class = impact.class().map_or(u8::MAX, |class| class as u8);
+            line(&mut text, &format!("{name} {index} {class}"), &[impact.normal.overall_restitution()]);
+            for Sample { time, indentation, velocity, force, elastic } in samples {
+                line(&mut text, "sample", &[*time, *indentation, *velocity, *force, *elastic]);
             }
         }
     }
@@ -129,9 +125,7 @@ fn least(whole: &Trajectory<f32, 64>) -> Vec<Sample<f32>> {
     samples
 }
 
-type Surface<T> = Simulation<T, HystereticDamping<T>, Ring<T>>;
-
-fn surface<T: Real>(radius: T) -> Result<Surface<T>, InputError> {
+fn surface<T: Real>(radius: T) -> Result<RingScene<T>, InputError> {
     let c = T::constant;
     let sphere = Sphere::solid(radius, c(DENSITY_KG_M3))?;
     Contact::hertz(sphere, Stiffness::new(c(STIFFNESS_PA))?)
@@ -178,10 +172,11 @@ fn restitutions() -> Result<String, InputError> {
     let method = Collocation::<7, f32>::new(1e-6)?;
     let boundary = BoundaryTable::new(SMALLEST_RADIUS, |radius| surface(radius)?.critical_speed(&method))?;
     let table = RestitutionTable::<f32, 8, 6, 10>::new(boundary, LARGEST_SPEED_RATIO, |radius, speed| {
-        let surface = surface(radius)?;
-        let impact: SimulatedImpact<_, (), ContactImpulses<f32>> =
-            surface.observe(&method, &NormalMotion::new(speed)?)?;
-        let impulse = impact.outputs.elastic / (surface.sphere().mass() * speed);
+        // Friction of one takes the impulse of the elastic force from a velocity with which the sphere slides throughout.
+        let scene: PaperScene<f32> = surface(radius)?.with_friction(1.0)?;
+        let along = 10.0 * speed;
+        let impact = scene.solve(&motion([speed, along, 0.0])?, &method)?;
+        let impulse = (along - impact.tangential.velocity()) / speed;
         Ok(TableRebound { restitution: impact.normal.overall_restitution(), impulse })
     })?;
     let friction = Coulomb::new(f32::constant(FRICTION))?;
