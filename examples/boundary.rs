@@ -6,200 +6,27 @@ use microimpact::contact::{Collocation, Contact};
 use microimpact::table::{BoundaryTable, TableOutcome};
 use microimpact::{InputError, NormalMotion, Sphere, Stiffness};
 
-use clap::{Parser, ValueEnum};
-use microimpact::contact::{Collocation, Contact};
-use microimpact::table::BoundaryTable;
-use microimpact::{InputError, Sphere, Stiffness};
+fn main() -> Result<(), InputError> {
+    let method = Collocation::<9, f64>::new(1e-9)?;
+    // Twelve cells of a quarter of an octave each, from a radius of 2 um on.
+    let table = BoundaryTable::<12>::new(2e-6, |radius| {
+        let sphere = Sphere::solid(radius, 2600.0)?;
+        Contact::hertz(sphere, Stiffness::new(7.5e10)?)
+            .with_damping(10.5)?
+            .with_ring(250.0, 6.25)?
+            .critical_speed(&method)
+    })?;
+    println!("largest relative error: {:.1e}", table.margin::<f64>());
 
-/// Make a table that classifies capture or rebound of spheres of one material on one surface.
-///
-/// What is not given is that of the paper, whose program halves the damping of adhesion. The table begins at the whole
-/// quarter of an octave in which the smallest radius lies; each cell is a quarter of an octave.
-///
-/// Exit status: 0, or 2 if there is no such table; the reason goes to standard error.
-#[derive(Parser)]
-#[command(name = "boundary", allow_negative_numbers = true)]
-struct Options {
-    /// Radius from which the table is to reach, m
-    #[arg(long, default_value_t = 1e-6)]
-    smallest_radius: f64,
-    /// Number of cells; four are an octave of radii
-    #[arg(long, default_value_t = 24, value_parser = clap::value_parser!(u32).range(1..=MOST_CELLS as i64))]
-    cells: u32,
-    /// Density of the spheres, kg/m^3
-    #[arg(long, default_value_t = 2600.0)]
-    density: f64,
-    /// Hertz stiffness K, Pa
-    #[arg(long, default_value_t = 7.5e10)]
-    stiffness: f64,
-    /// Strength f0 of adhesion, N/m
-    #[arg(long, default_value_t = 250.0)]
-    adhesion: f64,
-    /// Damping zeta_H in the materials
-    #[arg(long, default_value_t = 10.5)]
-    zeta_h: f64,
-    /// Damping zeta_A of adhesion
-    #[arg(long, default_value_t = 6.25)]
-    zeta_a: f64,
-    /// Language of the table
-    #[arg(long, value_enum, default_value_t = Format::Rust)]
-    format: Format,
-}
-
-/// How the table is written.
-#[derive(Clone, Copy, ValueEnum)]
-enum Format {
-    /// A constant
-    Rust,
-    /// Constants and a function, for C99
-    C,
-    /// A row for each cell
-    Csv,
-}
-
-/// Eight octaves.
-const MOST_CELLS: usize = 32;
-
-/// A table of a length that is known only now.
-struct Parts {
-    smallest: f32,
-    margin: u32,
-    relative_margin: f64,
-    cells: Vec<[i32; 4]>,
-}
-
-impl Options {
-    fn parts<const N: usize>(&self) -> Result<Parts, InputError> {
-        let method = Collocation::<9, f64>::new(1e-9)?;
-        let table = BoundaryTable::<N>::new(self.smallest_radius, |radius| {
-            let sphere = Sphere::solid(radius, self.density)?;
-            Contact::hertz(sphere, Stiffness::new(self.stiffness)?)
-                .with_damping(self.zeta_h)?
-                .with_ring(self.adhesion, self.zeta_a)?
-                .critical_speed(&method)
-        })?;
-        let (smallest, margin, cells) = table.parts();
-        Ok(Parts { smallest, margin, relative_margin: table.margin(), cells: cells.to_vec() })
-    }
-
-    /// The table of so many cells as asked for: the number is part of its type.
-    fn table(&self) -> Result<Parts, InputError> {
-        macro_rules! of_length {
-            ($($cells:literal)*) => {
-                match self.cells {
-                    $($cells => self.parts::<$cells>(),)*
-                    _ => self.parts::<MOST_CELLS>(),
-                }
-            };
-        }
-        of_length!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31)
-    }
-
-    /// What the table is of, in a line.
-    fn subject(&self, parts: &Parts) -> String {
-        let Self { density, stiffness, adhesion, zeta_h, zeta_a, .. } = self;
-        let margin = parts.relative_margin;
-        format!(
-            "density {density} kg/m^3, K {stiffness:e} Pa, f0 {adhesion} N/m, zeta_H {zeta_h}, zeta_A {zeta_a}; \
-             greatest relative error {margin:.1e}"
-        )
-    }
-}
-
-fn main() -> ExitCode {
-    match run(&Options::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            // Nothing can be done where standard error is closed too.
-            let _ = writeln!(io::stderr(), "boundary: {error}");
-            ExitCode::from(2)
-        }
-    }
-}
-
-fn run(options: &Options) -> Result<(), Box<dyn Error>> {
-    let parts = options.table()?;
-    let subject = options.subject(&parts);
-    let to = &mut io::stdout().lock();
-    let written = match options.format {
-        Format::Rust => rust(to, &parts, &subject),
-        Format::C => c(to, &parts, &subject),
-        Format::Csv => csv(to, &parts),
-    };
-    // Whoever reads has enough.
-    Ok(written.or_else(|error| if error.kind() == io::ErrorKind::BrokenPipe { Ok(()) } else { Err(error) })?)
-}
-
-fn rust(to: &mut impl Write, parts: &Parts, subject: &str) -> io::Result<()> {
-    let Parts { smallest, margin, cells, .. } = parts;
-    let count = cells.len();
-    writeln!(to, "/// Critical speeds: {subject}.")?;
-    writeln!(to, "const BOUNDARY: microimpact::table::BoundaryTable<{count}> =")?;
-    writeln!(to, "    match microimpact::table::BoundaryTable::from_parts({smallest:e}, {margin}, [")?;
-    for [constant, linear, square, cube] in cells {
-        writeln!(to, "        [{constant}, {linear}, {square}, {cube}],")?;
-    }
-    writeln!(to, "    ]) {{")?;
-    writeln!(to, "        Ok(table) => table,")?;
-    writeln!(to, "        Err(_) => panic!(\"no boundary table\"),")?;
-    writeln!(to, "    }};")
-}
-
-fn c(to: &mut impl Write, parts: &Parts, subject: &str) -> io::Result<()> {
-    let Parts { smallest, margin, cells, .. } = parts;
-    writeln!(to, "/* Critical speeds: {subject}. */")?;
-    writeln!(to, "#include <stdint.h>\n#include <string.h>\n")?;
-    writeln!(
-        to,
-        "/* With microimpact.h: {{BOUNDARY_SMALLEST_RADIUS, BOUNDARY_MARGIN, boundary, BOUNDARY_CELLS}} is a table. */"
-    )?;
-    writeln!(to, "#define BOUNDARY_CELLS {}u", cells.len())?;
-    writeln!(to, "#define BOUNDARY_SMALLEST_RADIUS {smallest:e}f /* m */")?;
-    writeln!(to, "#define BOUNDARY_FIRST {}u /* bits of the smallest radius */", smallest.to_bits())?;
-    writeln!(to, "#define BOUNDARY_MARGIN {margin}u\n")?;
-    writeln!(to, "static const int32_t boundary[BOUNDARY_CELLS][4] = {{")?;
-    for [constant, linear, square, cube] in cells {
-        writeln!(to, "    {{{constant}, {linear}, {square}, {cube}}},")?;
-    }
-    writeln!(to, "}};\n")?;
-    write!(to, "{C_FUNCTION}")
-}
-
-/// The same arithmetic as the library's; a test compares the two.
-const C_FUNCTION: &str = "\
-enum boundary_verdict { BOUNDARY_REBOUND, BOUNDARY_CAPTURE, BOUNDARY_TOO_CLOSE_TO_CALL, BOUNDARY_OUTSIDE_TABLE };
-
-/* Radius in m; approach speed in m/s, from 1e-12 to 1e6. Right shifts of negative numbers keep the sign. */
-static inline enum boundary_verdict boundary_classify(float radius, float speed)
-{
-    uint32_t r, v, from_first, f, q;
-    memcpy(&r, &radius, sizeof r);
-    memcpy(&v, &speed, sizeof v);
-    from_first = r - BOUNDARY_FIRST;
-    if ((from_first >> 21) >= BOUNDARY_CELLS || v < 0x2b8cbcccu || v > 0x49742400u)
-        return BOUNDARY_OUTSIDE_TABLE;
-    const int32_t *cell = boundary[from_first >> 21];
-    int64_t place = (int64_t)((from_first >> 5) & 0xffffu) - 0x8000;
-    int32_t edge = cell[3];
-    for (int i = 2; i >= 0; i--)
-        edge = cell[i] + (int32_t)((edge * place) >> 16);
-    f = (v >> 7) & 0xffffu;
-    q = 19455u - ((5918u * f) >> 16);
-    q = 35020u - ((q * f) >> 16);
-    q = 57923u - ((q * f) >> 16);
-    int32_t excess = (int32_t)(v + ((((f * (0x10000u - f)) >> 14) * q) >> 12)) - edge;
-    if (excess < 0)
-        return BOUNDARY_CAPTURE;
-    return (uint32_t)excess <= 2u * BOUNDARY_MARGIN ? BOUNDARY_TOO_CLOSE_TO_CALL : BOUNDARY_REBOUND;
-}
-";
-
-fn csv(to: &mut impl Write, parts: &Parts) -> io::Result<()> {
-    writeln!(to, "radius_from_m,radius_to_m,constant,linear,square,cube,margin")?;
-    for (k, [constant, linear, square, cube]) in parts.cells.iter().enumerate() {
-        // Cells are equal in the bits of a radius.
-        let radius = |k: usize| f32::from_bits(parts.smallest.to_bits() + ((k as u32) << 21));
-        writeln!(to, "{:e},{:e},{constant},{linear},{square},{cube},{}", radius(k), radius(k + 1), parts.margin)?;
+    // Looked up in single precision, as firmware does.
+    for (radius, speed) in [(2.5e-6_f32, 2.8), (2.5e-6, 5.1596), (5.06e-6, 2.8), (1e-3, 2.8)] {
+        let outcome = match table.classify(radius, &NormalMotion::new(speed)?) {
+            TableOutcome::Rebound => "rebound",
+            TableOutcome::Capture => "capture",
+            TableOutcome::TooCloseToCall => "too close to the critical speed",
+            TableOutcome::OutsideTable => "the table does not reach this radius",
+        };
+        println!("radius {radius:e} m, {speed} m/s: {outcome}");
     }
     Ok(())
 }

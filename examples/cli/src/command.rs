@@ -1,76 +1,139 @@
-//! What the commands that work on tables have in common: where a table comes from, what is made of it, and how it ends.
+//! What the commands share: options, the table that they read, the result that they write, and the exit status.
 
 use std::error::Error;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use comfy_table::{Cell, CellAlignment, ContentArrangement, Table, presets};
-
-use sheet::{Row, Sheet};
+use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
+use microimpact::contact::{Adaptive, AdaptiveNodes};
+use microimpact::measure::NormalDistribution;
+use microimpact::{InputError, Real};
+use sheet::{Row, Scalar, Sheet};
 
 use crate::Streams;
 
-/// The options that all of these commands have.
+/// A number type that all commands can compute in.
+pub trait Number: Scalar + AdaptiveNodes + NormalDistribution + Into<f64> {}
+
+impl<T: Scalar + AdaptiveNodes + NormalDistribution + Into<f64>> Number for T {}
+
+/// Options of a command that reads a table and adds columns to it.
 #[derive(Args)]
 pub struct TableOptions {
-    /// Table to work on; `-` for standard input. Without it, the bundled one.
+    /// CSV file to read; `-` for standard input. Without it the command reads its bundled table.
     file: Option<PathBuf>,
-    /// A table to read, or the whole result for a spreadsheet.
+    /// Format of the result: a summary to read, or CSV with all columns.
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
-    /// Number type to compute in.
+    /// Number type of the computation.
     #[arg(long, value_enum, default_value_t = ScalarType::F64)]
     scalar: ScalarType,
 }
 
-/// How a result is written.
+/// What the help of each command that reads a table says at its end.
+pub const TABLE_HELP: &str = "\
+CSV files may use commas, semicolons or tabs, and decimal commas with the latter two. The command copies all other columns. \
+If an input column has the name of a computed column, its copy is named input_NAME.
+
+Exit status: 0 on success; 1 if a row is bad (the column `error` gives the reason); 2 if the table cannot be read.";
+
+/// Options of a command that simulates contacts.
+#[derive(Args)]
+pub struct SimulationOptions {
+    /// Largest error of the simulation: of the squared restitution, and of a critical speed relative to that speed. The
+    /// rounding of the number type limits it.
+    #[arg(long, default_value_t = 1e-9)]
+    tolerance: f64,
+}
+
+impl SimulationOptions {
+    /// The method that keeps this tolerance.
+    pub fn method<T: Real>(&self) -> Result<Adaptive<T>, InputError> {
+        Adaptive::new(T::constant(self.tolerance))
+    }
+}
+
+/// Format of a result.
 #[derive(Clone, Copy, ValueEnum)]
 enum Format {
-    /// To read.
+    /// A summary to read.
     Table,
-    /// The whole result, for a spreadsheet.
+    /// All columns, for a spreadsheet.
     Csv,
 }
 
-/// The number type to compute in.
+/// Number type of the computation.
 #[derive(Clone, Copy, ValueEnum)]
 enum ScalarType {
     F32,
     F64,
 }
 
-/// What is made of each row of a table.
-pub trait Work {
-    /// Columns that are computed, in the order they are written; the column `error` follows them.
-    fn columns(&self) -> Vec<String>;
+/// A command that reads a table and adds columns to it.
+pub trait TableCommand {
+    /// The name under which it reports errors.
+    const NAME: &'static str;
 
-    /// The computed cells of a row. Where there is an error, cells that could be computed all the same may be filled.
-    fn cells(&self, row: &Row<'_>) -> (Vec<String>, Result<(), String>);
+    /// The options that all of these commands have.
+    fn options(&self) -> &TableOptions;
 
-    /// Column heads of the readable table.
-    fn heads(&self) -> Vec<&'static str>;
+    /// Runs in numbers of type `T`.
+    fn run_in<T: Number>(&self, streams: &mut Streams<'_>) -> BadRows;
 
-    /// How many of its columns, from the left, hold words.
-    fn words(&self) -> usize;
-
-    /// A line of the readable table.
-    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<Cell>, String>;
+    /// Runs the command; its exit status.
+    fn run(&self, streams: &mut Streams<'_>) -> u8 {
+        let outcome = match self.options().scalar {
+            ScalarType::F32 => self.run_in::<f32>(streams),
+            ScalarType::F64 => self.run_in::<f64>(streams),
+        };
+        exit_status(Self::NAME, outcome, streams.errors)
+    }
 }
 
-/// The number of bad rows, or why nothing could be done.
+/// What a command computes from each row of a table.
+pub trait Work {
+    /// Computed columns, in the order in which they are written; the column `error` follows them.
+    fn columns(&self) -> Vec<String>;
+
+    /// The computed cells of a row.
+    fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow>;
+
+    /// Column heads of the summary.
+    fn heads(&self) -> Vec<&'static str>;
+
+    /// How many columns of the summary, from the left, hold words.
+    fn words(&self) -> usize;
+
+    /// A line of the summary.
+    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String>;
+}
+
+/// A row that could not be computed, or only in part.
+pub struct BadRow {
+    /// Why.
+    pub reason: String,
+    /// The cells that could be computed; cells that are missing at the end are left empty.
+    pub cells: Vec<String>,
+}
+
+impl From<String> for BadRow {
+    fn from(reason: String) -> Self {
+        Self { reason, cells: Vec::new() }
+    }
+}
+
+/// The number of bad rows, or why the command failed.
 pub type BadRows = Result<usize, Box<dyn Error>>;
 
 impl TableOptions {
-    /// Works on all rows of a file, of standard input where it is `-`, or of a bundled table.
+    /// Computes all rows of a file, of standard input if the file is `-`, or of a bundled table if there is no file.
     pub fn work(&self, bundled: &str, work: &impl Work, streams: &mut Streams<'_>) -> BadRows {
         let source: Box<dyn BufRead> = match &self.file {
             None => Box::new(bundled.as_bytes()),
             Some(path) if path.as_os_str() == "-" => Box::new(&mut *streams.input),
-            Some(path) => {
-                Box::new(BufReader::new(File::open(path).map_err(|error| format!("{}: {error}", path.display()))?))
-            }
+            Some(path) => Box::new(open(path)?),
         };
         let sheet = Sheet::open(source)?;
         match self.format {
@@ -78,38 +141,28 @@ impl TableOptions {
             Format::Table => write_table(sheet, &mut *streams.output, work),
         }
     }
-
-    /// Runs a command in the number type asked for; its exit status.
-    pub fn run(
-        &self,
-        command: &str,
-        streams: &mut Streams<'_>,
-        single: impl FnOnce(&mut Streams<'_>) -> BadRows,
-        double: impl FnOnce(&mut Streams<'_>) -> BadRows,
-    ) -> u8 {
-        let outcome = match self.scalar {
-            ScalarType::F32 => single(streams),
-            ScalarType::F64 => double(streams),
-        };
-        exit_status(command, outcome, streams.errors)
-    }
 }
 
-/// The exit status of a command: 0, or 1 if a row was bad, or 2 if nothing could be done.
+/// Opens a file to read.
+pub fn open(path: &Path) -> Result<BufReader<File>, String> {
+    File::open(path).map(BufReader::new).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// The exit status of a command: 0 on success, 1 if a row was bad, 2 if the command failed.
 pub fn exit_status(command: &str, outcome: BadRows, errors: &mut dyn Write) -> u8 {
     let (status, message) = match outcome {
         Ok(0) => return 0,
-        Ok(1) => (1, "1 bad row, with its reason".to_owned()),
-        Ok(bad_rows) => (1, format!("{bad_rows} bad rows, each with its reason")),
+        Ok(1) => (1, "1 bad row; the row gives the reason".to_owned()),
+        Ok(bad_rows) => (1, format!("{bad_rows} bad rows; each row gives its reason")),
         Err(error) if is_broken_pipe(error.as_ref()) => return 0,
         Err(error) => (2, error.to_string()),
     };
-    // Nothing can be done where standard error is closed too.
+    // If standard error is closed too, there is nowhere left to report to.
     let _ = writeln!(errors, "{command}: {message}");
     status
 }
 
-/// Whether the reader of our output has gone away, as `head` does.
+/// Whether the reader of the output has closed it, as `head` does.
 fn is_broken_pipe(error: &(dyn Error + 'static)) -> bool {
     let io_error = match error.downcast_ref::<csv::Error>().map(csv::Error::kind) {
         Some(csv::ErrorKind::Io(error)) => Some(error),
@@ -125,13 +178,12 @@ fn write_csv(mut sheet: Sheet<Box<dyn BufRead + '_>>, sink: impl Write, work: &i
     let mut writer = sheet.writer(io::BufWriter::new(sink), &columns)?;
     let mut bad_rows = 0;
     while let Some(row) = sheet.next_row()? {
-        let (mut cells, result) = match row.check() {
-            Ok(()) => work.cells(&row),
-            Err(reason) => (Vec::new(), Err(reason)),
-        };
+        let computed_cells = row.check().map_err(BadRow::from).and_then(|()| work.cells(&row));
+        bad_rows += usize::from(computed_cells.is_err());
+        let BadRow { reason, mut cells } =
+            computed_cells.map_or_else(|bad| bad, |cells| BadRow { reason: String::new(), cells });
         cells.resize(computed, String::new());
-        bad_rows += usize::from(result.is_err());
-        cells.push(result.err().unwrap_or_default());
+        cells.push(reason);
         writer.write(&row, &cells)?;
     }
     writer.finish()?;

@@ -3,12 +3,15 @@
 use std::io::{BufRead, Write};
 
 use clap::{Parser, Subcommand};
+use command::TableCommand;
 
 mod analyse;
 mod classify;
 mod command;
 mod critical;
+mod figure;
 pub mod fit;
+mod inputs;
 mod table;
 mod words;
 
@@ -30,7 +33,7 @@ enum Command {
     Fit(fit::Options),
 }
 
-/// Where a command reads and writes.
+/// The streams that a command reads and writes.
 pub struct Streams<'a> {
     /// Standard input.
     pub input: &'a mut dyn BufRead,

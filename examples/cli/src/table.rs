@@ -1,4 +1,4 @@
-//! Makes a table of critical speeds by the contact simulation, for firmware that does not make it itself.
+//! Makes a table of critical speeds by the contact simulation, for firmware that does not compute it itself.
 //!
 //! `cargo microimpact table` writes a Rust constant for the paper's surface;
 //! `cargo microimpact table --format c` an array for C, with the function that reads it.
@@ -7,26 +7,26 @@ use std::error::Error;
 use std::io::{self, Write};
 
 use clap::{Args, ValueEnum};
+use microimpact::contact::{AnyLaw, Collocation, Contact};
 use microimpact::table::BoundaryTable;
-use microimpact::contact::{Collocation, Contact};
 use microimpact::{InputError, Sphere, Stiffness};
 
 use crate::Streams;
 use crate::command::exit_status;
 
-/// Make a table that classifies capture or rebound of spheres of one material on one surface.
+/// Make a table of critical speeds, which classifies spheres of one material on one surface as captured or rebounding.
 ///
-/// What is not given is that of the paper, whose program halves the damping of adhesion. The table begins at the whole
-/// quarter of an octave in which the smallest radius lies; each cell is a quarter of an octave.
+/// Options default to the values of the paper (zeta_A = 6.25 is half of the printed value, as in the paper's program). Cells
+/// divide each octave of radii into four; the table starts with the cell that contains the smallest radius.
 ///
-/// Exit status: 0, or 2 if there is no such table; the reason goes to standard error.
+/// Exit status: 0 on success; 2 if there is no such table (standard error gives the reason).
 #[derive(Args)]
 #[command(allow_negative_numbers = true)]
 pub struct Options {
-    /// Radius from which the table is to reach, m
+    /// Smallest radius, m
     #[arg(long, default_value_t = 1e-6)]
     smallest_radius: f64,
-    /// Number of cells; four are an octave of radii
+    /// Number of cells, four for each octave of radii
     #[arg(long, default_value_t = 24, value_parser = clap::value_parser!(u32).range(1..=MOST_CELLS as i64))]
     cells: u32,
     /// Density of the spheres, kg/m^3
@@ -49,12 +49,12 @@ pub struct Options {
     format: Format,
 }
 
-/// How the table is written.
+/// Language of the table.
 #[derive(Clone, Copy, ValueEnum)]
 enum Format {
     /// A constant
     Rust,
-    /// Constants and a function, for C99
+    /// Constants and a function for C99
     C,
     /// A row for each cell
     Csv,
@@ -63,7 +63,7 @@ enum Format {
 /// Eight octaves.
 const MOST_CELLS: usize = 32;
 
-/// A table of a length that is known only now.
+/// The parts of a table whose length was chosen at run time.
 struct Parts {
     smallest: f32,
     margin: u32,
@@ -79,18 +79,17 @@ impl Options {
 
     fn parts<const N: usize>(&self) -> Result<Parts, InputError> {
         let method = Collocation::<9, f64>::new(1e-9)?;
+        let law =
+            AnyLaw::ring(Stiffness::new(self.stiffness)?, self.adhesion, self.zeta_a)?.with_damping(self.zeta_h)?;
         let table = BoundaryTable::<N>::new(self.smallest_radius, |radius| {
             let sphere = Sphere::solid(radius, self.density)?;
-            Contact::hertz(sphere, Stiffness::new(self.stiffness)?)
-                .with_damping(self.zeta_h)?
-                .with_ring(self.adhesion, self.zeta_a)?
-                .critical_speed(&method)
+            Contact::new(sphere, law).critical_speed(&method)
         })?;
         let (smallest, margin, cells) = table.parts();
         Ok(Parts { smallest, margin, relative_margin: table.margin(), cells: cells.to_vec() })
     }
 
-    /// The table of so many cells as asked for: the number is part of its type.
+    /// The table with the number of cells asked for, which is part of its type.
     fn table(&self) -> Result<Parts, InputError> {
         macro_rules! of_length {
             ($($cells:literal)*) => {
@@ -103,7 +102,7 @@ impl Options {
         of_length!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31)
     }
 
-    /// What the table is of, in a line.
+    /// Materials and error of the table, in a line.
     fn subject(&self, parts: &Parts) -> String {
         let Self { density, stiffness, adhesion, zeta_h, zeta_a, .. } = self;
         let margin = parts.relative_margin;
@@ -160,7 +159,7 @@ fn c(to: &mut dyn Write, parts: &Parts, subject: &str) -> io::Result<()> {
     write!(to, "{C_FUNCTION}")
 }
 
-/// The same arithmetic as the library's; a test compares the two.
+/// The same arithmetic as that of the library; a test compares the two.
 const C_FUNCTION: &str = "\
 enum boundary_verdict { BOUNDARY_REBOUND, BOUNDARY_CAPTURE, BOUNDARY_TOO_CLOSE_TO_CALL, BOUNDARY_OUTSIDE_TABLE };
 
@@ -192,7 +191,7 @@ static inline enum boundary_verdict boundary_classify(float radius, float speed)
 fn csv(to: &mut dyn Write, parts: &Parts) -> io::Result<()> {
     writeln!(to, "radius_from_m,radius_to_m,constant,linear,square,cube,margin")?;
     for (k, [constant, linear, square, cube]) in parts.cells.iter().enumerate() {
-        // Cells are equal in the bits of a radius.
+        // Each cell spans 2^21 steps of the bits of a radius.
         let radius = |k: usize| f32::from_bits(parts.smallest.to_bits() + ((k as u32) << 21));
         writeln!(to, "{:e},{:e},{constant},{linear},{square},{cube},{}", radius(k), radius(k + 1), parts.margin)?;
     }

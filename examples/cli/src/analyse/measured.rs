@@ -1,20 +1,16 @@
-//! One measured impact: its coefficients with their standard errors, its class and how sure that is.
+//! One measured impact: its coefficients with their standard errors, its class, and the confidence in the class.
 
-use microimpact::measure::NormalDistribution;
 use microimpact::rigid::{Departure, EnergyLedger, infer, infer_assuming_rolling, infer_with_spins};
 use microimpact::{
-    Classification, ConstantRestitution, ContactClass, Dual, Impact, NormalMotion, Oblique, Outcome, Real,
-    RestitutionLaw, RigidBody, SpeedRestitution, Sphere, SurfaceMotion, TangentialImpact,
+    Classification, ContactClass, Dual, Impact, NormalMotion, Oblique, Outcome, Real, RigidBody, Sphere, SurfaceMotion,
+    TangentialImpact,
 };
+use sheet::{Row, reason};
 
-use sheet::{Row, Scalar, reason};
+use crate::command::Number;
+use crate::inputs::restitution_law;
 
-/// A number type that the analysis can run in.
-pub trait Number: Scalar + NormalDistribution + Into<f64> {}
-
-impl<T: Scalar + NormalDistribution + Into<f64>> Number for T {}
-
-/// Results with their derivatives by the six velocities that are measured: normal, tangential and peripheral, before and after.
+/// Results with their derivatives by the six measured velocities: normal, tangential and peripheral, before and after.
 pub type Inputs<T> = Dual<T, 6>;
 
 /// A measured impact and what follows from it.
@@ -38,15 +34,7 @@ const ROLLING: f64 = 3.0;
 impl<T: Number> Measured<T> {
     /// The impact of a row.
     pub fn of(row: &Row<'_>) -> Result<Self, String> {
-        match (row.number::<T>("restitution")?, row.number::<T>("restitution_speed_m_s")?) {
-            (Some(r), None) => Self::with_law(row, ConstantRestitution::new(Dual::fixed(r)).map_err(reason)?),
-            (None, Some(k)) => Self::with_law(row, SpeedRestitution::new(Dual::fixed(k)).map_err(reason)?),
-            (None, None) => Err("restitution: missing; give restitution or restitution_speed_m_s".into()),
-            (Some(_), Some(_)) => Err("restitution: given twice, as restitution and restitution_speed_m_s".into()),
-        }
-    }
-
-    fn with_law(row: &Row<'_>, law: impl RestitutionLaw<Inputs<T>> + Copy) -> Result<Self, String> {
+        let law = restitution_law(row, Dual::fixed)?;
         let sphere = sphere(row)?;
         let radius = sphere.radius().value;
         let error = row.number("velocity_error_m_s")?.unwrap_or(T::constant(VELOCITY_ERROR));
@@ -69,7 +57,9 @@ impl<T: Number> Measured<T> {
         let spinning = before.with_peripheral_velocity(turning).map_err(reason)?;
         let impact = match (spin, spin_out) {
             (None, None) => infer_assuming_rolling(&sphere, &law, &before, &after),
-            (None, Some(_)) => return Err("spin_out_rad_s: not without spin_rad_s".into()),
+            (None, Some(_)) => {
+                return Err("spin_out_rad_s: not without spin_rad_s; give both or leave spin_out_rad_s empty".into());
+            }
             (Some(_), None) => infer(&sphere, &law, &spinning, &after, Dual::fixed(tolerance)),
             (Some(_), Some(_)) => {
                 let spin_out = turning_out / sphere.radius();
@@ -141,7 +131,9 @@ fn sphere<T: Number>(row: &Row<'_>) -> Result<Sphere<Inputs<T>>, String> {
         (Some(radius), None) => radius,
         (None, Some(diameter)) => T::constant(0.5) * diameter,
         (None, None) => return Err("diameter_m: missing; give diameter_m or radius_m".into()),
-        (Some(_), Some(_)) => return Err("size: given twice, as radius_m and diameter_m".into()),
+        (Some(_), Some(_)) => {
+            return Err("size: given twice, as radius_m and diameter_m; leave one of them empty".into());
+        }
     };
     let kappa = row.number("gyration_ratio")?.unwrap_or(T::constant(0.4));
     Sphere::new(Dual::fixed(radius), Dual::fixed(row.required("density_kg_m3")?), Dual::fixed(kappa)).map_err(reason)

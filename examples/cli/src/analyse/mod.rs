@@ -1,4 +1,4 @@
-//! Analyses measured impacts with the rigid-body model: coefficients, energy, class and how sure it is.
+//! Analyses measured impacts by the rigid-body model: coefficients, energy, class, and the confidence in the class.
 //!
 //! `cargo microimpact analyse` shows a bundled table of synthetic impacts and two of the paper;
 //! `cargo microimpact analyse FILE.csv --format csv --plots FOLDER` adds the result to each row of a table and
@@ -14,74 +14,73 @@ use std::marker::PhantomData;
 use std::path::PathBuf;
 
 use clap::Args;
-use comfy_table::Cell;
 use indicatif::{ProgressBar, ProgressStyle};
 use microimpact::Real;
 use sheet::Row;
 
 use crate::Streams;
-use crate::command::{BadRows, TableOptions, Work};
+use crate::command::{BadRow, BadRows, Number, TABLE_HELP, TableCommand, TableOptions, Work};
 use crate::words::{motion_name, outcome_name};
-use measured::{Inputs, Measured, Number};
+use measured::{Inputs, Measured};
 use summary::Summary;
 
-/// Analyse measured impacts of microspheres: coefficients, energy, class and how sure it is.
+/// Analyse measured impacts of microspheres: coefficients, energy, class, and the confidence in the class. Without a table,
+/// analyse synthetic impacts and two of the paper.
 ///
-/// Columns read, in SI units; an empty cell means what stands in brackets:
-///   diameter_m or radius_m, density_kg_m3, gyration_ratio (k^2/r^2; 0.4, solid),
+/// Input columns, in SI units. Brackets give the value that an empty or absent cell has; the other columns are required.
+///   diameter_m or radius_m, density_kg_m3, gyration_ratio (k^2/r^2) [0.4, a solid sphere],
 ///   restitution (R) or restitution_speed_m_s (k of R = k/(k + v)),
-///   speed_normal_m_s (approach speed), speed_tangential_m_s (0), spin_rad_s (not measured: the sphere is taken to roll at
-///   separation, and the spin that this implies is computed),
-///   rebound_speed_m_s, speed_tangential_out_m_s, spin_out_rad_s (not measured: follows from friction alone),
-///   velocity_error_m_s (standard error of every measured velocity; 0.01).
-/// All other columns pass through; one that is named like a computed column is kept as input_NAME.
+///   speed_normal_m_s (approach speed, a positive number), speed_tangential_m_s [0],
+///   spin_rad_s [not measured: the sphere is assumed to roll at separation, and the spin that this implies is computed],
+///   rebound_speed_m_s, speed_tangential_out_m_s,
+///   spin_out_rad_s [not measured: the spin follows from friction alone],
+///   velocity_error_m_s (standard error of each measured velocity) [0.01].
 ///
-/// Computed: a slip within three of its standard errors counts as rolling. The confidence is the probability that the true
-/// velocities, normal about the measured ones, have the same class. A row with velocities that no impact can have is bad, and
-/// says why.
+/// Computed: a slip within three standard errors of zero counts as rolling. The confidence is the probability that the true
+/// velocities, normally distributed about the measured ones, have the same class. A row whose velocities no impact can have
+/// is bad.
 ///
-/// With --format csv rows are read and written one by one, so that a file may be larger than memory. Figures and the summary
-/// on standard error are made from at most 10000 rows drawn at random.
-///
-/// Exit status: 0, or 1 if a row was bad (its reason stands in the column `error`), or 2 if nothing could be read.
+/// With --format csv the command reads and writes row by row, so that a file may be larger than memory. Figures, and the
+/// statistics on standard error, use a random sample of at most 10000 rows.
 #[derive(Args)]
-#[command(verbatim_doc_comment)]
+#[command(verbatim_doc_comment, after_long_help = TABLE_HELP)]
 pub struct Options {
-    /// Folder for figures: velocity_ratio.svg and impulse_ratio.svg.
+    /// Folder for the figures velocity_ratio.svg and impulse_ratio.svg.
     #[arg(long)]
     plots: Option<PathBuf>,
     #[command(flatten)]
     table: TableOptions,
 }
 
-impl Options {
-    /// Runs the command; its exit status.
-    pub fn run(&self, streams: &mut Streams<'_>) -> u8 {
-        self.table.run("analyse", streams, |streams| run::<f32>(self, streams), |streams| run::<f64>(self, streams))
+impl TableCommand for Options {
+    const NAME: &'static str = "analyse";
+
+    fn options(&self) -> &TableOptions {
+        &self.table
+    }
+
+    fn run_in<T: Number>(&self, streams: &mut Streams<'_>) -> BadRows {
+        let analysis = Analysis::<T> { summary: RefCell::default(), progress: progress()?, scalar: PhantomData };
+        let bad_rows = self.table.work(include_str!("impacts.csv"), &analysis, streams)?;
+        analysis.progress.finish_and_clear();
+        let summary = analysis.summary.into_inner();
+        write!(streams.errors, "{summary}")?;
+        if let Some(folder) = &self.plots {
+            std::fs::create_dir_all(folder)?;
+            plots::velocity_ratio(&folder.join("velocity_ratio.svg"), &summary)?;
+            plots::impulse_ratio(&folder.join("impulse_ratio.svg"), &summary)?;
+        }
+        Ok(bad_rows)
     }
 }
 
-fn run<T: Number>(options: &Options, streams: &mut Streams<'_>) -> BadRows {
-    let analysis = Analysis::<T> { summary: RefCell::default(), progress: progress()?, scalar: PhantomData };
-    let bad_rows = options.table.work(include_str!("impacts.csv"), &analysis, streams)?;
-    analysis.progress.finish_and_clear();
-    let summary = analysis.summary.into_inner();
-    write!(streams.errors, "{summary}")?;
-    if let Some(folder) = &options.plots {
-        std::fs::create_dir_all(folder)?;
-        plots::velocity_ratio(&folder.join("velocity_ratio.svg"), &summary)?;
-        plots::impulse_ratio(&folder.join("impulse_ratio.svg"), &summary)?;
-    }
-    Ok(bad_rows)
-}
-
-/// A line on standard error that counts the rows, where that is a terminal.
+/// A line on standard error that counts the rows, if that is a terminal.
 fn progress() -> Result<ProgressBar, Box<dyn Error>> {
     let style = ProgressStyle::with_template("{human_pos} rows, {per_sec}, {elapsed}")?;
     Ok(ProgressBar::new_spinner().with_style(style))
 }
 
-/// The analysis in numbers of type `T`, and what is gathered while rows pass by.
+/// The analysis in numbers of type `T`, and the statistics of the rows so far.
 struct Analysis<T> {
     summary: RefCell<Summary>,
     progress: ProgressBar,
@@ -121,13 +120,10 @@ impl<T: Number> Work for Analysis<T> {
         .into()
     }
 
-    fn cells(&self, row: &Row<'_>) -> (Vec<String>, Result<(), String>) {
-        let measured = match self.compute(row) {
-            Ok(measured) => measured,
-            Err(reason) => return (Vec::new(), Err(reason)),
-        };
+    fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
+        let measured = self.compute(row)?;
         let ledger = measured.energy();
-        let cells = vec![
+        Ok(vec![
             outcome_name(measured.classification.outcome).into(),
             motion_name(measured.classification.contact.motion).into(),
             row.cell(measured.confidence),
@@ -144,8 +140,7 @@ impl<T: Number> Work for Analysis<T> {
             row.cell(ledger.adhesion.value),
             row.cell(ledger.friction.value),
             row.cell(ledger.rolling.value),
-        ];
-        (cells, Ok(()))
+        ])
     }
 
     fn heads(&self) -> Vec<&'static str> {
@@ -170,13 +165,13 @@ impl<T: Number> Work for Analysis<T> {
         2
     }
 
-    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<Cell>, String> {
+    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
         let measured = self.compute(row)?;
         let ledger = measured.energy();
-        let share =
+        let percent =
             |loss: Inputs<T>| format!("{:.1}", (Inputs::constant(100.0) * loss / ledger.before).value + T::ZERO);
         let with_error = |value: Inputs<T>, error: T| format!("{:.4} ± {error:.4}", value.value + T::ZERO);
-        let cells = [
+        Ok(vec![
             name,
             measured.classification.class().to_string(),
             format!("{:.0}", T::constant(100.0) * measured.confidence),
@@ -186,11 +181,10 @@ impl<T: Number> Work for Analysis<T> {
             with_error(measured.impulse_ratio(), measured.impulse_ratio_error()),
             format!("{:.4}", measured.impact.tangential.rolling_ratio().value + T::ZERO),
             measured.implied_spin().map_or("-".into(), |spin| format!("{spin:.2e}")),
-            share(ledger.material),
-            share(ledger.adhesion),
-            share(ledger.friction),
-            share(ledger.rolling),
-        ];
-        Ok(cells.into_iter().map(Cell::new).collect())
+            percent(ledger.material),
+            percent(ledger.adhesion),
+            percent(ledger.friction),
+            percent(ledger.rolling),
+        ])
     }
 }

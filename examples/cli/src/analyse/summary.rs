@@ -1,4 +1,4 @@
-//! What all impacts together say: counts, and parameters of the models from a sample of bounded size.
+//! Statistics of all impacts: counts of classes, and parameters of the models from a sample of bounded size.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -6,7 +6,8 @@ use std::fmt;
 use microimpact::measure::{CalibrationError, Estimate, ImpulseRatios, MeasuredRebound, RestitutionFit, friction};
 use microimpact::{CriticalSpeed, Sphere};
 
-use super::measured::{Measured, Number};
+use super::measured::Measured;
+use crate::command::Number;
 
 /// Impacts that are kept for figures and parameters.
 const SAMPLE: usize = 10_000;
@@ -38,7 +39,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Takes in an impact. Each has the same chance to be in the sample (Vitter's algorithm R).
+    /// Counts an impact. Each has the same chance to be in the sample (Vitter's algorithm R).
     pub fn add<T: Number>(&mut self, measured: &Measured<T>) {
         *self.classes.entry(measured.classification.class().to_string()).or_default() += 1;
         self.seen += 1;
@@ -57,7 +58,7 @@ impl Summary {
         }
     }
 
-    /// Restitution law and work of adhesion of the spheres that are like the first.
+    /// Restitution law and work of adhesion of the spheres that equal the first.
     pub fn restitution(&self) -> Result<RestitutionFit<f64>, CalibrationError> {
         let first = self.sample.first().ok_or(CalibrationError::TooFew)?;
         let alike = self.sample.iter().filter(|point| point.sphere == first.sphere);

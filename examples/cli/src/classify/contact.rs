@@ -1,65 +1,67 @@
 //! Rows by the contact simulation.
 
-use comfy_table::Cell;
-use microimpact::contact::{Adaptive, AdaptiveNodes, Groups, SimulatedImpact, Contact, TangentialContact};
-use microimpact::{Class, InputError, Outcome, Sphere, Stiffness, SurfaceMotion};
-use sheet::{Row, Scalar, reason};
+use microimpact::contact::{
+    Adaptive, AnyLaw, AnyScene, Contact, ContactImpulses, ContactTimes, ContactWorks, Energy, Groups, Impulses,
+    NormalContact, Slip, SlipHistory, TangentialVelocities, Times, Works,
+};
+use microimpact::rigid::EnergyLedger;
+use microimpact::{Class, InputError, Outcome, PlanarMotion, SurfaceMotion};
+use sheet::{Row, reason};
 
 use super::sphere_and_motion;
-use crate::command::Work;
+use crate::command::{BadRow, Number, Work};
+use crate::inputs::contact_law;
 use crate::words::{motion_name, outcome_name};
 
 /// The simulation to a tolerance, in numbers of type `T`.
 pub struct SimulationModel<T> {
-    method: Adaptive<T>,
+    pub method: Adaptive<T>,
 }
 
 /// A simulated impact.
 pub struct Simulated<T> {
-    sphere: Sphere<T>,
-    groups: Groups<T>,
-    outcome: Outcome,
+    pub outcome: Outcome,
     pub class: Class,
-    pub impact: SimulatedImpact<T, TangentialContact<T>>,
+    pub normal: NormalContact<T>,
+    /// Velocities after a rebound, or of a captured sphere when its slip has ended.
+    pub tangential: TangentialVelocities<T>,
+    times: ContactTimes<T>,
+    impulses: ContactImpulses<T>,
+    works: ContactWorks<T>,
+    /// The motion along the surface, of a captured sphere as far as it was followed.
+    slip: SlipHistory<T>,
+    energy: Option<EnergyLedger<T>>,
+    groups: Option<Groups<T>>,
 }
 
-impl<T: Scalar + AdaptiveNodes> SimulationModel<T> {
-    pub fn new(tolerance: f64) -> Result<Self, InputError> {
-        Ok(Self { method: Adaptive::new(T::constant(tolerance))? })
-    }
-
+impl<T: Number> SimulationModel<T> {
     /// Builds the scene of a row and simulates its impact.
     pub fn compute(&self, row: &Row<'_>) -> Result<Simulated<T>, String> {
         let (sphere, before) = sphere_and_motion(row)?;
-        let stiffness = Stiffness::new(row.required("stiffness_pa")?).map_err(reason)?;
-        let (zeta_h, zeta_a) = (row.or_zero("zeta_h")?, row.or_zero("zeta_a")?);
-        let (strength, friction) = (row.or_zero("adhesion_n_m")?, row.or_zero("friction")?);
-        let (peeling, force) = (row.or_zero::<T>("peeling_n_m")?, row.or_zero("external_force_n")?);
-        let scene = Contact::hertz(sphere, stiffness)
-            .with_damping(zeta_h)
-            .and_then(|scene| scene.with_ring(strength, zeta_a))
-            .and_then(|scene| scene.with_friction(friction))
-            .map_err(reason)?;
-        // Terms that are zero are left out, so that they cost nothing.
-        let impact = match (peeling == T::ZERO, force == T::ZERO) {
-            (true, true) => scene.impact(&self.method, &before),
-            (true, false) => scene.with_external_force(force).and_then(|scene| scene.impact(&self.method, &before)),
-            (false, true) => scene.with_peeling(peeling).and_then(|scene| scene.impact(&self.method, &before)),
-            (false, false) => scene
-                .with_peeling(peeling)
-                .and_then(|scene| scene.with_external_force(force))
-                .and_then(|scene| scene.impact(&self.method, &before)),
+        let scene = Contact::new(sphere, contact_law(row)?).with_friction(row.or_zero("friction")?).map_err(reason)?;
+        let groups = groups(&scene, &before).map_err(reason)?;
+        // Without a moment this is the same motion; so the solver is compiled for one scene only.
+        let scene = scene.with_peeling(row.or_zero("peeling_n_m")?).map_err(reason)?;
+        let (impact, ((times, impulses, works), (slip, energy))) =
+            scene.solve_for(&before, &self.method, ((Times, Impulses, Works), (Slip, Energy))).map_err(reason)?;
+        let (normal, tangential) = (impact.normal, impact.tangential);
+        let (Some(outcome), Some(class)) = (normal.outcome(), impact.class()) else {
+            return Err("the simulation did not converge; use a larger --tolerance".into());
         };
-        let impact = impact.map_err(reason)?;
-        let groups = scene.groups(&before).map_err(reason)?;
-        match (impact.normal.outcome(), impact.class()) {
-            (Some(outcome), Some(class)) => Ok(Simulated { sphere, groups, outcome, class, impact }),
-            _ => Err("the simulation has spent its budget of stretches".into()),
-        }
+        Ok(Simulated { outcome, class, normal, tangential, times, impulses, works, slip, energy, groups })
     }
 }
 
-impl<T: Scalar + AdaptiveNodes> Work for SimulationModel<T> {
+/// The dimensionless groups of an impact, of laws that have them.
+fn groups<T: Number>(scene: &AnyScene<T>, before: &PlanarMotion<T>) -> Result<Option<Groups<T>>, InputError> {
+    match *scene.law() {
+        AnyLaw::Hertz(law) => Contact::new(*scene.sphere(), law).groups(before).map(Some),
+        AnyLaw::Ring(law) => Contact::new(*scene.sphere(), law).groups(before).map(Some),
+        _ => Ok(None),
+    }
+}
+
+impl<T: Number> Work for SimulationModel<T> {
     fn columns(&self) -> Vec<String> {
         [
             "outcome",
@@ -87,36 +89,32 @@ impl<T: Scalar + AdaptiveNodes> Work for SimulationModel<T> {
         .into()
     }
 
-    fn cells(&self, row: &Row<'_>) -> (Vec<String>, Result<(), String>) {
-        let Simulated { impact, groups, outcome, .. } = match self.compute(row) {
-            Ok(computed) => computed,
-            Err(reason) => return (Vec::new(), Err(reason)),
-        };
-        let SimulatedImpact { normal, tangential, outputs, .. } = &impact;
+    fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
+        let Simulated { outcome, normal, times, impulses, works, slip, groups, .. } = self.compute(row)?;
         let optional = |value: Option<T>| value.map(|value| row.cell(value)).unwrap_or_default();
-        let cells = vec![
+        let motion = if slip.slides { SurfaceMotion::Sliding } else { SurfaceMotion::Rolling };
+        Ok(vec![
             outcome_name(outcome).into(),
-            motion_name(tangential.motion()).into(),
+            motion_name(motion).into(),
             row.cell(normal.overall_restitution()),
             optional(normal.peak_indentation()),
             optional(normal.turning_indentation()),
-            optional(outputs.times.peak),
-            optional(outputs.times.contact),
-            row.cell(tangential.rolls_from().unwrap_or(-T::ONE)),
-            row.cell(outputs.impulses.elastic),
-            row.cell(outputs.impulses.adhesion_rebound),
-            row.cell(outputs.works.material),
-            row.cell(outputs.works.adhesion),
-            row.cell(tangential.tangential()),
-            row.cell(tangential.spin()),
-            row.cell(tangential.rotation()),
-            row.cell(tangential.displacement()),
-            row.cell(groups.elasticity),
-            row.cell(groups.adhesion),
-            row.cell(groups.material_damping),
-            row.cell(groups.adhesion_damping),
-        ];
-        (cells, Ok(()))
+            optional(times.peak),
+            optional(times.contact),
+            row.cell(slip.rolls_from.unwrap_or(-T::ONE)),
+            row.cell(impulses.elastic),
+            row.cell(impulses.adhesion_rebound),
+            row.cell(works.material),
+            row.cell(works.adhesion),
+            row.cell(slip.velocity),
+            row.cell(slip.spin),
+            row.cell(slip.rotation),
+            row.cell(slip.displacement),
+            optional(groups.map(|groups| groups.elasticity)),
+            optional(groups.map(|groups| groups.adhesion)),
+            optional(groups.map(|groups| groups.material_damping)),
+            optional(groups.map(|groups| groups.adhesion_damping)),
+        ])
     }
 
     fn heads(&self) -> Vec<&'static str> {
@@ -138,26 +136,24 @@ impl<T: Scalar + AdaptiveNodes> Work for SimulationModel<T> {
         2
     }
 
-    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<Cell>, String> {
-        let Simulated { sphere, impact, class, .. } = self.compute(row)?;
-        let SimulatedImpact { normal, tangential, outputs, .. } = &impact;
+    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
+        let Simulated { outcome, class, normal, tangential, times, slip, energy, .. } = self.compute(row)?;
         let nano = |value: Option<T>| value.map_or("-".into(), |value| format!("{:.2}", value * T::constant(1e9)));
-        let lost = impact.energy(&sphere).map(|ledger| T::constant(100.0) * ledger.lost() / ledger.before);
-        let cells = [
+        let lost = energy.map(|ledger| T::constant(100.0) * ledger.lost() / ledger.before);
+        Ok(vec![
             name,
             class.to_string(),
             format!("{:.4}", normal.overall_restitution()),
             format!("{:.3}", normal.rebound_speed()),
-            format!("{:.3}", tangential.tangential() + T::ZERO),
+            format!("{:.3}", tangential.velocity() + T::ZERO),
             format!("{:.2e}", tangential.spin() + T::ZERO),
             nano(normal.peak_indentation()),
-            nano(outputs.times.contact),
-            match tangential.motion() {
-                SurfaceMotion::Sliding => "always".into(),
-                _ => nano(tangential.rolls_from()),
+            nano(times.contact),
+            match (outcome, slip.slides) {
+                (Outcome::Rebound, true) => "always".into(),
+                _ => nano(slip.rolls_from),
             },
             lost.map_or("-".into(), |lost| format!("{lost:.1}")),
-        ];
-        Ok(cells.into_iter().map(Cell::new).collect())
+        ])
     }
 }

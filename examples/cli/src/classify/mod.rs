@@ -1,4 +1,4 @@
-//! Classifies impacts with either model, or with both.
+//! Classifies impacts by either model, or by both.
 //!
 //! `cargo microimpact classify` shows impacts of the paper;
 //! `cargo microimpact classify FILE.csv --format csv` adds the result to each row of a table.
@@ -7,42 +7,39 @@ mod contact;
 mod rigid_body;
 
 use clap::{Args, ValueEnum};
-use comfy_table::Cell;
-use microimpact::contact::AdaptiveNodes;
 use microimpact::{NormalMotion, PlanarMotion, Sphere};
 use sheet::{Row, Scalar, reason};
 
 use crate::Streams;
-use crate::command::{BadRows, TableOptions, Work};
+use crate::command::{BadRow, BadRows, Number, SimulationOptions, TABLE_HELP, TableCommand, TableOptions, Work};
 
-/// Classify impacts of microspheres: rebound sliding or rolling, or capture; without a table, those of the paper.
+/// Classify impacts of microspheres: rebound or capture, sliding, rolling or resting. Without a table, classify impacts of
+/// the paper.
 ///
-/// Columns read, in SI units; an empty cell means what stands in brackets:
-///   radius_m, density_kg_m3, speed_normal_m_s (approach speed),
-///   gyration_ratio (k^2/r^2; 0.4, solid), speed_tangential_m_s (0), spin_rad_s (0), friction (Coulomb's f; 0).
-/// Of the rigid-body model besides:
+/// Input columns, in SI units. Brackets give the value that an empty or absent cell has; the other columns are required.
+///   radius_m, density_kg_m3, speed_normal_m_s (approach speed, a positive number),
+///   gyration_ratio (k^2/r^2) [0.4, a solid sphere], speed_tangential_m_s [0], spin_rad_s [0],
+///   friction (Coulomb's coefficient f) [0].
+/// The rigid-body model also reads
 ///   restitution (R) or restitution_speed_m_s (k of R = k/(k + v)),
-///   adhesion_coefficient (rho) or work_of_adhesion_j (none),
-///   impulse_ratio (mu, instead of friction), rolling_arm_m (mu_m a_c; none).
-/// Of the simulation besides:
-///   stiffness_pa (K), adhesion_n_m (f0; 0), zeta_h (0), zeta_a (0), peeling_n_m (lambda; 0),
-///   external_force_n (positive out of the surface; 0).
-/// All other columns pass through; one that is named like a computed column is kept as input_NAME.
+///   adhesion_coefficient (rho) or work_of_adhesion_j [no adhesion],
+///   impulse_ratio (mu) instead of friction, rolling_arm_m (mu_m a_c) [0].
+/// The simulation also reads
+///   stiffness_pa (K), adhesion_n_m (f0) [0], zeta_h [0], zeta_a [0], peeling_n_m (lambda) [0],
+///   external_force_n (positive out of the surface) [0].
 ///
-/// Computed by the simulation: restitution is the overall one; time_roll_s is 0 for a sphere that never slid and -1 for
-/// one that never stopped; what does not exist is left empty; a captured sphere at rest rolls. With both models the
-/// columns of the rigid body begin with rigid_body_.
-///
-/// Exit status: 0, or 1 if a row was bad (its reason stands in the column `error`), or 2 if nothing could be read.
+/// Computed by the simulation: restitution is the overall restitution. time_roll_s is the time at which slip ends: 0 if
+/// there was no slip, -1 if slip does not end. A cell is empty if its quantity does not exist. A captured sphere is followed
+/// to its first turning point: motion (rolling includes resting), velocities and works are those there. The summary gives
+/// its class and velocities when slip has ended. With both models, columns of the rigid body begin with rigid_body_.
 #[derive(Args)]
-#[command(verbatim_doc_comment)]
+#[command(verbatim_doc_comment, after_long_help = TABLE_HELP)]
 pub struct Options {
-    /// The model that classifies.
+    /// Model that classifies.
     #[arg(long, value_enum, default_value_t = Model::RigidBody)]
     model: Model,
-    /// Largest error of the square of the restitution by the simulation.
-    #[arg(long, default_value_t = 1e-9)]
-    tolerance: f64,
+    #[command(flatten)]
+    simulation: SimulationOptions,
     #[command(flatten)]
     table: TableOptions,
 }
@@ -54,50 +51,55 @@ enum Model {
     Both,
 }
 
-impl Options {
-    /// Runs the command; its exit status.
-    pub fn run(&self, streams: &mut Streams<'_>) -> u8 {
-        self.table.run("classify", streams, |streams| run::<f32>(self, streams), |streams| run::<f64>(self, streams))
-    }
-}
+impl TableCommand for Options {
+    const NAME: &'static str = "classify";
 
-fn run<T: Scalar + AdaptiveNodes>(options: &Options, streams: &mut Streams<'_>) -> BadRows {
-    let (table, bundled) = (&options.table, include_str!("impacts.csv"));
-    let rigid_body = rigid_body::RigidBodyModel::<T>::new();
-    let simulation = contact::SimulationModel::<T>::new(options.tolerance)?;
-    match options.model {
-        Model::RigidBody => table.work(bundled, &rigid_body, streams),
-        Model::Simulation => table.work(bundled, &simulation, streams),
-        Model::Both => table.work(bundled, &Both { rigid_body, simulation }, streams),
+    fn options(&self) -> &TableOptions {
+        &self.table
+    }
+
+    fn run_in<T: Number>(&self, streams: &mut Streams<'_>) -> BadRows {
+        let bundled = include_str!("impacts.csv");
+        let rigid_body = rigid_body::RigidBodyModel::<T>::new();
+        let simulation = contact::SimulationModel::<T> { method: self.simulation.method()? };
+        match self.model {
+            Model::RigidBody => self.table.work(bundled, &rigid_body, streams),
+            Model::Simulation => self.table.work(bundled, &simulation, streams),
+            Model::Both => self.table.work(bundled, &Both { rigid_body, simulation }, streams),
+        }
     }
 }
 
 /// Both models side by side.
-struct Both<T: Scalar> {
+struct Both<T> {
     rigid_body: rigid_body::RigidBodyModel<T>,
     simulation: contact::SimulationModel<T>,
 }
 
-impl<T: Scalar + AdaptiveNodes> Work for Both<T> {
+impl<T: Number> Work for Both<T> {
     fn columns(&self) -> Vec<String> {
         let rigid_body = self.rigid_body.columns();
         let named = rigid_body.iter().map(|column| format!("rigid_body_{column}"));
         self.simulation.columns().into_iter().chain(named).collect()
     }
 
-    fn cells(&self, row: &Row<'_>) -> (Vec<String>, Result<(), String>) {
-        let (mut cells, simulated) = self.simulation.cells(row);
-        cells.resize(self.simulation.columns().len(), String::new());
-        let (rigid_body, computed) = self.rigid_body.cells(row);
-        cells.extend(rigid_body);
-        let result = match (simulated, computed) {
-            (Err(simulated), Err(computed)) if simulated == computed => Err(simulated),
-            (Err(simulated), Err(computed)) => Err(format!("simulation: {simulated}; rigid body: {computed}")),
-            (Err(simulated), Ok(())) => Err(format!("simulation: {simulated}")),
-            (Ok(()), Err(computed)) => Err(format!("rigid body: {computed}")),
-            (Ok(()), Ok(())) => Ok(()),
+    fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
+        let failed = |result: Result<Vec<String>, BadRow>| match result {
+            Ok(cells) => (cells, None),
+            Err(bad) => (bad.cells, Some(bad.reason)),
         };
-        (cells, result)
+        let (mut cells, simulation) = failed(self.simulation.cells(row));
+        let (rigid_body_cells, rigid_body) = failed(self.rigid_body.cells(row));
+        cells.resize(self.simulation.columns().len(), String::new());
+        cells.extend(rigid_body_cells);
+        let reason = match (simulation, rigid_body) {
+            (None, None) => return Ok(cells),
+            (Some(simulation), Some(rigid_body)) if simulation == rigid_body => simulation,
+            (Some(simulation), Some(rigid_body)) => format!("simulation: {simulation}; rigid body: {rigid_body}"),
+            (Some(simulation), None) => format!("simulation: {simulation}"),
+            (None, Some(rigid_body)) => format!("rigid body: {rigid_body}"),
+        };
+        Err(BadRow { reason, cells })
     }
 
     fn heads(&self) -> Vec<&'static str> {
@@ -118,21 +120,19 @@ impl<T: Scalar + AdaptiveNodes> Work for Both<T> {
         3
     }
 
-    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<Cell>, String> {
+    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
         let (simulated, body) = (self.simulation.compute(row)?, self.rigid_body.compute(row)?);
-        let contact = &simulated.impact;
-        let cells = [
+        Ok(vec![
             name,
             simulated.class.to_string(),
             body.classification.class().to_string(),
-            format!("{:.4}", contact.normal.overall_restitution()),
+            format!("{:.4}", simulated.normal.overall_restitution()),
             format!("{:.4}", body.impact.normal.overall_restitution()),
-            format!("{:.4}", contact.tangential.tangential() + T::ZERO),
+            format!("{:.4}", simulated.tangential.velocity() + T::ZERO),
             format!("{:.4}", body.impact.tangential.velocity() + T::ZERO),
-            format!("{:.2e}", contact.tangential.spin() + T::ZERO),
+            format!("{:.2e}", simulated.tangential.spin() + T::ZERO),
             format!("{:.2e}", body.impact.tangential.spin(&body.sphere) + T::ZERO),
-        ];
-        Ok(cells.into_iter().map(Cell::new).collect())
+        ])
     }
 }
 

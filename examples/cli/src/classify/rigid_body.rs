@@ -2,16 +2,13 @@
 
 use std::marker::PhantomData;
 
-use comfy_table::Cell;
 use microimpact::rigid::ReboundAdhesion;
-use microimpact::{
-    Classification, ConstantRestitution, ContactClass, Impact, PlanarMotion, RestitutionLaw, RigidBody,
-    SpeedRestitution, Sphere, TangentialImpact,
-};
+use microimpact::{Classification, ContactClass, Impact, PlanarMotion, RigidBody, Sphere, TangentialImpact};
 use sheet::{Row, Scalar, reason};
 
 use super::sphere_and_motion;
-use crate::command::Work;
+use crate::command::{BadRow, Work};
+use crate::inputs::{AnyRestitution, restitution_law};
 use crate::words::{motion_name, outcome_name};
 
 /// The rigid-body model in numbers of type `T`.
@@ -34,28 +31,16 @@ impl<T: Scalar> RigidBodyModel<T> {
     /// Builds the scene of a row and classifies its impact.
     pub fn compute(&self, row: &Row<'_>) -> Result<Classified<T>, String> {
         let (sphere, before) = sphere_and_motion(row)?;
-        match (row.number("restitution")?, row.number("restitution_speed_m_s")?) {
-            (Some(r), None) => with_law(row, sphere, &before, ConstantRestitution::new(r).map_err(reason)?),
-            (None, Some(k)) => with_law(row, sphere, &before, SpeedRestitution::new(k).map_err(reason)?),
-            (None, None) => Err("restitution: missing; give restitution or restitution_speed_m_s".into()),
-            (Some(_), Some(_)) => Err("restitution: given twice, as restitution and restitution_speed_m_s".into()),
+        let scene = RigidBody::new(sphere, restitution_law(row, |number: T| number)?);
+        match (row.number("adhesion_coefficient")?, row.number("work_of_adhesion_j")?) {
+            (None, None) => with_adhesion(row, &before, scene),
+            (Some(rho), None) => with_adhesion(row, &before, scene.with_adhesion_coefficient(rho).map_err(reason)?),
+            (None, Some(work)) => with_adhesion(row, &before, scene.with_work_of_adhesion(work).map_err(reason)?),
+            (Some(_), Some(_)) => {
+                let columns = "adhesion_coefficient and work_of_adhesion_j";
+                Err(format!("adhesion: given twice, as {columns}; leave one of them empty"))
+            }
         }
-    }
-}
-
-/// Chooses the adhesion that the row gives.
-fn with_law<T: Scalar>(
-    row: &Row<'_>,
-    sphere: Sphere<T>,
-    before: &PlanarMotion<T>,
-    law: impl RestitutionLaw<T> + Copy,
-) -> Result<Classified<T>, String> {
-    let scene = RigidBody::new(sphere, law);
-    match (row.number("adhesion_coefficient")?, row.number("work_of_adhesion_j")?) {
-        (None, None) => with_adhesion(row, before, scene),
-        (Some(rho), None) => with_adhesion(row, before, scene.with_adhesion_coefficient(rho).map_err(reason)?),
-        (None, Some(work)) => with_adhesion(row, before, scene.with_work_of_adhesion(work).map_err(reason)?),
-        (Some(_), Some(_)) => Err("adhesion: given twice, as adhesion_coefficient and work_of_adhesion_j".into()),
     }
 }
 
@@ -63,7 +48,7 @@ fn with_law<T: Scalar>(
 fn with_adhesion<T: Scalar>(
     row: &Row<'_>,
     before: &PlanarMotion<T>,
-    scene: RigidBody<T, impl RestitutionLaw<T> + Copy, impl ReboundAdhesion<T> + Copy>,
+    scene: RigidBody<T, AnyRestitution<T>, impl ReboundAdhesion<T> + Copy>,
 ) -> Result<Classified<T>, String> {
     let friction = row.or_zero("friction")?;
     let impact = match (row.number("impulse_ratio")?, row.number("rolling_arm_m")?) {
@@ -73,7 +58,9 @@ fn with_adhesion<T: Scalar>(
             let scene = scene.with_friction(friction).and_then(|scene| scene.with_rolling_dissipation(arm));
             scene.map_err(reason)?.impact(before)
         }
-        (Some(_), Some(_)) => return Err("rolling_arm_m: not with impulse_ratio, which covers it".into()),
+        (Some(_), Some(_)) => {
+            return Err("rolling_arm_m: impulse_ratio is given too and includes it; leave one of them empty".into());
+        }
     };
     Ok(Classified { sphere: *scene.sphere(), classification: scene.classify_impact(&impact), impact })
 }
@@ -101,15 +88,12 @@ impl<T: Scalar> Work for RigidBodyModel<T> {
         .into()
     }
 
-    fn cells(&self, row: &Row<'_>) -> (Vec<String>, Result<(), String>) {
-        let Classified { sphere, impact, classification } = match self.compute(row) {
-            Ok(classified) => classified,
-            Err(reason) => return (Vec::new(), Err(reason)),
-        };
+    fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
+        let Classified { sphere, impact, classification } = self.compute(row)?;
         let Impact { normal, tangential } = &impact;
         let ledger = impact.energy(&sphere);
         let optional = |value: Option<T>| value.map(|value| row.cell(value)).unwrap_or_default();
-        let cells = vec![
+        Ok(vec![
             outcome_name(classification.outcome).into(),
             motion_name(classification.contact.motion).into(),
             row.cell(normal.overall_restitution()),
@@ -125,8 +109,7 @@ impl<T: Scalar> Work for RigidBodyModel<T> {
             row.cell(ledger.adhesion),
             row.cell(ledger.friction),
             row.cell(ledger.rolling),
-        ];
-        (cells, Ok(()))
+        ])
     }
 
     fn heads(&self) -> Vec<&'static str> {
@@ -149,12 +132,12 @@ impl<T: Scalar> Work for RigidBodyModel<T> {
         2
     }
 
-    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<Cell>, String> {
+    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
         let Classified { sphere, impact, classification } = self.compute(row)?;
         let Impact { normal, tangential } = &impact;
         let ledger = impact.energy(&sphere);
         let optional = |value: Option<T>| value.map_or("-".into(), |value| format!("{value:.3}"));
-        let cells = [
+        Ok(vec![
             name,
             classification.class().to_string(),
             format!("{:.3}", normal.overall_restitution()),
@@ -166,7 +149,6 @@ impl<T: Scalar> Work for RigidBodyModel<T> {
             optional(classification.speed_over_critical),
             optional(classification.contact.friction_over_limit),
             format!("{:.1}", T::constant(100.0) * ledger.lost() / ledger.before),
-        ];
-        Ok(cells.into_iter().map(Cell::new).collect())
+        ])
     }
 }

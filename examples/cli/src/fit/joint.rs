@@ -1,19 +1,20 @@
-//! A joint fit of the contact simulation to a cloud of measured impacts: strength of adhesion f0, both dampings, and the
-//! distribution of the particles' diameters, whose single values are not known.
+//! A joint fit of the contact simulation to many measured impacts: strength of adhesion f0, both dampings, and the
+//! distribution of the particles' diameters, which are not known one by one.
 //!
-//! Diameters are log-normal. At each speed the scene of every diameter gives a restitution, so that the distribution gives
-//! a mean and a variance, to which that of the instrument is added; both are fitted at once (generalised least squares with
-//! an estimated variance function, Carroll and Ruppert 1988), with derivatives by dual numbers.
+//! Diameters are log-normal. At each speed the scene of every diameter gives a restitution, so the distribution of diameters
+//! gives a mean and a variance of the restitution. The variance of the instrument is added. The fit uses both at once
+//! (generalised least squares with an estimated variance function, Carroll and Ruppert 1988), with derivatives by dual
+//! numbers.
 //!
-//! The restitution depends on f0 and on the diameter only through their ratio: no cloud of speeds and restitutions can tell
-//! them apart. A measured mean diameter with its standard error is therefore part of the data.
+//! The restitution depends on f0 and on the diameter only through their ratio: speeds and restitutions alone cannot
+//! determine both. A measured mean diameter with its standard error is therefore part of the data.
 
 use std::fmt;
 use std::num::NonZeroUsize;
 
 use gauss_quad::hermite::GaussHermite;
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
-use microimpact::contact::{Collocation, Nodes, Contact};
+use microimpact::contact::{AnyLaw, Collocation, Contact, Nodes};
 use microimpact::{Dual, Fault, InputError, NormalMotion, Parameter, Real, Sphere, Stiffness};
 use nalgebra::storage::Owned;
 use nalgebra::{Const, DVector, Dyn, OMatrix, SMatrix, SVector};
@@ -28,7 +29,7 @@ pub const NAMES: [(&str, &str); COUNT] =
 /// f0, zeta_H, zeta_A, mean diameter, and the standard deviation of the logarithm of diameters.
 pub type Parameters = [f64; COUNT];
 
-/// The place of zeta_A, whose error may be as large as itself: it is fitted as it is, all others by their logarithms.
+/// The index of zeta_A, whose error may be as large as its value: it is fitted directly, all others by their logarithms.
 const PLAIN: usize = 2;
 
 /// The value of a parameter at a deviation from another value of it.
@@ -41,7 +42,7 @@ fn deviation(parameter: usize, value: f64, from: f64) -> f64 {
     if parameter == PLAIN { value - from } else { (value / from).ln() }
 }
 
-/// What is known beforehand.
+/// What is known before the fit.
 #[derive(Clone, Copy, Debug)]
 pub struct Known {
     /// Hertz stiffness, Pa.
@@ -72,7 +73,7 @@ pub enum FitError {
     TooFew,
     /// The least squares did not converge.
     NotConverged(String),
-    /// The impacts do not tell the parameters apart.
+    /// The impacts do not determine all parameters.
     Singular,
 }
 
@@ -80,9 +81,11 @@ impl fmt::Display for FitError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Input(error) => error.fmt(f),
-            Self::TooFew => write!(f, "a joint fit needs {} impacts at least", 3 * COUNT),
-            Self::NotConverged(reason) => write!(f, "the least squares did not converge: {reason}"),
-            Self::Singular => f.write_str("the impacts do not tell the parameters apart"),
+            Self::TooFew => write!(f, "there are too few impacts: a joint fit needs {} impacts at least", 3 * COUNT),
+            Self::NotConverged(reason) => {
+                write!(f, "the least squares did not converge: {reason}; use other values of --first")
+            }
+            Self::Singular => f.write_str("the impacts do not determine all parameters; add impacts at other speeds"),
         }
     }
 }
@@ -119,13 +122,13 @@ pub struct JointFit {
 /// Nodes over the distribution of diameters.
 const DIAMETERS: usize = 9;
 
-/// Rounds of least squares, each with the variances of the one before.
+/// Rounds of least squares; each uses the variances of the previous one.
 const ROUNDS: usize = 4;
 
 /// Standard errors by which a measured restitution may lie outside its range.
 const FARTHEST: f64 = 5.0;
 
-/// Of a normal distribution, and of the square of two: what 95 % lie within.
+/// Bounds that hold 95 % of a standard normal variable, and of the sum of squares of two.
 const WITHIN: (f64, f64) = (1.959_964, 5.991_465);
 
 impl JointFit {
@@ -138,10 +141,10 @@ impl JointFit {
             return Err(FitError::TooFew);
         }
         for error in [known.noise, known.diameter.1] {
-            // Deviations are counted in both.
+            // Both are divisors.
             if Parameter::StandardError.check(error)? <= 0.0 {
                 let (parameter, fault) = (Parameter::StandardError, Fault::TooSmall);
-                return Err(InputError { parameter, fault, value: error }.into());
+                return Err(InputError { parameter, fault, value: error as f32 }.into());
             }
         }
         // Errors may carry a measurement beyond its range, but not far.
@@ -162,9 +165,9 @@ impl JointFit {
         };
         problem.before = problem.model.moments(first)?;
         for round in 0..ROUNDS {
-            // Only deviations from a mean that fits tell of the variance.
+            // Only deviations from a fitted mean contain the variance.
             problem.scatter = round > 0;
-            // A short first step, in deviations as they are, keeps the parameters within their ranges.
+            // A short first step in unscaled deviations keeps the parameters within their ranges.
             let method = LevenbergMarquardt::new().with_tol(1e-9).with_patience(40);
             let (solved, report) = method.with_scale_diag(false).with_stepbound(0.3).minimize(problem);
             problem = solved;
@@ -237,11 +240,9 @@ pub fn restitution<T: Nodes<9>>(
     speed: f64,
 ) -> Result<T, InputError> {
     let sphere = Sphere::solid(T::constant(0.5) * diameter, T::constant(known.density))?;
-    let scene = Contact::hertz(sphere, Stiffness::new(T::constant(known.stiffness))?)
-        .with_damping(zeta_h)?
-        .with_ring(f0, zeta_a)?;
-    let method = Collocation::<9, T>::new(T::constant(1e-9))?;
-    Ok(scene.normal_impact(&method, &NormalMotion::new(T::constant(speed))?)?.overall_restitution())
+    let law = AnyLaw::ring(Stiffness::new(T::constant(known.stiffness))?, f0, zeta_a)?.with_damping(zeta_h)?;
+    let (scene, method) = (Contact::new(sphere, law), Collocation::<9, T>::new(T::constant(1e-9))?);
+    Ok(scene.solve_normal(&NormalMotion::new(T::constant(speed))?, &method)?.overall_restitution())
 }
 
 /// Restitutions at all speeds, each once.
@@ -274,8 +275,8 @@ impl Model {
     }
 }
 
-/// Least squares of deviations from the mean, and of their squares from the variance, with the means and variances of
-/// the round before in what must not depend on the parameters.
+/// Least squares of deviations from the mean, and of their squares from the variance. The means and variances of the previous
+/// round stand where a quantity must not depend on the parameters.
 struct Problem {
     model: Model,
     impacts: Vec<Impact>,
@@ -336,7 +337,7 @@ impl Problem {
                 gradient += slope * residual.value;
             }
             squares += if let [single] = pair {
-                // The measured diameter has no scatter of its own to tell its variance from.
+                // The measured diameter is a single value, without scatter from which a variance could be estimated.
                 let slope = SVector::from(single.partials);
                 slope * slope.transpose()
             } else {
@@ -368,7 +369,7 @@ impl LeastSquaresProblem<f64, Dyn, Const<COUNT>> for Problem {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        // A step that leaves the ranges of the parameters is no better than any other: it will be refused.
+        // Large residuals make the optimiser refuse a step that leaves the ranges of the parameters.
         let refused = || vec![1e6; 2 * self.impacts.len() + 1];
         Some(DVector::from_vec(self.all_residuals(self.parameters()).unwrap_or_else(|_| refused())))
     }

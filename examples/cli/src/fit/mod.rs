@@ -3,8 +3,6 @@
 //! `cargo microimpact fit FILE.csv --diameter 8.6e-6 --diameter-error 2e-7`
 
 use std::error::Error;
-use std::fs::File;
-use std::io::{self, BufReader};
 use std::path::PathBuf;
 
 use clap::Args;
@@ -12,19 +10,21 @@ use comfy_table::Table;
 use sheet::Sheet;
 
 use crate::Streams;
-use crate::command::exit_status;
+use crate::command::{exit_status, open};
 pub use joint::{COUNT, FitError, Impact, JointFit, Known, NAMES, Parameters, restitution};
 
 pub mod figures;
 mod joint;
 
-/// Fit f0, zeta_H, zeta_A, mean and spread of diameters to a table of speeds and restitutions.
+/// Fit f0, zeta_H, zeta_A, and mean and spread of the diameters to a table of approach speeds and restitutions.
 ///
-/// Columns read: speed_normal_m_s, restitution (zero for a capture). Without a value in each row there is no fit.
+/// Input columns: speed_normal_m_s (approach speed), restitution (overall; 0 for a capture). Each row needs both.
+///
+/// Exit status: 0 on success; 2 if there is no fit (standard error gives the reason).
 #[derive(Args)]
 #[command(verbatim_doc_comment)]
 pub struct Options {
-    /// Table of impacts.
+    /// CSV file of impacts.
     file: PathBuf,
     /// Hertz stiffness, Pa.
     #[arg(long, default_value_t = 7.5e10)]
@@ -35,16 +35,16 @@ pub struct Options {
     /// Standard error of a restitution.
     #[arg(long, default_value_t = 0.01)]
     noise: f64,
-    /// Mean diameter as measured by other means, m; impacts tell only f0 over diameter.
+    /// Mean diameter from another measurement, m. Impacts alone determine only f0 over the diameter.
     #[arg(long)]
     diameter: f64,
-    /// Its standard error, m.
+    /// Standard error of the mean diameter, m.
     #[arg(long)]
     diameter_error: f64,
-    /// First values of f0, zeta_H, zeta_A and the relative spread.
+    /// Values of f0, zeta_H, zeta_A and the relative spread at which the fit starts.
     #[arg(long, num_args = 4, default_values_t = [250.0, 10.0, 6.0, 0.1])]
     first: Vec<f64>,
-    /// Figure to draw (SVG).
+    /// SVG file to draw the fit in.
     #[arg(long)]
     figure: Option<PathBuf>,
 }
@@ -65,7 +65,7 @@ fn run(options: &Options, streams: &mut Streams<'_>) -> Result<(), Box<dyn Error
         diameter: (options.diameter, options.diameter_error),
     };
     let [f0, zeta_h, zeta_a, spread] = options.first[..] else {
-        return Err("--first takes four numbers".into());
+        return Err("--first needs four numbers".into());
     };
     let fit = JointFit::of(&known, &impacts, [f0, zeta_h, zeta_a, options.diameter, spread])?;
     let mut table = Table::new();
@@ -90,8 +90,7 @@ fn run(options: &Options, streams: &mut Streams<'_>) -> Result<(), Box<dyn Error
 
 /// The impacts of a table.
 fn read(options: &Options) -> Result<Vec<Impact>, String> {
-    let named = |error: io::Error| format!("{}: {error}", options.file.display());
-    let mut sheet = Sheet::open(BufReader::new(File::open(&options.file).map_err(named)?))?;
+    let mut sheet = Sheet::open(open(&options.file)?)?;
     let mut impacts = Vec::new();
     while let Some(row) = sheet.next_row()? {
         let number = |column: &str| row.required(column);
