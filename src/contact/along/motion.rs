@@ -20,6 +20,15 @@ use crate::contact::solve::observer::Observer;
 use crate::contact::solve::quantities::Times;
 use crate::rolling::{direction, rolling, rounding};
 
+/// Slip at the root over the slip before, and least distance of the root from the ends of an interval: only a first value.
+const SLIP_ROOT_ACCURACY: f64 = 1e-6;
+
+/// Steps of Newton's method on the cubic between two nodes,
+const CUBIC_STEPS: u32 = 4;
+
+/// and on the polynomial through all nodes.
+const POLYNOMIAL_STEPS: u32 = 20;
+
 /// The tangential motion so far, in units of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TangentialMotion<T, const PEELS: bool> {
@@ -274,8 +283,8 @@ impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
             slope[j] = closing * law.elastic_force(interval.s[j]) * interval.rate[j];
         }
         let ends = if interval.forward { (self.slip_left(), slip_after) } else { (slip_after, self.slip_left()) };
-        let z = root_between_nodes(&slip, &slope, ends, T::constant(1e-6) * self.slip_left());
-        let z = z.max(T::constant(1e-6)).min(T::constant(0.999_999));
+        let z = root_between_nodes(&slip, &slope, ends, T::constant(SLIP_ROOT_ACCURACY) * self.slip_left());
+        let z = z.max(T::constant(SLIP_ROOT_ACCURACY)).min(T::constant(1.0 - SLIP_ROOT_ACCURACY));
         Some(if interval.forward { z } else { T::ONE - z })
     }
 
@@ -404,8 +413,8 @@ fn root_between_nodes<T: Nodes<N>, const N: usize>(values: &[T; N], slopes: &[T;
         }
         numerator / denominator
     };
-    let guess = polish(cubic, &slope, (low.0, high.0), positive_first, low.0 - low.1 / secant, (enough, 4));
-    polish(polynomial, &slope, (low.0, high.0), positive_first, guess, (enough, 20))
+    let guess = polish(cubic, &slope, (low.0, high.0), positive_first, low.0 - low.1 / secant, (enough, CUBIC_STEPS));
+    polish(polynomial, &slope, (low.0, high.0), positive_first, guess, (enough, POLYNOMIAL_STEPS))
 }
 
 /// A root improved by Newton's method within its bracket, until the value is small enough.

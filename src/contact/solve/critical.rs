@@ -6,9 +6,9 @@
 //! however strong the damping is, and at the critical speed neither comes near the slow end where the path of a single
 //! run, with no speed and no force, is at its worst.
 
-use super::interval::{Control, Course, Interval, Point, pass};
+use super::interval::{Control, Course, END_FROM_SPEED, Interval, Point, pass};
 use super::nodes::Nodes;
-use super::path::Follower;
+use super::path::{Follower, REFUSED_SHRINK};
 use super::well::well;
 use crate::contact::law::ContactLaw;
 use crate::{CriticalSpeed, InputError, Parameter, Real};
@@ -16,8 +16,39 @@ use crate::{CriticalSpeed, InputError, Parameter, Real};
 /// Trials that use the energies of those before; later ones halve the bracket.
 const MOST_GUIDED_TRIALS: u32 = 24;
 
-/// Trials at most: halving the logarithm of the range of speeds down to rounding takes 56.
-pub(crate) const MOST_TRIALS: u32 = MOST_GUIDED_TRIALS + 64;
+/// Halving the logarithm of the range of speeds down to rounding takes 56.
+const HALVINGS: u32 = 64;
+
+/// Trials at most.
+pub(crate) const MOST_TRIALS: u32 = MOST_GUIDED_TRIALS + HALVINGS;
+
+/// Change at which iterations have converged, over the tolerance.
+const CONVERGED: f64 = 0.1;
+
+/// Least fraction of the energy that moves in the well, which keeps the tolerance positive.
+const LEAST_DEPTH_FRACTION: f64 = 1e-12;
+
+/// Least square of a fraction that makes the tolerance stricter: rounding does not allow more.
+const LEAST_SQUARED_FRACTION: f64 = 1e-4;
+
+/// Kinetic energy over what the potential drives, below which the error of an interval is not the square of its unresolved
+/// part any more,
+const STIFF_FRACTION: f64 = 0.2;
+
+/// and the factor on its tolerance then.
+const STIFF_ERROR: f64 = 1e-4;
+
+/// Square of a speed that no impact has in its units.
+const MOST_SQUARED_SPEED: f64 = 4.0;
+
+/// Excess below which the step v/(1 + excess) would be too long.
+const LEAST_EXCESS: f64 = -0.99;
+
+/// Estimated error of a secant, over the tolerance, at which the search ends.
+const SECANT_ACCURACY: f64 = 0.1;
+
+/// Relative width of a bracket, in roundings, that cannot be halved any more.
+const BRACKET_ROUNDING: f64 = 4.0;
 
 /// The approach speed that separates capture from rebound to a relative `tolerance`, by trials from the speed `first` on.
 pub(crate) fn critical_speed<T: Real>(
@@ -40,7 +71,7 @@ pub(crate) fn critical_speed<T: Real>(
 /// What becomes of a sphere that arrives with a kinetic energy.
 pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(tolerance: T, law: &L, energy: T) -> Trial<T> {
     let (half, two) = (T::constant(0.5), T::constant(2.0));
-    let converged = (T::constant(0.1) * tolerance).max(T::constant(4.0) * T::EPSILON);
+    let converged = (T::constant(CONVERGED) * tolerance).max(T::constant(4.0) * T::EPSILON);
     let mut control = Control { converged, error: tolerance, times: T::ZERO };
     let Some((barrier, bottom)) = well(law).filter(|(_, bottom)| law.damping(*bottom, true) > T::ZERO) else {
         return Trial::Free;
@@ -50,7 +81,7 @@ pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(toleranc
     let depth = rest - law.potential(bottom);
     // Losses count in proportion to themselves, which at the critical speed make up all of the energy of the impact;
     // the error of an interval is in proportion to what moves in the well, and a square.
-    let share = (energy / (energy + depth)).max(T::constant(1e-12));
+    let share = (energy / (energy + depth)).max(T::constant(LEAST_DEPTH_FRACTION));
     control.error = (control.error * share * share).max(unattainable());
     // Where the well is shallow, speeds are small in it.
     let scale = (two * depth).sqrt().min(T::ONE);
@@ -63,13 +94,13 @@ pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(toleranc
     let kinetic = half * departure.speed_squared;
     // Where damping leaves little of the energy of the impact, errors count in proportion to what is left.
     let left = (kinetic / energy).min(T::ONE);
-    control.error = (control.error * (left * left).max(T::constant(1e-4))).max(unattainable());
+    control.error = (control.error * (left * left).max(T::constant(LEAST_SQUARED_FRACTION))).max(unattainable());
     let arrival = Point::arriving(law, energy);
     let Some(impact) = Follower::from(law, control, &mut (), arrival).descend::<N>(bottom) else {
         return captured;
     };
     // Of what is left of the motion, the speed knows more where that is little, and the energy where it is much.
-    let surplus = if kinetic < T::constant(0.1) * energy {
+    let surplus = if kinetic < T::constant(END_FROM_SPEED) * energy {
         half * (impact.speed_squared - departure.speed_squared)
     } else {
         impact.energy - departure.energy
@@ -82,9 +113,11 @@ pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(toleranc
     Trial::Tried { rebounds: surplus > T::ZERO, excess }
 }
 
-/// Below this the estimated error of an interval is one of rounding.
+/// Estimated error of an interval, in squared roundings, below which it is one of rounding.
+const UNATTAINABLE: f64 = 64.0;
+
 fn unattainable<T: Real>() -> T {
-    T::constant(64.0) * T::EPSILON * T::EPSILON
+    T::constant(UNATTAINABLE) * T::EPSILON * T::EPSILON
 }
 
 /// The outcome of a trial.
@@ -150,12 +183,12 @@ impl<T: Real> Search<T> {
             (self.bracket.0, self.tried.0, self.errors.0) = (speed, true, error);
         }
         let (low, high) = self.bracket;
-        if high <= low * (T::ONE + T::constant(4.0) * T::EPSILON) {
+        if high <= low * (T::ONE + T::constant(BRACKET_ROUNDING) * T::EPSILON) {
             return Some(self.result());
         }
         let (mut next, mut error) = (T::ZERO, T::ONE);
         if let Some(excess) = excess.filter(|_| guided) {
-            if excess > T::constant(-0.99) {
+            if excess > T::constant(LEAST_EXCESS) {
                 next = speed / (T::ONE + excess);
             }
             if let Some((before, other)) = self.last.filter(|(_, other)| *other != excess) {
@@ -168,7 +201,7 @@ impl<T: Real> Search<T> {
             }
             self.last = Some((speed, excess));
         }
-        if error <= T::constant(0.1) * tolerance {
+        if error <= T::constant(SECANT_ACCURACY) * tolerance {
             return Some(Ok(CriticalSpeed::At(next)));
         }
         self.speed = if next > low && next < high {
@@ -216,8 +249,8 @@ impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
             let share = square / (square + driven);
             self.control.converged = converged * square.sqrt().min(T::ONE);
             // There errors are no longer squares.
-            let stiff = if share < T::constant(0.2) { T::constant(1e-4) } else { T::ONE };
-            let strict = error * stiff * (share * share).max(T::constant(1e-4));
+            let stiff = if share < T::constant(STIFF_FRACTION) { T::constant(STIFF_ERROR) } else { T::ONE };
+            let strict = error * stiff * (share * share).max(T::constant(LEAST_SQUARED_FRACTION));
             self.control.error = strict.max(unattainable());
             (_, length) = self.step::<N>(-length.min(self.at.s - to), false, Course::REBOUND)?;
         }
@@ -235,7 +268,7 @@ impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
             let taken;
             (taken, length) = self.step::<N>(length.min(to - self.at.s), resting, course)?;
             resting &= !taken;
-            if self.at.speed_squared > T::constant(4.0) {
+            if self.at.speed_squared > T::constant(MOST_SQUARED_SPEED) {
                 return None;
             }
         }
@@ -253,7 +286,7 @@ impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
         let interval: Interval<T, N> = pass(self.law, &self.at, polynomial, course, &self.control, &mut iterations);
         let factor = self.length_factor(N, &interval);
         let taken = self.take(&interval, course, None).ok()?;
-        let length = step.abs() * if taken { factor } else { factor.min(T::constant(0.7)) };
+        let length = step.abs() * if taken { factor } else { factor.min(T::constant(REFUSED_SHRINK)) };
         (length > T::EPSILON * T::EPSILON).then_some((taken, length))
     }
 }

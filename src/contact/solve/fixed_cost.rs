@@ -158,7 +158,8 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         let changed = changed + moved.abs();
         observe(&phase, true);
         let left = at_peak + gained;
-        let mild = -phase.loss[0] <= T::constant(STRONGEST) * phase.speed[0] && left <= T::constant(LARGEST_GAIN) * energy;
+        let mild =
+            -phase.loss[0] <= T::constant(STRONGEST) * phase.speed[0] && left <= T::constant(LARGEST_GAIN) * energy;
         // Of a capture only the sign counts.
         let converged = changed <= T::constant(CONVERGED) * energy
             || (left < T::ZERO && changed < T::constant(-CLEAR_CAPTURE) * left);

@@ -130,6 +130,68 @@ pub(crate) fn series<T: Real, const N: usize, const M: usize>(
     now
 }
 
+/// Least first value of a speed over that without losses: the first-order estimate of the losses may exceed it.
+const LEAST_FIRST_SPEED: f64 = 0.5;
+
+/// Squared change before the first iteration: anything is an improvement.
+const NO_CHANGE_YET: f64 = 1e9;
+
+/// Growth of the squared change at which iterations diverge: the change has doubled.
+const DIVERGENCE: f64 = 4.0;
+
+/// Squared change of one node by rounding, over the squared rounding of its speed.
+///
+/// A step is the residual over twice the speed. About eight roundings go into the residual, each of half an `EPSILON` of the
+/// square of the speed, so that the step has an error of two `EPSILON` of the speed.
+const CHANGE_ROUNDING: f64 = 4.0;
+
+/// Largest square of the losses over that of the speed for which iterations are tried. Half their ratio is the factor by
+/// which an iteration reduces the error.
+const ITERATION_LIMIT: f64 = 1.0;
+
+/// Factor by which an iteration reduces the error of an interval that begins at a turning point, over the loss over the
+/// speed there: a third, and 2 % more.
+pub(super) const TURNING_CONTRACTION: f64 = 0.34;
+
+/// Largest such factor for which iterations are tried; beyond it a shorter interval costs less.
+const LEAVING_LIMIT: f64 = 0.4;
+
+/// The same for an interval that ends at a turning point, squared; its refusal costs nothing, so that it may be larger.
+const ARRIVING_LIMIT: f64 = 0.3;
+
+/// Power of the length in the losses of an interval that ends at a turning point.
+const LOSS_POWER_OF_DEPTH: f64 = 1.5;
+
+/// Largest relative change of all speeds that is applied to them; larger ones are left to an iteration.
+const LARGEST_RESCALING: f64 = 0.1;
+
+/// Kinetic energy over the energy, below which the speed is known better than the energy.
+pub(super) const END_FROM_SPEED: f64 = 0.1;
+
+/// Steps of Newton's method for the distance to the undamped turning point, which is only a first value.
+const UNDAMPED_STEPS: u32 = 8;
+
+/// Relative step at which they end.
+const UNDAMPED_ACCURACY: f64 = 0.02;
+
+/// Losses so far over the loss at a node, in the first value of Newton's method: between those at early and late nodes.
+const NEWTON_START: f64 = 0.3;
+
+/// Steps of Newton's method. It converges quadratically: more steps mean that the interval is too long.
+const NEWTON_STEPS: u32 = 10;
+
+/// Largest relative decrease of a speed in a step, which keeps speeds positive.
+const NEWTON_LARGEST_STEP: f64 = 0.9;
+
+/// Relative step that comes of a nearly singular matrix.
+const NEWTON_HOPELESS: f64 = 1e9;
+
+/// Estimated error over the square of the part that the nodes do not resolve.
+const TAIL_ERROR: f64 = 0.02;
+
+/// Weight of the second highest coefficient of the times: the highest may vanish by chance.
+const SECOND_COEFFICIENT: f64 = 0.3;
+
 /// The unknowns of an interval while they are iterated.
 struct Iterations<T, const N: usize> {
     /// Speeds, or speeds over z.
@@ -143,10 +205,10 @@ struct Iterations<T, const N: usize> {
     iterations: u32,
 }
 
-/// By how much, squared, the next change may be larger than the last two let expect.
+/// Margin for the next squared change over what superlinear convergence predicts: the change may be ten times as large.
 const SUPERLINEAR_MARGIN: f64 = 100.0;
 
-/// Iterations that an interval may take.
+/// Iterations that an interval may take. They converge superlinearly: more iterations mean that the interval is too long.
 const MOST_ITERATIONS: u32 = 20;
 
 impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
@@ -156,11 +218,11 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
         let (mut speed, mut half_inverse, mut power) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
         for j in 0..N {
             let root = free[j].max(T::SMALLEST).sqrt();
-            speed[j] = (root - taken[j]).max(T::constant(0.5) * root);
+            speed[j] = (root - taken[j]).max(T::constant(LEAST_FIRST_SPEED) * root);
             half_inverse[j] = T::constant(0.5) / speed[j];
             power[j] = loss[j] * speed[j];
         }
-        Self { speed, half_inverse, power, change: T::constant(1e9), iterations: 0 }
+        Self { speed, half_inverse, power, change: T::constant(NO_CHANGE_YET), iterations: 0 }
     }
 
     /// One iteration: Heron's step for the root at every node. `lost` makes the square of a speed from the free one and the
@@ -190,7 +252,7 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
     /// are to change by, over their own.
     #[inline]
     fn scale(&mut self, share: T) -> T {
-        if share.abs() < T::constant(0.1) {
+        if share.abs() < T::constant(LARGEST_RESCALING) {
             let (more, less) = (T::ONE + share, T::ONE - share);
             for j in 0..N {
                 self.speed[j] = self.speed[j] * more;
@@ -216,17 +278,16 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
     #[inline]
     fn has_converged(&mut self, change: T, scale: T, control: &Control<T>) -> Progress {
         let relative = control.converged * control.converged * scale.min(T::ONE);
-        // Rounding alone keeps the steps at this size for ever. A step is the residual over twice the speed. About eight
-        // roundings go into the residual, each of half an EPSILON of the square of the speed, so the step has an error of two
-        // EPSILON of the speed, and the change is the sum of their squares over N nodes. The rounding of positions does not
-        // shrink with the speed; a first iteration may hide behind it.
-        let rounding = T::constant(4.0 * N as f64) * T::EPSILON * T::EPSILON * scale.max(T::ONE);
+        // Rounding alone keeps the changes at this size for ever. The rounding of positions does not shrink with the speed; a
+        // first iteration may hide behind it.
+        let rounding = T::constant(CHANGE_ROUNDING * N as f64) * T::EPSILON * T::EPSILON * scale.max(T::ONE);
         let enough = if self.iterations > 1 { relative.max(rounding) } else { relative };
-        let superlinear = self.iterations > 1 && T::constant(SUPERLINEAR_MARGIN) * change * change <= enough * self.change;
+        let superlinear =
+            self.iterations > 1 && T::constant(SUPERLINEAR_MARGIN) * change * change <= enough * self.change;
         if change <= enough || (superlinear && change * self.lateness() <= enough) {
             return Progress::Converged;
         }
-        if change < T::constant(4.0) * self.change && self.iterations < MOST_ITERATIONS {
+        if change < T::constant(DIVERGENCE) * self.change && self.iterations < MOST_ITERATIONS {
             self.change = change;
             return Progress::Converging;
         }
@@ -263,7 +324,7 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
         let tail = |f: &[T; N]| dot(&T::HIGHEST_COEFFICIENT, f).abs();
         let share = tail(&self.power) / (dot(&T::WEIGHTS, &self.power).abs() + scale + T::SMALLEST);
         let share = if control.times > T::ZERO { share.max(control.times * tail_of_times(rate)) } else { share };
-        T::constant(0.02) * share * share
+        T::constant(TAIL_ERROR) * share * share
     }
 }
 
@@ -271,7 +332,7 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
 #[inline]
 pub(crate) fn tail_of_times<T: Nodes<N>, const N: usize>(rate: &[T; N]) -> T {
     // The highest share alone may vanish by chance.
-    let before = T::constant(0.3) * dot(&T::LEGENDRE[N - 2], rate).abs();
+    let before = T::constant(SECOND_COEFFICIENT) * dot(&T::LEGENDRE[N - 2], rate).abs();
     dot(&T::HIGHEST_COEFFICIENT, rate).abs().max(before) / (dot(&T::WEIGHTS, rate).abs() + T::SMALLEST)
 }
 
@@ -311,7 +372,7 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
         let here = T::WEIGHTS[j] * loss[j];
         taken[j] = half * (reach + half * here);
         reach = reach + here;
-        contracting &= reach * reach < free[j];
+        contracting &= reach * reach < T::constant(ITERATION_LIMIT) * free[j];
     }
     if course.reversed {
         loss = loss.map(|loss| -loss);
@@ -336,7 +397,7 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     // Newton's method knows the speed at the end, iterations know the energy lost; where almost all is lost the one counts,
     // elsewhere the other.
     let speed_squared = if newton { last * last } else { free[N - 1] - lost };
-    let energy = if newton && speed_squared < T::constant(0.1) * from.energy.abs() {
+    let energy = if newton && speed_squared < T::constant(END_FROM_SPEED) * from.energy.abs() {
         half * speed_squared + law.potential(s[N - 1])
     } else {
         from.energy - half * lost
@@ -370,10 +431,10 @@ pub(crate) fn leave<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
         loss = loss.map(|loss| -loss);
     }
     let mut state = Iterations::from(&free, &loss, &taken_from_turning_point(&loss));
-    // A sixth of the loss over the speed is what an iteration leaves of an error.
-    let contraction = T::constant(0.34) * strongest * state.half_inverse[0];
-    let mut accepted =
-        possible && contraction < T::constant(0.4) && state.converge(&free, &loss, &T::TURNING_INTEGRATION, control);
+    let contraction = T::constant(TURNING_CONTRACTION) * strongest * state.half_inverse[0];
+    let mut accepted = possible
+        && contraction < T::constant(LEAVING_LIMIT)
+        && state.converge(&free, &loss, &T::TURNING_INTEGRATION, control);
     *iterations += state.iterations;
     let lost = half * dot(&T::TURNING_WEIGHTS, &state.power);
     let (rate, y) = from_turning_point(law, &s, &state, depth.abs(), &mut accepted);
@@ -409,11 +470,12 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     if (depth > T::ZERO) != inwards || turning <= T::ZERO {
         return refused(turning, false);
     }
-    // What an iteration leaves of an error is known beforehand, so a strongly damped arrival costs nothing.
-    let reach =
-        T::constant(0.68) * depth.abs() * law.loss(if course.rebound { from.s } else { turning }, course.rebound);
+    // The error that an iteration leaves is known beforehand, so that a strongly damped arrival costs nothing.
+    let reach = T::constant(2.0 * TURNING_CONTRACTION)
+        * depth.abs()
+        * law.loss(if course.rebound { from.s } else { turning }, course.rebound);
     let stopping = two * depth * law.mean_slope(turning, from.s);
-    if !(stopping > T::ZERO && reach * reach < T::constant(0.3) * stopping) {
+    if !(stopping > T::ZERO && reach * reach < T::constant(ARRIVING_LIMIT) * stopping) {
         return refused(turning, true);
     }
     let (mut s, mut free, mut loss) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
@@ -432,7 +494,7 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     }
     let mut state = Iterations::from(&free, &loss, &taken_from_turning_point(&loss).map(|taken| -taken));
     let mut accepted = false;
-    let slow = from.speed_squared < T::constant(0.1) * from.energy.abs();
+    let slow = from.speed_squared < T::constant(END_FROM_SPEED) * from.energy.abs();
     // Where the potential is a sum of large terms, as far inside, or the speed is small, what it rises by is known better.
     let by_speed = inwards || slow;
     let mut lost;
@@ -453,7 +515,8 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
         };
         let slope = law.slope(turning);
         // Losses grow with the distance to the power 1.5, and with the coordinate one power less than the elastic energy.
-        let power = T::constant(1.5) + T::constant(law.energy_power() - 1.0) * depth.max(T::ZERO) / turning;
+        let power =
+            T::constant(LOSS_POWER_OF_DEPTH) + T::constant(law.energy_power() - 1.0) * depth.max(T::ZERO) / turning;
         let step = excess / (slope + power * lost / depth);
         // As the speed at the far end changes with the turning point, so do those on the way.
         let share = -(step * slope / from.speed_squared);
@@ -494,11 +557,11 @@ fn undamped_distance<T: Real>(law: &impl ContactLaw<T>, from: &Point<T>, guess: 
     if slope * distance > T::ZERO && from.speed_squared < T::constant(2.0) * slope * distance {
         distance = half * from.speed_squared / slope;
     }
-    for _ in 0..8 {
+    for _ in 0..UNDAMPED_STEPS {
         let excess = law.mean_slope(from.s + distance, from.s) * distance - half * from.speed_squared;
         let step = excess / law.slope(from.s + distance);
         distance = distance - step;
-        if step.abs() < T::constant(0.02) * distance.abs() {
+        if step.abs() < T::constant(UNDAMPED_ACCURACY) * distance.abs() {
             break;
         }
     }
@@ -545,11 +608,11 @@ fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
     for j in 0..N {
         let root = free[j].max(T::SMALLEST).sqrt();
         // As if the loss so far had acted at this node's speed.
-        speed[j] = if loss[j] > T::ZERO { root * root / (root + T::constant(0.3) * loss[j]) } else { root };
+        speed[j] = if loss[j] > T::ZERO { root * root / (root + T::constant(NEWTON_START) * loss[j]) } else { root };
     }
     let enough = control.converged.max(T::constant(4.0) * T::EPSILON);
     let mut converged = false;
-    for _ in 0..10 {
+    for _ in 0..NEWTON_STEPS {
         let (mut jacobian, mut residual) = ([[T::ZERO; N]; N], [T::ZERO; N]);
         for j in 0..N {
             let mut lost = T::ZERO;
@@ -563,10 +626,9 @@ fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
         if !eliminate(&mut jacobian, &mut residual) {
             break;
         }
-        // No step takes more than nine tenths of a speed.
         let (mut share, mut largest) = (T::ONE, T::ZERO);
         for j in 0..N {
-            let bound = T::constant(-0.9) * speed[j];
+            let bound = T::constant(-NEWTON_LARGEST_STEP) * speed[j];
             if residual[j] < bound {
                 share = share.min(bound / residual[j]);
             }
@@ -580,7 +642,7 @@ fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
             converged = true;
             break;
         }
-        if largest >= T::constant(1e9) {
+        if largest >= T::constant(NEWTON_HOPELESS) {
             break;
         }
     }

@@ -1,6 +1,6 @@
 //! The whole normal motion: approach, peak, rebound, and separation or capture.
 
-use super::interval::{Control, Course, Interval, Point, arrive, leave, pass};
+use super::interval::{Control, Course, Interval, Point, TURNING_CONTRACTION, arrive, leave, pass};
 use super::nodes::Nodes;
 use super::observer::Observer;
 use super::well;
@@ -105,6 +105,111 @@ const MOST_SPLITS: u32 = 40;
 /// Intervals that a motion may take, refused ones included.
 pub(crate) const MOST_INTERVALS: u32 = 160;
 
+/// Residual of the end of sliding, over the root of the tolerance and the length, at which the search ends: the last step is
+/// applied to first order, so that an error of its square remains.
+const CLOSE_TO_END_OF_SLIP: f64 = 0.03;
+
+/// First length of an interval: half of the undamped peak.
+const FIRST_LENGTH: f64 = 0.5;
+
+/// Fraction of the first interval at which the potential is compared with the energy, and of the potential that the energy
+/// may be: the interval ends about where adhesion has added as much energy as there was.
+const PULL_FRACTION: f64 = 0.5;
+
+/// Factor on the first length where adhesion adds more.
+const PULL_SHRINK: f64 = 0.4;
+
+/// Largest loss of the first interval, over the speed: beyond it damping stops the sphere at once.
+const FIRST_DRAG: f64 = 4.0;
+
+/// Factor on the first length where damping is stronger.
+const FIRST_DRAG_SHRINK: f64 = 0.7;
+
+/// Bound of every search by factors.
+const MOST_SHRINKS: u32 = 60;
+
+/// Factor in the search for a coordinate beyond the peak.
+const PEAK_GROWTH: f64 = 1.5;
+
+/// Fraction of the energy that counts as reached there: rounding must not push the place further.
+const PEAK_ENERGY: f64 = 0.999;
+
+/// Longest interval, over the distance in which damping alone stops the sphere.
+const BRAKING_FRACTION: f64 = 0.55;
+
+/// Longest interval, over the distance to the undamped turning point, where the speed has a root.
+pub(super) const UNDAMPED_FRACTION: f64 = 0.7;
+
+/// Longest first interval of the rebound, over the distance to the end of contact: it leaves room for another.
+const DEEPEST_DEPARTURE: f64 = 0.5;
+
+/// A first interval of the rebound that is shorter, over the same distance, had to be shortened.
+const SHALLOW_DEPARTURE: f64 = 0.4;
+
+/// The next interval then, over the first: away from the turning point the speed is smoother.
+const AFTER_SHALLOW_DEPARTURE: f64 = 4.0;
+
+/// Square of the losses of the first interval from a turning point over that of its speed; with it iterations converge.
+const LEAVING_DEPTH: f64 = 0.2;
+
+/// Fraction of the distance to the end of contact from which an interval counts as going all the way.
+const WHOLE_DEPARTURE: f64 = 0.67;
+
+/// Energy over the potential half-way, below which such an interval would come near the branch point of the speed beyond
+/// the end of contact.
+const SLOW_DEPARTURE: f64 = 0.5;
+
+/// Its length then, over the distance.
+const SLOW_DEPARTURE_LENGTH: f64 = 0.6;
+
+/// Longest interval of a captured sphere, over the distance to the guess of its turning point.
+const HELD_FRACTION: f64 = 0.5;
+
+/// Largest factor on the length of a refused interval.
+pub(super) const REFUSED_SHRINK: f64 = 0.7;
+
+/// Remaining distance to the equilibrium, in roundings of the coordinate, that counts as none.
+const AT_EQUILIBRIUM_ROUNDINGS: f64 = 8.0;
+
+/// Square of the roundings of the forces near the equilibrium, times the tolerance, that an error estimate contains.
+const ROUNDING_OF_FORCES: f64 = 2e-4;
+
+/// Amplitude of a swing over the coordinate, up to which the well is a parabola.
+const LINEAR_SWING: f64 = 1e-3;
+
+/// Guess of the turning point of such a swing, over its amplitude: a little beyond.
+const BEYOND_SWING: f64 = 1.01;
+
+/// Halvings for the guess of another turning point,
+const TURNING_HALVINGS: u32 = 12;
+
+/// and steps of Newton's method after them.
+const TURNING_STEPS: u32 = 3;
+
+/// Start of Newton's method for the equilibrium: beyond the bottom of every well without an external force.
+const EQUILIBRIUM_START: f64 = 2.0;
+
+/// Its steps; where the force is a power of the coordinate, each takes a fixed fraction off.
+const EQUILIBRIUM_STEPS: u32 = 100;
+
+/// Factor on the length where nothing is known of the error.
+const LENGTH_AFTER_FAILURE: f64 = 0.4;
+
+/// Factor on the length where there is no error: about the largest otherwise.
+const LENGTH_WITHOUT_ERROR: f64 = 3.0;
+
+/// Safety factor on the length, which avoids most refusals (Hairer, Norsett and Wanner 1993, section II.4).
+const LENGTH_SAFETY: f64 = 0.9;
+
+/// Steps in which the length grows: a root without a logarithm.
+const LENGTH_GROWTH: f64 = 1.2;
+
+/// Steps in which it shrinks.
+const LENGTH_SHRINK: f64 = 0.85;
+
+/// Steps at most: factors from 0.34 to 2.7.
+const LENGTH_STEPS: u32 = 6;
+
 /// A motion in progress.
 pub(crate) struct Follower<'a, T, L, O> {
     pub(crate) law: &'a L,
@@ -125,7 +230,7 @@ pub(crate) fn find_end_of_slip<T: Nodes<N>, const N: usize>(
     tolerance: T,
     mut part: impl FnMut(T) -> Interval<T, N>,
 ) -> (T, Interval<T, N>, T) {
-    let close = T::constant(0.03) * tolerance.sqrt();
+    let close = T::constant(CLOSE_TO_END_OF_SLIP) * tolerance.sqrt();
     let (mut z, mut before, mut after) = (share, T::ZERO, T::ONE);
     let mut tries = 0;
     loop {
@@ -214,7 +319,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let beyond = self.undamped_peak();
         // Without an external force no peak lies beyond one.
         let farthest = if self.law.may_have_barrier() { beyond } else { T::ONE };
-        let mut length = half;
+        let mut length = T::constant(FIRST_LENGTH);
         loop {
             if self.at.s > self.law.start() {
                 let arrival: Interval<T, N> =
@@ -243,7 +348,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                     length = (length * factor).min(farthest - self.at.s * half);
                     break;
                 }
-                length = length * factor.min(T::constant(0.7));
+                length = length * factor.min(T::constant(REFUSED_SHRINK));
                 if length <= T::EPSILON * T::EPSILON {
                     return Err(if self.is_held() { End::Capture } else { End::Budget });
                 }
@@ -254,11 +359,11 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     /// A contact radius that the energy does not reach.
     pub(crate) fn undamped_peak(&self) -> T {
         let mut beyond = T::ONE;
-        for _ in 0..60 {
-            if self.law.potential(beyond) >= self.at.energy * T::constant(0.999) {
+        for _ in 0..MOST_SHRINKS {
+            if self.law.potential(beyond) >= self.at.energy * T::constant(PEAK_ENERGY) {
                 break;
             }
-            beyond = beyond * T::constant(1.5);
+            beyond = beyond * T::constant(PEAK_GROWTH);
         }
         beyond
     }
@@ -267,19 +372,19 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     fn first_length(&self) -> T {
         let half = T::constant(0.5);
         let (start, energy, speed) = (self.at.s, half * self.at.speed_squared, self.at.speed_squared.sqrt());
-        let mut length = half;
-        for _ in 0..60 {
-            let rise = self.law.potential(start + half * length) - self.law.potential(start);
-            if energy >= half * rise.abs() {
+        let (mut length, fraction) = (T::constant(FIRST_LENGTH), T::constant(PULL_FRACTION));
+        for _ in 0..MOST_SHRINKS {
+            let rise = self.law.potential(start + fraction * length) - self.law.potential(start);
+            if energy >= fraction * rise.abs() {
                 break;
             }
-            length = length * T::constant(0.4);
+            length = length * T::constant(PULL_SHRINK);
         }
-        for _ in 0..60 {
-            if self.law.loss(start + length, false) * length <= T::constant(4.0) * speed {
+        for _ in 0..MOST_SHRINKS {
+            if self.law.loss(start + length, false) * length <= T::constant(FIRST_DRAG) * speed {
                 break;
             }
-            length = length * T::constant(0.7);
+            length = length * T::constant(FIRST_DRAG_SHRINK);
         }
         length
     }
@@ -288,12 +393,12 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     fn braked_length(&self, length: T, undamped_turning_point: T) -> T {
         let (speed, loss) = (self.at.speed_squared.sqrt(), self.law.loss(self.at.s, false));
         let mut length = length;
-        let reach = T::constant(0.55) * speed;
+        let reach = T::constant(BRAKING_FRACTION) * speed;
         if loss * length > reach {
             length = reach / loss;
         }
         if undamped_turning_point > self.at.s {
-            length = length.min(T::constant(0.7) * (undamped_turning_point - self.at.s));
+            length = length.min(T::constant(UNDAMPED_FRACTION) * (undamped_turning_point - self.at.s));
         }
         length
     }
@@ -303,16 +408,18 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     where
         T: Nodes<N>,
     {
-        let half = T::constant(0.5);
         let (peak, outermost) = (self.at.s, self.law.end());
         let captured = self.is_held();
         if (captured && !to_turning_point) || self.creeps(peak, T::ZERO, Course::REBOUND) {
             return Ok(T::ZERO);
         }
         let distance = peak - outermost;
-        let depth = self.leave_peak::<N>(half * distance)?;
-        let mut length =
-            if depth < T::constant(0.4) * distance { T::constant(4.0) * depth } else { self.at.s - outermost };
+        let depth = self.leave_peak::<N>(T::constant(DEEPEST_DEPARTURE) * distance)?;
+        let mut length = if depth < T::constant(SHALLOW_DEPARTURE) * distance {
+            T::constant(AFTER_SHALLOW_DEPARTURE) * depth
+        } else {
+            self.at.s - outermost
+        };
         while self.at.s > outermost {
             if self.is_held() {
                 if !to_turning_point || self.creeps(self.at.s, self.at.speed_squared.sqrt(), Course::REBOUND) {
@@ -324,10 +431,10 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 if self.take(&arrival, Course::REBOUND, Some(arrival.end.s))? {
                     return Ok(self.at.s);
                 }
-                if self.is_at_equilibrium(T::constant(8.0)) {
+                if self.is_at_equilibrium(T::constant(AT_EQUILIBRIUM_ROUNDINGS)) {
                     return Ok(T::ZERO);
                 }
-                length = half * (self.at.s - guess);
+                length = T::constant(HELD_FRACTION) * (self.at.s - guess);
                 // Nor to where damping alone stops the sphere.
                 let (speed, loss) = (self.at.speed_squared.sqrt(), self.law.loss(self.at.s, true));
                 if loss * length > speed {
@@ -339,8 +446,14 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             loop {
                 let to_the_end = length >= self.at.s - outermost;
                 let step = if to_the_end { outermost - self.at.s } else { -length };
-                let interval: Interval<T, N> =
-                    pass(self.law, &self.at, (step, T::ZERO), Course::REBOUND, &self.control, &mut self.effort.iterations);
+                let interval: Interval<T, N> = pass(
+                    self.law,
+                    &self.at,
+                    (step, T::ZERO),
+                    Course::REBOUND,
+                    &self.control,
+                    &mut self.effort.iterations,
+                );
                 let factor = self.length_factor(N, &interval);
                 if self.take(&interval, Course::REBOUND, None)? {
                     length = length * factor;
@@ -349,13 +462,13 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                     }
                     break;
                 }
-                length = length * factor.min(T::constant(0.7));
+                length = length * factor.min(T::constant(REFUSED_SHRINK));
                 if length <= T::EPSILON * T::EPSILON {
                     return if self.is_held() { Ok(T::ZERO) } else { Err(End::Budget) };
                 }
                 // Where the forces left are hardly more than their rounding, errors are, squared, what that makes of them: no
                 // interval is short enough.
-                let roundings = (T::constant(2e-4) / self.control.error).sqrt();
+                let roundings = (T::constant(ROUNDING_OF_FORCES) / self.control.error).sqrt();
                 if self.is_held() && self.is_at_equilibrium(roundings) {
                     return Ok(T::ZERO);
                 }
@@ -381,20 +494,21 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let signed = |length: T| if course.rebound { length } else { -length };
         let from = self.at.s;
         let mut depth = longest;
-        // What an iteration leaves of an error grows with the root of the depth.
-        let reach = T::constant(0.68) * self.law.loss(from, course.rebound);
-        let stiffness = T::constant(0.2) * signed(self.law.slope(from));
+        // The error that an iteration leaves grows with the root of the depth.
+        let reach = T::constant(2.0 * TURNING_CONTRACTION) * self.law.loss(from, course.rebound);
+        let stiffness = T::constant(LEAVING_DEPTH) * signed(self.law.slope(from));
         if reach * reach * depth > stiffness {
             depth = stiffness / (reach * reach);
         }
         loop {
             let (energy, iterations) = (self.at.energy, &mut self.effort.iterations);
-            let interval: Interval<T, N> = leave(self.law, from, signed(depth), energy, course, &self.control, iterations);
+            let interval: Interval<T, N> =
+                leave(self.law, from, signed(depth), energy, course, &self.control, iterations);
             let factor = self.length_factor(N, &interval);
             if self.take(&interval, course, Some(from))? {
                 return Ok(depth);
             }
-            depth = depth * factor.min(T::constant(0.7));
+            depth = depth * factor.min(T::constant(REFUSED_SHRINK));
             if depth <= T::EPSILON * T::EPSILON {
                 return Err(End::Budget);
             }
@@ -412,8 +526,10 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let distance = s - self.law.end();
         let length = length.min(distance);
         let half_way = s - half * distance;
-        if length >= T::constant(0.67) * distance && self.at.energy < half * self.law.potential(half_way).abs() {
-            return T::constant(0.6) * distance;
+        if length >= T::constant(WHOLE_DEPARTURE) * distance
+            && self.at.energy < T::constant(SLOW_DEPARTURE) * self.law.potential(half_way).abs()
+        {
+            return T::constant(SLOW_DEPARTURE_LENGTH) * distance;
         }
         length
     }
@@ -424,12 +540,12 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let (slope, curvature) = (self.law.slope(s), self.law.curvature(s).max(T::SMALLEST));
         let distance = slope / curvature;
         let swing = (distance * distance + self.at.speed_squared / curvature).sqrt();
-        if swing <= T::constant(1e-3) * s {
+        if swing <= T::constant(LINEAR_SWING) * s {
             // So close to the bottom energies hardly differ, but forces do: a little beyond the turning point of a linear swing.
-            return s - distance - T::constant(1.01) * swing;
+            return s - distance - T::constant(BEYOND_SWING) * swing;
         }
         let (mut below, mut above) = (self.law.end(), s);
-        for _ in 0..12 {
+        for _ in 0..TURNING_HALVINGS {
             let middle = (below + above) * T::constant(0.5);
             if self.law.potential(middle) > energy {
                 below = middle;
@@ -443,7 +559,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             let curvature = self.law.curvature(turning).max(T::SMALLEST);
             turning = turning - T::constant(2.0) * self.law.slope(turning) / curvature;
         }
-        for _ in 0..3 {
+        for _ in 0..TURNING_STEPS {
             let slope = self.law.slope(turning);
             if slope < T::ZERO {
                 let next = turning - (self.law.potential(turning) - energy) / slope;
@@ -537,23 +653,23 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     pub(crate) fn length_factor<const N: usize>(&self, nodes: usize, interval: &Interval<T, N>) -> T {
         let (error, allowed) = (interval.error, self.control.error);
         if error >= T::ONE {
-            return T::constant(0.4);
+            return T::constant(LENGTH_AFTER_FAILURE);
         }
         if error <= T::ZERO {
-            return T::constant(3.0);
+            return T::constant(LENGTH_WITHOUT_ERROR);
         }
         let grows = allowed > error;
         let (ratio, step, inverse) = if grows {
-            (allowed.saturating_div(error), T::constant(1.2), T::constant(1.2))
+            (allowed.saturating_div(error), T::constant(LENGTH_GROWTH), T::constant(LENGTH_GROWTH))
         } else {
-            (error.saturating_div(allowed), T::constant(0.85), T::constant(1.0 / 0.85))
+            (error.saturating_div(allowed), T::constant(LENGTH_SHRINK), T::constant(1.0 / LENGTH_SHRINK))
         };
         let mut power = T::ONE;
         for _ in 0..2 * nodes {
             power = power * inverse;
         }
-        let (mut ratio, mut factor) = (ratio, T::constant(0.9));
-        for _ in 0..6 {
+        let (mut ratio, mut factor) = (ratio, T::constant(LENGTH_SAFETY));
+        for _ in 0..LENGTH_STEPS {
             if ratio <= power {
                 break;
             }
@@ -604,17 +720,17 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
 
     /// Contact radius at which the forces balance: the minimum of the potential, by Newton's method from above.
     pub(crate) fn equilibrium(&self) -> Option<T> {
-        let mut s = T::constant(2.0);
+        let mut s = T::constant(EQUILIBRIUM_START);
         if self.law.may_have_barrier() {
             // An external force may also hold the sphere beyond.
-            for _ in 0..60 {
+            for _ in 0..MOST_SHRINKS {
                 if self.law.slope(s) > T::ZERO {
                     break;
                 }
                 s = s + s;
             }
         }
-        for _ in 0..100 {
+        for _ in 0..EQUILIBRIUM_STEPS {
             let curvature = self.law.curvature(s);
             if curvature <= T::ZERO {
                 return None;

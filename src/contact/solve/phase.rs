@@ -88,7 +88,8 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
             let root = if law.may_have_barrier() { free.max(T::SMALLEST).sqrt() } else { free.sqrt() };
             phase.speed[j] = root + Self::gain(ends, j);
         }
-        let (first, last) = (T::constant(FIRST_LOSS_WEIGHT) * T::END_WEIGHTS.0, T::constant(LAST_LOSS_WEIGHT) * T::END_WEIGHTS.1);
+        let (first, last) =
+            (T::constant(FIRST_LOSS_WEIGHT) * T::END_WEIGHTS.0, T::constant(LAST_LOSS_WEIGHT) * T::END_WEIGHTS.1);
         phase.estimate = (first * ends.0 + last * ends.1) * (phase.speed[(N - 1) / 2] + phase.speed[N / 2]);
         let before = phase.peak;
         phase.correct_peak(law, energy, phase.estimate);

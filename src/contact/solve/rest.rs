@@ -6,11 +6,27 @@
 use super::interval::{Course, Interval, arrive, pass};
 use super::nodes::Nodes;
 use super::observer::Observer;
-use super::path::{Effort, End, Follower, NormalPath};
+use super::path::{Effort, End, Follower, NormalPath, REFUSED_SHRINK, UNDAMPED_FRACTION};
 use crate::contact::law::{ContactLaw, Units};
 use crate::{InputError, Parameter, Real};
 
-/// When a captured sphere counts as at rest, and how long it is followed until then.
+/// Excess of the energy at rest, in roots of a rounding: a creeping sphere stops just there.
+const REST_ROUNDING: f64 = 3.0;
+
+/// Longest interval of a creeping sphere, over the distance to the equilibrium, where the time has a singularity.
+const CREEPING_FRACTION: f64 = 0.5;
+
+/// Its shortest, in roundings of the coordinate.
+const CREEPING_ROUNDING: f64 = 4.0;
+
+/// Swings without a visible decay, there and back, after which the motion is given up.
+const STEADY_SWINGS: u32 = 2;
+
+/// Least energy at rest, over the depth of the well and in squared roundings: the remaining distance has some thousand
+/// roundings of the coordinate.
+const LEAST_REST_ENERGY: f64 = 1e6;
+
+/// The condition that ends the simulation of a captured sphere, and the largest number of turning points until then.
 ///
 /// ```
 /// use microimpact::contact::{Adaptive, Contact, RestCriterion};
@@ -31,17 +47,17 @@ use crate::{InputError, Parameter, Real};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RestCriterion<T> {
-    share: T,
+    fraction: T,
     turning_points: u32,
 }
 
 impl<T: Real> RestCriterion<T> {
-    /// At rest with an energy above the bottom of the well of at most `share` times the depth of the well, 1e-12 to 0.5;
-    /// followed over at most so many `turning_points`, 1 to 100000.
+    /// The sphere counts as at rest if its energy above the bottom of the well is at most `fraction` times the depth of the
+    /// well (1e-12 to 0.5). It is followed over at most so many `turning_points` (1 to 100000).
     ///
     /// The depth of the well is the energy that takes the sphere from its equilibrium off the surface. Without an external
-    /// force a sphere at rest swings by less than 0.73 sqrt(share) of its equilibrium indentation. A number type's rounding
-    /// limits the share from below.
+    /// force a sphere at rest swings by less than 0.73 sqrt(fraction) of its equilibrium indentation. A number type's rounding
+    /// limits the fraction from below.
     ///
     /// # Errors
     /// A value outside its range.
@@ -53,11 +69,11 @@ impl<T: Real> RestCriterion<T> {
     /// assert!(RestCriterion::new(1e-6, 0).is_err());
     /// assert!(RestCriterion::new(0.0, 1000).is_err());
     /// ```
-    pub fn new(share: T, turning_points: u32) -> Result<Self, InputError> {
-        let share = Parameter::RestEnergy.check(share)?;
+    pub fn new(fraction: T, turning_points: u32) -> Result<Self, InputError> {
+        let fraction = Parameter::RestEnergy.check(fraction)?;
         Parameter::TurningPoints.check(f64::from(turning_points))?;
-        // The way left has some thousand roundings of the contact radius.
-        Ok(Self { share: share.max(T::constant(1e6) * T::EPSILON * T::EPSILON), turning_points })
+        let least = T::constant(LEAST_REST_ENERGY) * T::EPSILON * T::EPSILON;
+        Ok(Self { fraction: fraction.max(least), turning_points })
     }
 }
 
@@ -83,9 +99,9 @@ impl<T: Real> RestCriterion<T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MotionToRest<T> {
-    /// Time from first touch to rest, s: to the first turning point with an energy of at most the share that counts as
-    /// rest, or of a sphere that creeps, to where its energy is that share. Where the damping is critical but for some
-    /// percent, so that the next turning point is out of sight and creeping not yet sure, it is a later time.
+    /// Time from first contact to rest, s. It ends at the first turning point at which the sphere is at rest or, if the sphere
+    /// creeps, when its energy has decreased to that of rest. If the damping is within some percent of critical damping, the
+    /// next turning point may be out of sight while creeping is not certain yet; then it is a later time.
     pub time: T,
     /// Turning points after the peak, the last included.
     pub turning_points: u32,
@@ -136,7 +152,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
         };
         let barrier = self.barrier.0;
         let depth = self.law.mean_slope(barrier, bottom) * (barrier - bottom);
-        let well = Well { bottom, rest: criterion.share * depth };
+        let well = Well { bottom, rest: criterion.fraction * depth };
         // Where the sphere would turn back without losses, ahead and behind; it never comes as far again.
         let mut course = if path.peak > T::ZERO { Course::REBOUND } else { Course::APPROACH };
         let outermost = if path.turning > T::ZERO { path.turning } else { self.outer_turning_point() };
@@ -168,7 +184,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
             // Where damping takes less than rounding on the way there and back, the decay is not to be seen any more.
             let lower = if course.rebound { self.at.s > ahead } else { self.at.s < ahead };
             steady = if damped && turned && !lower { steady + 1 } else { 0 };
-            if swing.is_err() || steady == 2 {
+            if swing.is_err() || steady == STEADY_SWINGS {
                 settling.at_rest = self.rests(&well);
                 break;
             }
@@ -179,7 +195,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
     }
 
     fn rests(&self, well: &Well<T>) -> bool {
-        self.excess(well) <= well.rest * (T::ONE + T::constant(3.0) * T::EPSILON.sqrt())
+        self.excess(well) <= well.rest * (T::ONE + T::constant(REST_ROUNDING) * T::EPSILON.sqrt())
     }
 
     /// Energy above the bottom of the well.
@@ -215,7 +231,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
                 // Not beyond the turning point without losses from here, or else that of the swing before.
                 let undamped = along(arrival.end.s - self.at.s);
                 let ahead = if undamped > T::ZERO { undamped } else { along(beyond - self.at.s) };
-                length = length.min(T::constant(0.7) * ahead);
+                length = length.min(T::constant(UNDAMPED_FRACTION) * ahead);
             }
             loop {
                 let step = if *creeps { length.min(self.creeping_length(well)) } else { length };
@@ -227,7 +243,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
                     length = step * factor.max(T::ONE);
                     break;
                 }
-                length = step * factor.min(T::constant(0.7));
+                length = step * factor.min(T::constant(REFUSED_SHRINK));
                 if length <= T::EPSILON * T::EPSILON {
                     return Err(End::Budget);
                 }
@@ -243,9 +259,9 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
     /// has a singularity there.
     fn creeping_length(&self, well: &Well<T>) -> T {
         // Close to the bottom the energy goes with the square of the distance.
-        let share = (well.rest / self.excess(well)).sqrt().max(T::constant(0.5));
+        let share = (well.rest / self.excess(well)).sqrt().max(T::constant(CREEPING_FRACTION));
         let length = (self.at.s - well.bottom).abs() * (T::ONE - share);
-        length.max(T::constant(4.0) * T::EPSILON * self.at.s)
+        length.max(T::constant(CREEPING_ROUNDING) * T::EPSILON * self.at.s)
     }
 }
 
