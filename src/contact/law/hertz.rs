@@ -15,6 +15,24 @@ pub(super) const HERTZ_DURATION: f64 = 2.943_275_2;
 /// Peak indentation of Hertz's impact over r (m v^2/(r^3 K))^(2/5): (5/4)^(2/5).
 const HERTZ_PEAK: f64 = 1.093_362_073_943_278_1;
 
+/// Coefficients of a first value of the peak, right to 1e-3 for every strength of adhesion.
+const PEAK_RATIO: (f64, f64) = (0.58, 0.315);
+
+/// Steps of Newton's method after it, at most.
+const PEAK_STEPS: u32 = 4;
+
+/// Square of the relative step at which they end, in roundings: the error that remains is below twice the square.
+const PEAK_ACCURACY: f64 = 0.06;
+
+/// Factor in the search for a coordinate beyond the peak under an external force,
+const PEAK_GROWTH: f64 = 1.5;
+
+/// and steps of it and of Newton's method at most.
+const PEAK_SEARCH: u32 = 60;
+
+/// Relative step of the latter, in roundings, at which it ends.
+const PEAK_ROUNDING: f64 = 4.0;
+
 /// A force besides the elastic one, conservative but for its damping on rebound: adhesion or an external force.
 ///
 /// What it gives the sphere is taken from the potential, so that an absent force leaves no operation behind. All functions
@@ -260,21 +278,21 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> HertzLaw<T, D, 
     /// Coordinate at which the undamped motion under an external force turns, `None` where the force turns it back before.
     fn undamped_peak(&self, energy: T) -> Option<T> {
         let mut peak = T::ONE;
-        for _ in 0..60 {
+        for _ in 0..PEAK_SEARCH {
             if self.potential(peak) >= energy {
                 break;
             }
-            peak = peak * T::constant(1.5);
+            peak = peak * T::constant(PEAK_GROWTH);
         }
         // From above Newton's method comes down without passing the root, as the potential is convex there.
-        for _ in 0..60 {
+        for _ in 0..PEAK_SEARCH {
             let slope = self.slope(peak);
             if slope <= T::ZERO {
                 return None;
             }
             let step = (self.potential(peak) - energy) / slope;
             peak = peak - step;
-            if step.abs() <= T::constant(4.0) * T::EPSILON * peak {
+            if step.abs() <= T::constant(PEAK_ROUNDING) * T::EPSILON * peak {
                 break;
             }
         }
@@ -459,19 +477,17 @@ impl<T: Real> HertzUnits<T> {
 /// before the impact, which is exact to fewer roundings than a fifth power of b has.
 fn inverse_peak_contact_radius<T: Real>(p: T) -> (T, T) {
     let (two, five) = (T::constant(2.0), T::constant(5.0));
-    // Right to 1e-3 for every p.
-    let ratio = T::ONE + p * (T::constant(0.58) + T::constant(0.315) * p);
+    let ratio = T::ONE + p * (T::constant(PEAK_RATIO.0) + T::constant(PEAK_RATIO.1) * p);
     let mut b = (ratio / (p * ratio + T::ONE)).sqrt();
     let mut fifth = T::ONE;
-    for _ in 0..4 {
+    for _ in 0..PEAK_STEPS {
         let square = b * b;
         let pull = p * square;
         fifth = square * square * b;
         let excess = (pull - T::ONE + fifth) / (five * fifth + two * pull);
         b = b - b * excess;
         fifth = fifth - five * fifth * excess;
-        // The error that remains is less than twice the square of the step.
-        if excess * excess <= T::constant(0.06) * T::EPSILON {
+        if excess * excess <= T::constant(PEAK_ACCURACY) * T::EPSILON {
             break;
         }
     }

@@ -32,6 +32,12 @@ const CONVERGED: f64 = 0.1;
 /// Weight of the error of times where only the end of the motion is asked for.
 const UNTIMED: f64 = 0.1;
 
+/// Least tolerance, in roundings.
+const LEAST_TOLERANCE: f64 = 8.0;
+
+/// Least change of speeds at which iterations end, in roundings: a change of one unit in the last place never ends.
+const LEAST_CHANGE: f64 = 2.0;
+
 impl<const N: usize, T: Real> Collocation<N, T> {
     /// A method with a tolerance for e^2; a number type's rounding limits it from below.
     ///
@@ -54,15 +60,14 @@ impl<const N: usize, T: Real> Collocation<N, T> {
 
     pub(super) fn control(&self, timed: bool) -> Control<T> {
         let times = if timed { T::ONE } else { T::constant(UNTIMED) };
-        // Changes of one unit in the last place never end.
-        let converged = (T::constant(CONVERGED) * self.tolerance).max(T::constant(2.0) * T::EPSILON);
+        let converged = (T::constant(CONVERGED) * self.tolerance).max(T::constant(LEAST_CHANGE) * T::EPSILON);
         Control { converged, error: self.tolerance, times }
     }
 }
 
 /// A tolerance, or the least that the rounding of a number type allows.
 pub(super) fn at_least_rounding<T: Real>(tolerance: T) -> T {
-    tolerance.max(T::constant(8.0) * T::EPSILON)
+    tolerance.max(T::constant(LEAST_TOLERANCE) * T::EPSILON)
 }
 
 impl<T: Nodes<N>, const N: usize> Method<T> for Collocation<N, T> {

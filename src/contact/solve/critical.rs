@@ -25,6 +25,9 @@ pub(crate) const MOST_TRIALS: u32 = MOST_GUIDED_TRIALS + HALVINGS;
 /// Change at which iterations have converged, over the tolerance.
 const CONVERGED: f64 = 0.1;
 
+/// Least change of speeds at which iterations end, in roundings.
+const LEAST_CHANGE: f64 = 4.0;
+
 /// Least fraction of the energy that moves in the well, which keeps the tolerance positive.
 const LEAST_DEPTH_FRACTION: f64 = 1e-12;
 
@@ -71,7 +74,7 @@ pub(crate) fn critical_speed<T: Real>(
 /// What becomes of a sphere that arrives with a kinetic energy.
 pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(tolerance: T, law: &L, energy: T) -> Trial<T> {
     let (half, two) = (T::constant(0.5), T::constant(2.0));
-    let converged = (T::constant(CONVERGED) * tolerance).max(T::constant(4.0) * T::EPSILON);
+    let converged = (T::constant(CONVERGED) * tolerance).max(T::constant(LEAST_CHANGE) * T::EPSILON);
     let mut control = Control { converged, error: tolerance, times: T::ZERO };
     let Some((barrier, bottom)) = well(law).filter(|(_, bottom)| law.damping(*bottom, true) > T::ZERO) else {
         return Trial::Free;

@@ -45,6 +45,9 @@ impl RungeKuttaGill {
     /// ```
     pub const LONGEST_RUN: u32 = 64;
 
+    /// Least number of steps in that duration.
+    const LEAST_STEPS: u32 = 4;
+
     /// A step that divides the duration of Hertz's impact by `steps`, at least four.
     ///
     /// ```
@@ -53,7 +56,7 @@ impl RungeKuttaGill {
     /// assert_eq!(RungeKuttaGill::new(0), RungeKuttaGill::new(4));
     /// ```
     pub const fn new(steps: u32) -> Self {
-        Self { steps: if steps < 4 { 4 } else { steps } }
+        Self { steps: if steps < Self::LEAST_STEPS { Self::LEAST_STEPS } else { steps } }
     }
 }
 

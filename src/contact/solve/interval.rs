@@ -186,6 +186,9 @@ const NEWTON_LARGEST_STEP: f64 = 0.9;
 /// Relative step that comes of a nearly singular matrix.
 const NEWTON_HOPELESS: f64 = 1e9;
 
+/// Least squared relative step at which it ends, in roundings.
+const NEWTON_ROUNDING: f64 = 4.0;
+
 /// Estimated error over the square of the part that the nodes do not resolve.
 const TAIL_ERROR: f64 = 0.02;
 
@@ -610,7 +613,7 @@ fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
         // As if the loss so far had acted at this node's speed.
         speed[j] = if loss[j] > T::ZERO { root * root / (root + T::constant(NEWTON_START) * loss[j]) } else { root };
     }
-    let enough = control.converged.max(T::constant(4.0) * T::EPSILON);
+    let enough = control.converged.max(T::constant(NEWTON_ROUNDING) * T::EPSILON);
     let mut converged = false;
     for _ in 0..NEWTON_STEPS {
         let (mut jacobian, mut residual) = ([[T::ZERO; N]; N], [T::ZERO; N]);

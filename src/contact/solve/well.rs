@@ -3,13 +3,22 @@
 use crate::Real;
 use crate::contact::law::ContactLaw;
 
+/// Steps of Newton's method for the bottom. If the force is a power of the coordinate, each takes a fixed fraction off.
+const WELL_STEPS: u32 = 250;
+
+/// Relative step at which it ends: the potential is flat there.
+const WELL_ACCURACY: f64 = 1e-5;
+
+/// Halvings for the barrier, down to rounding.
+const BARRIER_HALVINGS: u32 = 60;
+
 /// Coordinates of the barrier that holds a sphere, the end of contact without an external force, and of the minimum of the
 /// potential; `None` where nothing holds a sphere.
 pub(crate) fn well<T: Real>(law: &impl ContactLaw<T>) -> Option<(T, T)> {
     let end = law.end();
-    // Newton's method from above; where the force grows with a power it takes a fixed fraction off each time.
+    // Newton's method from above.
     let mut bottom = T::ONE;
-    for _ in 0..250 {
+    for _ in 0..WELL_STEPS {
         let curvature = law.curvature(bottom);
         if curvature <= T::ZERO {
             return None;
@@ -19,14 +28,14 @@ pub(crate) fn well<T: Real>(law: &impl ContactLaw<T>) -> Option<(T, T)> {
         if bottom - end <= T::EPSILON * T::EPSILON {
             return None;
         }
-        if step.abs() <= T::constant(1e-5) * bottom {
+        if step.abs() <= T::constant(WELL_ACCURACY) * bottom {
             break;
         }
     }
     let mut barrier = end;
     if law.slope(end + T::EPSILON * T::EPSILON * (bottom - end)) > T::ZERO {
         let mut inner = bottom;
-        for _ in 0..60 {
+        for _ in 0..BARRIER_HALVINGS {
             let middle = (barrier + inner) * T::constant(0.5);
             if law.slope(middle) > T::ZERO {
                 barrier = middle;
