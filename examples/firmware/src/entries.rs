@@ -19,23 +19,23 @@ use microimpact::{
     TangentialImpact,
 };
 
-mod boundary;
-mod calibrate;
+mod contact;
 mod fixed_point;
 #[cfg(feature = "probe")]
 mod instrument;
-mod simulation;
+mod measure;
+mod table;
 
 /// Calls everything, with one number type.
 pub fn call_all<T>()
 where
-    T: simulation::AnyNodes + Single + microimpact::measure::NormalDistribution + Into<f64>,
+    T: contact::AnyNodes + Single + microimpact::measure::NormalDistribution + Into<f64>,
 {
     call_rigid_body::<T>();
-    keep(boundary::call_all::<T>());
-    keep(simulation::call_all::<T>());
+    keep(table::call_all::<T>());
+    keep(contact::call_all::<T>());
     keep(fixed_point::call_all::<T>());
-    calibrate::call_all::<T>();
+    measure::call_all::<T>();
     #[cfg(feature = "probe")]
     keep(instrument::call_all::<T>());
 }

@@ -4,7 +4,7 @@
 #![no_std]
 #![no_main]
 
-use microimpact::contact::{FixedCost, TangentialVelocities};
+use microimpact::contact::FixedCost;
 use microimpact_firmware::contacts::ObliqueContacts;
 use microimpact_firmware::entry;
 use microimpact_firmware::flash::{MEASURED, classify_for_ever};
@@ -12,5 +12,5 @@ use panic_halt as _;
 
 #[entry]
 fn main() -> ! {
-    classify_for_ever::<f32, ObliqueContacts<f32, FixedCost<5, 7>, TangentialVelocities<f32>>>(MEASURED)
+    classify_for_ever::<f32, ObliqueContacts<f32, FixedCost<5, 7>, ()>>(MEASURED)
 }

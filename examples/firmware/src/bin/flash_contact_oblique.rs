@@ -4,7 +4,7 @@
 #![no_std]
 #![no_main]
 
-use microimpact::contact::{Collocation, TangentialContact};
+use microimpact::contact::{Collocation, Slip};
 use microimpact_firmware::contacts::ObliqueContacts;
 use microimpact_firmware::entry;
 use microimpact_firmware::flash::{MEASURED, classify_for_ever};
@@ -12,5 +12,5 @@ use panic_halt as _;
 
 #[entry]
 fn main() -> ! {
-    classify_for_ever::<f32, ObliqueContacts<f32, Collocation<7, f32>, TangentialContact<f32>>>(MEASURED)
+    classify_for_ever::<f32, ObliqueContacts<f32, Collocation<7, f32>, Slip>>(MEASURED)
 }

@@ -2,8 +2,8 @@
 
 use core::hint::black_box;
 
+use microimpact::contact::{Contact, DimensionlessImpact, FixedCost, PhaseSamples};
 use microimpact::rigid::{ReboundAdhesion, TangentialOutcome, TangentialTerm};
-use microimpact::contact::{DimensionlessImpact, FixedCost, PhaseNodes, Contact};
 use microimpact::{
     Approach, ConstantRestitution, FixedPoint, Impact, InFixedPoint, InputError, NormalMotion, Real, RestitutionLaw,
     RigidBody, SpeedRestitution, Sphere, Stiffness,
@@ -12,7 +12,7 @@ use microimpact::{
 use super::{any, call_rigid_body, keep};
 
 /// Calls everything in fixed point, set up in one number type.
-pub(super) fn call_all<T: Real + Into<f64> + PhaseNodes<5>>() -> Result<(), InputError> {
+pub(super) fn call_all<T: Real + Into<f64> + PhaseSamples<5, 9>>() -> Result<(), InputError> {
     call_rigid_body::<FixedPoint>();
     keep(black_box(FixedPoint::nearest(black_box(1.0))).to_f64());
     keep(any::<FixedPoint>().geometric_mean(any()));
@@ -32,7 +32,10 @@ pub(super) fn call_all<T: Real + Into<f64> + PhaseNodes<5>>() -> Result<(), Inpu
 }
 
 #[inline(never)]
-fn solved<const N: usize>(impact: &DimensionlessImpact<FixedPoint>) -> Result<(), InputError> {
+fn solved<const N: usize>(impact: &DimensionlessImpact<FixedPoint>) -> Result<(), InputError>
+where
+    FixedPoint: PhaseSamples<N, 9>,
+{
     keep(impact.solve(&FixedCost::<N>::new(black_box(3))?).overall_restitution());
     Ok(())
 }

@@ -4,19 +4,19 @@ use core::convert::Infallible;
 use core::hint::black_box;
 
 use embedded_hal::digital::{ErrorType, OutputPin};
+use microimpact::contact::{Collocation, Contact, FixedCost};
 use microimpact::instrument::link::{Decoder, Encoder, FrameFault, Inlet, PROTOCOL, Reply, Report, Request};
 use microimpact::instrument::{
     ClassLines, ClassSet, Classified, Classifier, Instrument, NoLines, NormalReading, ObliqueReading, PlanarReading,
     Queue, Reading, Rejection, Signal, Simulated, SpeedBins, Statistics, Tabulated, Tally, Verdict,
 };
-use microimpact::contact::{Collocation, FixedCost, Contact};
 use microimpact::table::{BoundaryTable, RestitutionTable, Single, TableRebound};
 use microimpact::{
     Approach, Class, Coulomb, CriticalSpeed, InputError, NoFriction, Outcome, Real, RigidBody, SpeedRestitution,
     Sphere, Stiffness,
 };
 
-use super::simulation::AnyNodes;
+use super::contact::AnyNodes;
 use super::{any, keep};
 
 /// Calls everything, with one number type.

@@ -2,17 +2,17 @@
 
 use core::hint::black_box;
 
+use microimpact::contact::{Collocation, Contact, FixedCost, Method};
 use microimpact::measure::{
     CalibrationError, ImpulseRatios, Location, MeasuredRebound, RestitutionFit, adhesion_damping, estimate, friction,
     material_damping, parameter, ring_strength, rolling_motion,
 };
 use microimpact::measure::{ClassProbabilities, NormalDistribution, rebound_probability, stopped_slip};
-use microimpact::contact::{Collocation, FixedCost, Method, Contact};
 use microimpact::{
     Approach, Class, Coulomb, CriticalSpeed, Dual, InputError, NormalMotion, Parameter, Real, Sphere, Stiffness,
 };
 
-use super::simulation::AnyNodes;
+use super::contact::AnyNodes;
 use super::{any, keep, motions};
 
 /// Calls everything, with one number type.
@@ -33,8 +33,8 @@ fn contact<T: AnyNodes>(
     one_impact::<T>(&(*exact)?)
 }
 
-fn one_impact<T: Real>(method: &impl Method<T, ()>) -> Result<(), CalibrationError> {
-    let scene = Simulation::<T>::new(Sphere::solid(any(), any())?, Stiffness::new(any())?);
+fn one_impact<T: Real>(method: &impl Method<T>) -> Result<(), CalibrationError> {
+    let scene = Contact::hertz(Sphere::solid(any(), any())?, Stiffness::new(any())?);
     let rebound = MeasuredRebound::from_speeds(any(), any())?;
     keep(material_damping(&scene.with_ring(any(), any())?, method, &rebound, any()));
     keep(adhesion_damping(&scene.with_damping(any())?, any(), method, &rebound, any()));
@@ -65,12 +65,12 @@ fn duals<T: AnyNodes>() -> Result<(), InputError> {
         .with_damping(fixed())?
         .with_ring(strength, fixed())?;
     let method = Collocation::<5, Dual<T, 2>>::new(fixed())?;
-    let contact = scene.normal_impact(&method, &NormalMotion::new(fixed())?)?;
+    let contact = scene.solve_normal(&NormalMotion::new(fixed())?, &method)?;
     let e = contact.overall_restitution();
     keep((e, e.standard_error(&[any(), any()])));
     keep(estimate(any(), e, &[any(), any()]));
     keep(scene.critical_speed(&method)?);
-    keep(scene.normal_impact(&FixedCost::<5>::new(black_box(3))?, &NormalMotion::new(fixed())?)?.rebound_speed());
+    keep(scene.solve_normal(&NormalMotion::new(fixed())?, &FixedCost::<5>::new(black_box(3))?)?.rebound_speed());
     keep([e.two_fifths_power(), e.exp(), e.saturating_div(radius), -e, e.abs(), e.min(radius)]);
     keep(e.is_finite());
     Ok(())
