@@ -22,7 +22,7 @@ impl<T: Scalar + AdaptiveNodes + NormalDistribution + Into<f64>> Number for T {}
 /// Options of a command that reads a table and adds columns to it.
 #[derive(Args)]
 pub struct TableOptions {
-    /// CSV file to read; `-` for standard input. Without it the command reads its bundled table.
+    /// CSV file to read; `-` for standard input. Without a file the command reads its bundled table.
     file: Option<PathBuf>,
     /// Format of the result: a summary to read, or CSV with all columns.
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -34,17 +34,21 @@ pub struct TableOptions {
 
 /// What the help of each command that reads a table says at its end.
 pub const TABLE_HELP: &str = "\
-CSV files may use commas, semicolons or tabs, and decimal commas with the latter two. The command copies all other columns. \
-If an input column has the name of a computed column, its copy is named input_NAME.
+CSV files may use commas, semicolons or tabs, and decimal commas with the latter two. The command
+copies all other columns. If an input column has the name of a computed column, its copy is named
+input_NAME.
 
-Exit status: 0 on success; 1 if a row is bad (the column `error` gives the reason); 2 if the table cannot be read.";
+Exit status: 0 on success; 1 if a row is bad (the column `error` gives the reason); 2 if the command
+fails, for example because it cannot read the table.";
 
 /// Options of a command that simulates contacts.
 #[derive(Args)]
 pub struct SimulationOptions {
-    /// Largest error of the simulation: of the squared restitution, and of a critical speed relative to that speed. The
-    /// rounding of the number type limits it.
-    #[arg(long, default_value_t = 1e-9)]
+    /// Tolerance of the simulation.
+    ///
+    /// It bounds the error of the squared restitution, and the relative error of a critical speed. Rounding limits it: in f32
+    /// the tolerance is 1e-6 at least.
+    #[arg(long, default_value = "1e-9")]
     tolerance: f64,
 }
 
@@ -178,10 +182,13 @@ fn write_csv(mut sheet: Sheet<Box<dyn BufRead + '_>>, sink: impl Write, work: &i
     let mut writer = sheet.writer(io::BufWriter::new(sink), &columns)?;
     let mut bad_rows = 0;
     while let Some(row) = sheet.next_row()? {
-        let computed_cells = row.check().map_err(BadRow::from).and_then(|()| work.cells(&row));
-        bad_rows += usize::from(computed_cells.is_err());
-        let BadRow { reason, mut cells } =
-            computed_cells.map_or_else(|bad| bad, |cells| BadRow { reason: String::new(), cells });
+        let (mut cells, reason) = match row.check().map_err(BadRow::from).and_then(|()| work.cells(&row)) {
+            Ok(cells) => (cells, String::new()),
+            Err(bad) => {
+                bad_rows += 1;
+                (bad.cells, bad.reason)
+            }
+        };
         cells.resize(computed, String::new());
         cells.push(reason);
         writer.write(&row, &cells)?;

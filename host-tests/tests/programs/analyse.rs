@@ -93,13 +93,19 @@ fn impossible_rows_say_why() {
         ("gains slip,1e-5,2600,130,0.02,2.8,1,0,2,2,", "impulse ratio is outside its bounds, 0 to mu_0"),
         ("slip reversed,1e-5,2600,130,0.02,2.8,1,0,2,0.2,", "impulse ratio is outside its bounds, 0 to mu_0"),
         ("gains energy,1e-5,2600,130,0.02,2.8,4,0,2,3.5,-2e6", "kinetic energy after the impact exceeds"),
-        ("receding,1e-5,2600,130,0.02,-2.8,0,,2,0,", "approach speed is -2.8 m/s, but must be 1e-12 to 1e6 m/s; enter -2.8 m/s as 2.8"),
+        (
+            "receding,1e-5,2600,130,0.02,-2.8,0,,2,0,",
+            "approach speed is -2.8 m/s, but must be 1e-12 to 1e6 m/s; enter -2.8 m/s as 2.8",
+        ),
         ("through the wall,1e-5,2600,130,0.02,2.8,0,,-2,0,", "rebound speed is -2 m/s, but must be 0 to 1e6 m/s"),
         ("no size,,2600,130,0.02,2.8,0,,2,0,", "diameter_m: missing"),
         ("no law,1e-5,2600,,0.02,2.8,0,,2,0,", "restitution: missing"),
         ("half of the spins,1e-5,2600,130,0.02,2.8,0,,2,0,10", "spin_out_rad_s: not without spin_rad_s"),
         ("words,1e-5,heavy,130,0.02,2.8,0,,2,0,", "density_kg_m3: \"heavy\" is not a number"),
-        ("not a number,1e-5,2600,130,0.02,2.8,0,,nan,0,", "rebound speed is NaN, but must be a number from 0 to 1e6 m/s"),
+        (
+            "not a number,1e-5,2600,130,0.02,2.8,0,,nan,0,",
+            "rebound speed is NaN, but must be a number from 0 to 1e6 m/s",
+        ),
     ];
     let table: Vec<_> = bad.iter().map(|(row, _)| format!("{row}\n")).collect();
     let (rows, output) = analysed(&(HEADER.to_owned() + TABLE_1 + &table.concat()));

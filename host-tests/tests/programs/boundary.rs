@@ -2,10 +2,7 @@
 
 use std::process::Command;
 
-use host_tests::run_example;
-use microimpact::contact::{
-    Collocation, ContactImpulses, HystereticDamping, Nodes, Ring, SimulatedImpact, Contact, TangentialContact,
-};
+use microimpact::contact::{Collocation, Contact, Impulses, Nodes, RingScene};
 use microimpact::table::{BoundarySlice, BoundaryTable, Lookup, RestitutionTable, Single, TableOutcome, TableRebound};
 use microimpact::{
     Coulomb, CriticalSpeed, Fault, InputError, NormalMotion, Outcome, Parameter, Real, RigidBody, SpeedRestitution,
@@ -14,6 +11,8 @@ use microimpact::{
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{RngSeed, TestRunner};
+
+use crate::microimpact;
 
 /// A surface and what the spheres are made of.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +28,7 @@ struct Material {
 const PAPER: Material = Material { density: 2600.0, stiffness: 7.5e10, adhesion: 250.0, zeta_h: 10.5, zeta_a: 6.25 };
 
 impl Material {
-    fn scene<T: Real>(&self, radius: T) -> Result<Simulation<T, HystereticDamping<T>, Ring<T>>, InputError> {
+    fn scene<T: Real>(&self, radius: T) -> Result<RingScene<T>, InputError> {
         let sphere = Sphere::solid(radius, T::constant(self.density))?;
         Contact::hertz(sphere, Stiffness::new(T::constant(self.stiffness))?)
             .with_damping(T::constant(self.zeta_h))?
@@ -60,7 +59,7 @@ fn classify<const N: usize, T: Single>(table: &BoundaryTable<N>, radius: T, spee
     table.classify(radius, &NormalMotion::new(speed).unwrap())
 }
 
-/// The largest relative error of a table, over `count` radii of even logarithms; and that each verdict holds.
+/// The largest relative error of a table, over `count` radii of even logarithms; and that each outcome holds.
 fn largest_error<const N: usize>(table: &BoundaryTable<N>, material: &Material, count: u32) -> f64 {
     let (smallest, end) = table.radii::<f64>();
     let mut largest = 0.0_f64;
@@ -173,7 +172,7 @@ fn tables_are_made_in_single_precision() {
     assert!(table.margin::<f32>() <= 1e-4);
 }
 
-/// W_A that goes with the area of contact: the rigid-body model, whose margin is an equation.
+/// W_A proportional to the area of contact: the rigid-body model, whose critical speed is an equation.
 #[test]
 fn certificate_holds_for_the_rigid_body() {
     let scene = |radius: f64| {
@@ -203,15 +202,15 @@ fn certificate_holds_for_the_rigid_body() {
 fn queries_outside_the_table_say_so() {
     let table = PAPER.table::<4>(2e-6).unwrap();
     let (smallest, end) = table.radii::<f32>();
-    let verdict = |radius: f32| classify(&table, radius, 1.0_f32);
-    assert_eq!(verdict(smallest), TableOutcome::Capture);
-    assert_eq!(verdict(end.next_down()), TableOutcome::Capture);
+    let outcome = |radius: f32| classify(&table, radius, 1.0_f32);
+    assert_eq!(outcome(smallest), TableOutcome::Capture);
+    assert_eq!(outcome(end.next_down()), TableOutcome::Capture);
     for radius in [smallest.next_down(), end, 0.0, -0.0, -3e-6, f32::MIN_POSITIVE, 1e-45, f32::MAX] {
-        assert_eq!(verdict(radius), TableOutcome::OutsideTable, "{radius:e}");
+        assert_eq!(outcome(radius), TableOutcome::OutsideTable, "{radius:e}");
         assert_eq!(table.critical_speed(radius), None);
     }
     for radius in [f32::INFINITY, f32::NEG_INFINITY, f32::NAN, -f32::NAN, f32::MIN, -1e-45, f32::from_bits(u32::MAX)] {
-        assert_eq!(verdict(radius), TableOutcome::OutsideTable, "{radius:e}");
+        assert_eq!(outcome(radius), TableOutcome::OutsideTable, "{radius:e}");
     }
     for radius in [f64::NAN, f64::MIN_POSITIVE, f64::MAX, f64::NEG_INFINITY, -3e-6] {
         assert_eq!(classify(&table, radius, 1.0), TableOutcome::OutsideTable, "{radius:e}");
@@ -274,8 +273,8 @@ fn parts_that_are_no_table_are_refused() {
 fn rebound(material: &Material, radius: f64, speed: f64) -> Result<TableRebound<f64>, InputError> {
     let scene = material.scene(radius)?;
     let method = Collocation::<9, f64>::new(1e-9)?;
-    let impact: SimulatedImpact<_, _, ContactImpulses<f64>> = scene.observe(&method, &NormalMotion::new(speed)?)?;
-    let impulse = impact.outputs.elastic / (scene.sphere().mass() * speed);
+    let (impact, impulses) = scene.solve_for(&NormalMotion::new(speed)?, &method, Impulses)?;
+    let impulse = impulses.elastic / (scene.sphere().mass() * speed);
     Ok(TableRebound { restitution: impact.normal.overall_restitution(), impulse })
 }
 
@@ -341,13 +340,13 @@ fn tangential_motion_is_that_of_the_simulation() {
             let motion = motion.with_peripheral_velocity((0.3 - slip) * speed).unwrap();
             let Lookup::Rebound { rebound, .. } = table.look_up(radius, &motion) else { continue };
             let after = rebound.separation(&coulomb, 0.4, &motion);
-            let simulated: SimulatedImpact<_, TangentialContact<_>, ()> = scene.observe(&method, &motion).unwrap();
+            let simulated = scene.solve(&motion, &method).unwrap().tangential;
             let allowed = speed * friction * table.impulse_error();
-            assert!((after.velocity - simulated.tangential.tangential()).abs() <= allowed);
-            assert!((after.peripheral - simulated.tangential.spin() * radius).abs() <= 2.5 * allowed);
+            assert!((after.velocity - simulated.velocity()).abs() <= allowed);
+            assert!((after.peripheral - simulated.spin() * radius).abs() <= 2.5 * allowed);
             let over = friction * rebound.impulse * 3.5 - slip.abs();
             if over.abs() > friction * 3.5 * table.impulse_error() {
-                assert_eq!(after.motion, simulated.tangential.motion(), "{radius:e}, {speed}, {slip}");
+                assert_eq!(after.motion, simulated.motion(), "{radius:e}, {speed}, {slip}");
             }
             match after.motion {
                 SurfaceMotion::Sliding => slides += 1,
@@ -436,7 +435,7 @@ fn cells_in<'a>(lines: impl Iterator<Item = &'a str>) -> [[i32; 4]; 4] {
 }
 
 #[test]
-fn example_writes_a_constant() {
+fn command_writes_a_constant() {
     let table = PAPER.table::<4>(2e-6).unwrap();
     let (smallest, margin, cells) = table.parts();
     let text = written("rust");
@@ -449,7 +448,7 @@ fn example_writes_a_constant() {
     assert_eq!(cells_in(lines.iter().map(String::as_str)), *cells);
 }
 
-/// The constant of the firmware is the one that the example writes.
+/// The constant of the firmware is the one that the command writes.
 #[test]
 fn table_of_the_firmware_is_current() {
     let firmware = include_str!("../../../examples/firmware/scenes/src/tables.rs");
@@ -476,7 +475,7 @@ fn queries(table: &BoundaryTable<4>) -> Vec<(f32, f32)> {
     queries
 }
 
-/// A cell that is read alone gives the verdicts of the table, and tells of the table whether it is one.
+/// A cell that is read alone gives the outcomes of the table, and is refused if it is invalid.
 #[test]
 fn cells_say_what_the_table_says() {
     let table = PAPER.table::<4>(2e-6).unwrap();
@@ -501,9 +500,9 @@ fn cells_say_what_the_table_says() {
     }
 }
 
-/// The function in C gives the verdicts of the library, everywhere.
+/// The function in C gives the outcomes of the library, everywhere.
 #[test]
-fn example_writes_c_that_says_the_same() {
+fn command_writes_c_that_says_the_same() {
     let folder = std::env::temp_dir().join(format!("boundary-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let (source, program) = (folder.join("boundary.c"), folder.join("boundary"));
@@ -525,21 +524,21 @@ fn example_writes_c_that_says_the_same() {
     let queried = std::fs::File::open(folder.join("queries")).unwrap();
     let output = Command::new(&program).stdin(queried).output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
-    let verdicts =
+    let outcomes =
         [TableOutcome::Rebound, TableOutcome::Capture, TableOutcome::TooCloseToCall, TableOutcome::OutsideTable];
-    let answers: Vec<TableOutcome> = text.lines().map(|line| verdicts[line.parse::<usize>().unwrap()]).collect();
+    let answers: Vec<TableOutcome> = text.lines().map(|line| outcomes[line.parse::<usize>().unwrap()]).collect();
     assert_eq!(answers.len(), queries.len());
     for ((radius, speed), answer) in queries.into_iter().zip(&answers) {
         assert_eq!(classify(&table, radius, speed), *answer, "{radius:e} {speed:e}");
     }
-    for verdict in verdicts {
-        assert!(answers.contains(&verdict), "{verdict:?}");
+    for outcome in outcomes {
+        assert!(answers.contains(&outcome), "{outcome:?}");
     }
     std::fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
-fn example_refuses_what_has_no_boundary_with_2() {
+fn command_refuses_what_has_no_boundary_with_2() {
     for (arguments, word) in [
         (["--adhesion", "0"], "critical speed is 0 m/s, but must be 1e-12 to 1e6 m/s"),
         (["--smallest-radius", "-1"], "radius"),

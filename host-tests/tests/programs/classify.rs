@@ -113,7 +113,7 @@ fn all_ways_to_give_a_term() {
     assert_eq!(written.text(1, "outcome"), "capture");
     assert!(written.number(1, "speed_over_critical") < 1.0);
     assert!((written.number(2, "impulse_ratio_out") + 0.02).abs() < 1e-12);
-    assert!(written.text(3, "error").contains("impulse ratio lies outside its bounds"));
+    assert!(written.text(3, "error").contains("impulse ratio is outside its bounds"));
     assert!(written.number(4, "work_rolling_j") > 0.0);
     for (row, word) in [(5, "restitution: given twice"), (6, "adhesion: given twice"), (7, "rolling_arm_m")] {
         assert!(written.text(row, "error").contains(word), "{}", written.text(row, "error"));
@@ -252,7 +252,11 @@ fn both_models_side_by_side() {
     assert!(written.text(1, "error").starts_with("rigid body: restitution: missing"));
     assert_eq!(written.text(2, "rigid_body_outcome"), "rebound");
     assert!(written.text(2, "error").starts_with("simulation: stiffness_pa: missing"));
-    assert!(written.text(3, "error").starts_with("approach speed is below"));
+    assert!(
+        written
+            .text(3, "error")
+            .starts_with("approach speed is -2.8 m/s, but must be 1e-12 to 1e6 m/s; enter -2.8 m/s as 2.8")
+    );
 
     for model in ["simulation", "both"] {
         let output = run(&["--model", model], b"");

@@ -69,7 +69,7 @@ fn says_what_it_cannot_find() {
             (false, "speed", true)
         ]
     );
-    assert!(rows[2][9].contains("radius is below its range"));
+    assert!(rows[2][9].contains("radius is -1 m, but must be 1e-10 to 1 m"));
     assert!(rows[3][9].contains("stiffness_pa: missing"));
 }
 

@@ -148,7 +148,7 @@ fn accuracy_of_the_simulation_is_the_tested_one() {
 #[test]
 fn numbers_in_prose_are_the_tested_ones() {
     let words = words();
-    let stretches = Collocation::<9, f64>::MOST_STRETCHES;
+    let stretches = Collocation::<9, f64>::MOST_INTERVALS;
     for statement in [
         format!("compared with {} solutions to 20 digits", reference::cases().len()),
         format!("end in finite numbers within {stretches} stretches"),

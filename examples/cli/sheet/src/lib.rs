@@ -1,7 +1,7 @@
-//! Tables of impacts as spreadsheets write and read them.
+//! CSV tables of impacts in the variants that spreadsheets write.
 //!
-//! Commas, semicolons or tabs separate cells; a byte-order mark, quotes, CRLF line ends and, between semicolons
-//! or tabs, decimal commas are understood and written back the way they came.
+//! Commas, semicolons or tabs separate cells. A byte-order mark, quotes, CRLF line ends and, with semicolons or tabs, decimal
+//! commas are read, and the result is written in the same variant.
 
 use std::error::Error;
 use std::fmt::{Display, LowerExp};
@@ -18,7 +18,7 @@ pub trait Scalar: Real + FromStr + Display + LowerExp {}
 
 impl<T: Real + FromStr + Display + LowerExp> Scalar for T {}
 
-/// How a table is written down.
+/// The variant of CSV of a table.
 #[derive(Clone, Copy)]
 pub struct Dialect {
     delimiter: u8,
@@ -27,7 +27,7 @@ pub struct Dialect {
 }
 
 impl Dialect {
-    /// The dialect of a table, judged by its header line.
+    /// The dialect of a table, from its header line.
     fn of(header: &[u8]) -> Self {
         let outside_quotes = |delimiter: u8| {
             let mut quoted = false;
@@ -39,7 +39,7 @@ impl Dialect {
                 })
                 .count()
         };
-        // `max_by_key` keeps the last of equals, so a header of one cell is taken to be separated by commas.
+        // `max_by_key` keeps the last of equals, so the comma is chosen for a header of one cell.
         let delimiter = [b'\t', b';', b','].into_iter().max_by_key(|&delimiter| outside_quotes(delimiter));
         Self {
             delimiter: delimiter.unwrap_or(b','),
@@ -68,16 +68,16 @@ impl<'a> Sheet<Box<dyn BufRead + 'a>> {
         let header = rows.byte_headers().map_err(|error| error.to_string())?.clone();
         let names: Vec<String> = header.iter().map(column_name).collect();
         if names.iter().all(String::is_empty) {
-            return Err("the table is empty: its first row must name the columns".into());
+            return Err("the table is empty; its first row must name the columns".into());
         }
         if let Some(twice) = names.iter().enumerate().find(|(i, name)| !name.is_empty() && names[..*i].contains(name)) {
-            return Err(format!("the column {} stands twice in the header", twice.1));
+            return Err(format!("the header names the column {} twice; rename or remove one", twice.1));
         }
         Ok(Self { rows, header, names, dialect })
     }
 }
 
-/// A header cell as a name: without a byte-order mark, surrounding space or capitals.
+/// The name in a header cell: without a byte-order mark and surrounding space, in lower case.
 fn column_name(cell: &[u8]) -> String {
     let cell = cell.strip_prefix(BYTE_ORDER_MARK).unwrap_or(cell);
     String::from_utf8_lossy(cell).trim().to_lowercase()
@@ -93,8 +93,8 @@ impl<R: Read> Sheet<R> {
         Ok(more.then_some(Row { names: &self.names, cells, decimal_comma }))
     }
 
-    /// A writer for this table with computed columns behind its own. A column of the table that has the name of a
-    /// computed one is kept under the name `input_...`.
+    /// A writer for this table with computed columns after its own. If a column of the table has the name of a computed
+    /// column, its copy is named `input_...`.
     pub fn writer<W: Write>(&self, mut sink: W, computed: &[String]) -> Result<SheetWriter<W>, String> {
         if self.dialect.byte_order_mark {
             sink.write_all(BYTE_ORDER_MARK).map_err(|error| error.to_string())?;
@@ -131,20 +131,22 @@ pub struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// The text of a cell without surrounding space; `None` where there is no such column or the cell is empty.
+    /// The text of a cell without surrounding space; `None` if there is no such column or the cell is empty.
     pub fn text(&self, column: &str) -> Option<String> {
         let index = self.names.iter().position(|name| name == column)?;
         let text = String::from_utf8_lossy(self.cells.get(index)?).trim().to_owned();
         (!text.is_empty()).then_some(text)
     }
 
-    /// The number in a cell; `None` where there is no such column or the cell is empty.
+    /// The number in a cell; `None` if there is no such column or the cell is empty.
     pub fn number<T: Scalar>(&self, column: &str) -> Result<Option<T>, String> {
         let Some(text) = self.text(column) else {
             return Ok(None);
         };
         if self.decimal_comma && text.contains('.') {
-            return Err(format!("{column}: \"{text}\" is ambiguous beside numbers with decimal commas"));
+            return Err(format!(
+                "{column}: \"{text}\" is ambiguous in a row with decimal commas; write a decimal comma here too"
+            ));
         }
         let number = if self.decimal_comma { decimal_point(text.as_bytes()) } else { text.clone() };
         number.parse().map(Some).map_err(|_| format!("{column}: \"{text}\" is not a number"))
@@ -152,24 +154,24 @@ impl Row<'_> {
 
     /// The number in a cell that must not be empty.
     pub fn required<T: Scalar>(&self, column: &str) -> Result<T, String> {
-        self.number(column)?.ok_or_else(|| format!("{column}: missing"))
+        self.number(column)?.ok_or_else(|| format!("{column}: missing; enter a number"))
     }
 
-    /// The number in a cell, zero where it is empty.
+    /// The number in a cell, zero if it is empty.
     pub fn or_zero<T: Scalar>(&self, column: &str) -> Result<T, String> {
         Ok(self.number(column)?.unwrap_or(T::ZERO))
     }
 
-    /// What is wrong with the row as such.
+    /// Checks that the row has no more cells than the header.
     pub fn check(&self) -> Result<(), String> {
         let surplus: Vec<_> = self.cells.iter().skip(self.names.len()).map(String::from_utf8_lossy).collect();
         if surplus.is_empty() {
             return Ok(());
         }
-        Err(format!("the row has more cells than the header, left out here: {}", surplus.join(" | ")))
+        Err(format!("the row has more cells than the header; these are not copied: {}", surplus.join(" | ")))
     }
 
-    /// A number as a cell of this row: the shortest text that reads back as the same number.
+    /// The cell for a number: the shortest text that reads back as the same number.
     pub fn cell<T: Scalar>(&self, value: T) -> String {
         let size = value.abs();
         let plain = size == T::ZERO || (size >= T::constant(1e-3) && size < T::constant(1e7));
@@ -185,7 +187,7 @@ pub fn reason(error: impl Error) -> String {
     error.to_string()
 }
 
-/// A number with its decimal comma, if it has just that, turned into a point.
+/// The text of a number with its first comma replaced by a decimal point.
 fn decimal_point(cell: &[u8]) -> String {
     String::from_utf8_lossy(cell).trim().replacen(',', ".", 1)
 }
@@ -204,7 +206,7 @@ impl<W: Write> SheetWriter<W> {
         self.rows.write_record(given.chain(computed.iter().map(String::as_bytes)))
     }
 
-    /// Writes out what is still held back.
+    /// Writes the rows that are still buffered.
     pub fn finish(mut self) -> Result<(), csv::Error> {
         Ok(self.rows.flush()?)
     }
