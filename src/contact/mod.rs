@@ -4,11 +4,22 @@
 //! external force, B6, or a law of your own) and, if it needs one, a law along the surface (Coulomb friction with spin,
 //! and a peeling moment, B7 to B10). Each term is a type that a scene includes or not. The normal motion is solved as kinetic
 //! energy against a coordinate in which it is smooth from first contact to separation, and all else follows from integrals
-//! over it.
+//! over it. [The chapter on the method](method) has the mathematics.
+//!
+//! Figures 6 and 7 of the paper, by this simulation:
+//!
+//! | restitution against approach speed | normal force in time |
+//! | --- | --- |
+//! | ![Zero below the critical speed, then a steep rise, then a slow fall][figure-6] | ![Attractive at first and at last][figure-7] |
+#![cfg_attr(doc, doc = "\n")]
+#![cfg_attr(doc, doc = include_str!("../figures.md"))]
 
 mod along;
 mod dimensionless;
 mod law;
+#[cfg(doc)]
+#[doc = include_str!("method.md")]
+pub mod method {}
 mod outputs;
 mod result;
 mod scene;

@@ -202,7 +202,7 @@ const fn tail<const N: usize>(z: &[f64; N]) -> [f64; N] {
 
 /// A number type with the tables for `N` nodes over a whole phase, from the peak z = 0 to the contact radius zero, z = 1.
 ///
-/// They are those of Gauss for the weight z^2 (1 - z^2)^2 of losses that grow at least with the power [`WEIGHT_POWER`] of the
+/// They are those of Gauss for the weight z^2 (1 - z^2)^2 of losses that grow at least with the power two of the
 /// coordinate s = a (1 - z^2). The weight is part of the integrals.
 ///
 /// ```
