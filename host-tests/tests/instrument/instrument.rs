@@ -8,9 +8,7 @@ use microimpact::instrument::{
     ClassLines, ClassSet, Classifier, Instrument, NoLines, NormalReading, ObliqueReading, PlanarReading, Queue,
     Reading, Rejection, Simulated, SpeedBins, Statistics, Tabulated, TabulatedClass, Tally, Verdict,
 };
-use microimpact::contact::{
-    Collocation, ContactImpulses, FixedCost, HystereticDamping, Ring, SimulatedImpact, Contact,
-};
+use microimpact::contact::{Collocation, Contact, FixedCost, Impulses, RingScene};
 use microimpact::table::{BoundaryTable, RestitutionTable, TableOutcome, TableRebound};
 use microimpact::{
     Class, Coulomb, Dual, Fault, FixedPoint, InputError, NoFriction, NormalMotion, Outcome, Parameter, RigidBody,
@@ -145,7 +143,7 @@ fn classifiers_answer_for_their_scenes() {
         assert_eq!(verdict.restitution, Some(body.impact(&straight).normal.overall_restitution()));
         for tangential in [0.0, 0.2, 30.0] {
             let moving = ObliqueReading { approach: speed, tangential }.motion().unwrap();
-            let impact = oblique.impact(&exact, &moving).unwrap();
+            let impact = oblique.solve(&moving, &exact).unwrap();
             let verdict = Simulated { scene: oblique, method: exact }.verdict(&moving).unwrap();
             assert_eq!(verdict.class, impact.class().unwrap());
             assert!((verdict.restitution.unwrap() - impact.normal.overall_restitution()).abs() < 1e-9);
@@ -157,10 +155,8 @@ fn classifiers_answer_for_their_scenes() {
     assert!(Class::ALL.iter().all(|class| classes.contains(class)), "{classes:?}");
 }
 
-type Contact = Simulation<f64, HystereticDamping<f64>, Ring<f64>>;
-
 /// The paper's surface.
-fn contact(radius: f64) -> Result<Contact, InputError> {
+fn contact(radius: f64) -> Result<RingScene<f64>, InputError> {
     Contact::hertz(Sphere::solid(radius, 2600.0)?, Stiffness::new(7.5e10)?).with_damping(10.5)?.with_ring(250.0, 6.25)
 }
 
@@ -170,8 +166,8 @@ fn table() -> RestitutionTable<f64, 8, 6, 10> {
     let boundary = BoundaryTable::new(2e-6, |radius| contact(radius)?.critical_speed(&method)).unwrap();
     let source = |radius, speed: f64| {
         let scene = contact(radius)?;
-        let impact: SimulatedImpact<_, _, ContactImpulses<f64>> = scene.observe(&method, &NormalMotion::new(speed)?)?;
-        let impulse = impact.outputs.elastic / (scene.sphere().mass() * speed);
+        let (impact, impulses) = scene.solve_for(&NormalMotion::new(speed)?, &method, Impulses)?;
+        let impulse = impulses.elastic / (scene.sphere().mass() * speed);
         Ok(TableRebound { restitution: impact.normal.overall_restitution(), impulse })
     };
     RestitutionTable::new(boundary, 10.0, source).unwrap()
@@ -381,9 +377,9 @@ fn results_and_scenes_can_be_written() {
     let motion = reading.motion().unwrap();
     let impact = scene.impact(&motion);
     let simulation = Contact::hertz(*scene.sphere(), Stiffness::new(7.5e10).unwrap()).with_friction(0.1).unwrap();
-    let contact = simulation.impact(&Collocation::<9, f64>::new(1e-9).unwrap(), &motion).unwrap();
+    let contact = simulation.solve(&motion, &Collocation::<9, f64>::new(1e-9).unwrap()).unwrap();
     assert_eq!(written(&scene)["sphere"]["radius"], 5.06e-6);
-    assert_eq!(written(&simulation)["friction"]["coefficient"], 0.1);
+    assert_eq!(written(&simulation)["surface"]["coefficient"], 0.1);
     assert_eq!(written(&motion)["peripheral"], 0.0);
     assert_eq!(written(&reading)["approach"], 2.8);
     assert_eq!(written(&impact)["normal"]["rebound"], impact.normal.rebound_speed());

@@ -1,7 +1,7 @@
 //! What a scene does not use takes no room in it.
 
 use microimpact::rigid::NoMicroforce;
-use microimpact::contact::{ContactWorks, SimulatedImpact, Contact};
+use microimpact::contact::{Contact, FixedCost, Times, Works};
 use microimpact::{
     Classification, ConstantRestitution, ContactClass, Impact, NoAdhesion, NoFriction, NormalImpact, NormalMotion,
     ObliqueMotion, PlanarMotion, RigidBody, Sphere, Stiffness,
@@ -42,10 +42,12 @@ fn absent_terms_of_a_simulation() {
     let frictional = held.with_friction(0.1).unwrap();
     assert_eq!(size_of_val(&frictional), bare + 3 * NUMBER);
     assert_eq!(size_of_val(&frictional.with_peeling(1.0).unwrap()), bare + 4 * NUMBER);
-    assert_eq!(
-        size_of::<SimulatedImpact<f32, (), ContactWorks<f32>>>(),
-        size_of::<SimulatedImpact<f32, (), ()>>() + 2 * NUMBER
-    );
+    let (motion, method) = (NormalMotion::new(1.0).unwrap(), FixedCost::<7>::new(3).unwrap());
+    let impact = scene.solve(&motion, &method).unwrap();
+    let of_impact = size_of_val(&impact);
+    assert_eq!(size_of_val(&scene.solve_for(&motion, &method, ()).unwrap()), of_impact);
+    assert_eq!(size_of_val(&scene.solve_for(&motion, &method, Works).unwrap()), of_impact + 2 * NUMBER);
+    assert_eq!(size_of_val(&(Times, Works)), 0);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use microimpact::measure::{
     friction, material_damping, parameter, ring_strength, rolling_motion,
 };
 use microimpact::rigid::{Departure, infer_assuming_rolling};
-use microimpact::contact::{Collocation, FixedCost, HystereticDamping, Ring, Contact};
+use microimpact::contact::{Collocation, Contact, FixedCost, HertzLaw, RingScene};
 use microimpact::{
     CriticalSpeed, Dual, Fault, InputError, NormalMotion, Oblique, Parameter, Real, RestitutionLaw, RigidBody,
     SpeedRestitution, Sphere, Stiffness,
@@ -16,14 +16,12 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, Normal};
 
-type Scene<T> = Simulation<T, HystereticDamping<T>, Ring<T>>;
-
-fn bare<T: Real>(radius: f64) -> Simulation<T> {
+fn bare<T: Real>(radius: f64) -> Contact<T, HertzLaw<T>> {
     let sphere = Sphere::solid(T::constant(radius), T::constant(2600.0)).unwrap();
     Contact::hertz(sphere, Stiffness::new(T::constant(7.5e10)).unwrap())
 }
 
-fn scene(radius: f64, f0: f64, zeta_h: f64, zeta_a: f64) -> Scene<f64> {
+fn scene(radius: f64, f0: f64, zeta_h: f64, zeta_a: f64) -> RingScene<f64> {
     bare(radius).with_damping(zeta_h).unwrap().with_ring(f0, zeta_a).unwrap()
 }
 
@@ -31,8 +29,8 @@ fn method() -> Collocation<9, f64> {
     Collocation::new(1e-9).unwrap()
 }
 
-fn restitution(scene: &Scene<f64>, speed: f64) -> f64 {
-    scene.normal_impact(&method(), &NormalMotion::new(speed).unwrap()).unwrap().overall_restitution()
+fn restitution(scene: &RingScene<f64>, speed: f64) -> f64 {
+    scene.solve_normal(&NormalMotion::new(speed).unwrap(), &method()).unwrap().overall_restitution()
 }
 
 /// The parameters of the paper's scenes follow from its restitutions, of two digits at 4.3 um and three in Table 1.
@@ -406,7 +404,7 @@ fn sensitive(which: usize, value: f64, speed: f64) -> Dual<f64, 2> {
     let scene = Contact::hertz(sphere, Stiffness::new(fixed(7.5e10)).unwrap());
     let scene = scene.with_damping(zeta_h).unwrap().with_ring(f0, zeta_a).unwrap();
     let method = Collocation::<9, Dual<f64, 2>>::new(fixed(1e-9)).unwrap();
-    scene.normal_impact(&method, &NormalMotion::new(speed).unwrap()).unwrap().overall_restitution()
+    scene.solve_normal(&NormalMotion::new(speed).unwrap(), &method).unwrap().overall_restitution()
 }
 
 /// Standard errors of what one impact tells are those of many repetitions of it.

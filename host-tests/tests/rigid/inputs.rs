@@ -194,25 +194,25 @@ fn ratios_of_forces() {
     let motion = |speed: f64| NormalMotion::new(speed).unwrap();
     let scene = Contact::hertz(sphere, soft);
     assert_eq!(
-        scene.with_damping(1e9).unwrap().normal_impact(&method, &motion(10.0)).err().map(kind),
+        scene.with_damping(1e9).unwrap().solve_normal(&motion(10.0), &method).err().map(kind),
         fault(Parameter::DampingRatio, Fault::TooLarge)
     );
     assert_eq!(
-        scene.with_ring(1e-3, 1e9).unwrap().normal_impact(&method, &motion(10.0)).err().map(kind),
+        scene.with_ring(1e-3, 1e9).unwrap().solve_normal(&motion(10.0), &method).err().map(kind),
         fault(Parameter::DampingRatio, Fault::TooLarge)
     );
     assert_eq!(
-        scene.with_ring(1e9, 0.0).unwrap().normal_impact(&method, &motion(1e-6)).err().map(kind),
+        scene.with_ring(1e9, 0.0).unwrap().solve_normal(&motion(1e-6), &method).err().map(kind),
         fault(Parameter::AdhesionRatio, Fault::TooLarge)
     );
     for (force, expected) in [(-1.0, Fault::TooLarge), (1.0, Fault::TooSmall)] {
         let pressed = scene.with_external_force(force).unwrap();
         assert_eq!(
-            pressed.normal_impact(&method, &motion(1e-6)).err().map(kind),
+            pressed.solve_normal(&motion(1e-6), &method).err().map(kind),
             fault(Parameter::ForceRatio, expected)
         );
     }
-    assert!(scene.with_damping(1e3).unwrap().normal_impact(&method, &motion(1.0)).is_ok());
+    assert!(scene.with_damping(1e3).unwrap().solve_normal(&motion(1.0), &method).is_ok());
     for (sweeps, expected) in [(0, Fault::TooSmall), (41, Fault::TooLarge)] {
         assert_eq!(FixedCost::<5>::new(sweeps).err().map(kind), fault(Parameter::Iterations, expected));
     }

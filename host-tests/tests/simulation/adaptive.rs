@@ -1,6 +1,7 @@
 //! The adaptive method delivers the error that was asked for: neither more, nor so little that the cost was wasted.
 
-use microimpact::contact::{Adaptive, Collocation, SimulatedImpact, Contact, Status, TangentialContact};
+use crate::everything::{Impact, solve_case};
+use microimpact::contact::{Adaptive, Collocation, Contact, Impulses, Status, Times};
 use microimpact::{NormalMotion, Outcome, Sphere, Stiffness};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -19,17 +20,12 @@ fn well_conditioned(case: &Case) -> bool {
     !["0.001", "1e-06"].iter().any(|distance| case.text("name").ends_with(distance))
 }
 
-fn simulate(case: &Case, tolerance: f64) -> SimulatedImpact<f64, TangentialContact<f64>> {
-    let (scene, motion) = (case.scene().unwrap(), case.motion().unwrap());
-    let method = Adaptive::new(tolerance).unwrap();
-    match case.peeling() {
-        Some(lambda) => scene.with_peeling(lambda).unwrap().impact(&method, &motion).unwrap(),
-        None => scene.impact(&method, &motion).unwrap(),
-    }
+fn simulate(case: &Case, tolerance: f64) -> Impact<f64> {
+    solve_case(case, &Adaptive::new(tolerance).unwrap()).unwrap()
 }
 
 /// Error of e^2 and the largest relative error of all outputs.
-fn errors(case: &Case, impact: &SimulatedImpact<f64, TangentialContact<f64>>) -> (f64, f64) {
+fn errors(case: &Case, (impact, everything): &Impact<f64>) -> (f64, f64) {
     let name = case.text("name");
     let expected = if case.text("outcome") == "rebound" { Outcome::Rebound } else { Outcome::Capture };
     assert_eq!(impact.normal.outcome(), Some(expected), "{name}");
@@ -37,19 +33,19 @@ fn errors(case: &Case, impact: &SimulatedImpact<f64, TangentialContact<f64>>) ->
         return (0.0, 0.0);
     }
     let square = (impact.normal.overall_restitution().powi(2) - case.number("restitution").powi(2)).abs();
-    let outputs = &impact.outputs;
+    let (times, impulses, works, slip) = everything;
     let mut columns = vec![
         ("max_indentation_m", impact.normal.peak_indentation()),
-        ("time_peak_s", outputs.times.peak),
-        ("contact_time_s", outputs.times.contact),
-        ("impulse_hertz_n_s", Some(outputs.impulses.elastic)),
-        ("impulse_adhesion_rebound_n_s", Some(outputs.impulses.adhesion_rebound)),
-        ("work_material_j", Some(outputs.works.material)),
-        ("work_adhesion_j", Some(outputs.works.adhesion)),
+        ("time_peak_s", times.peak),
+        ("contact_time_s", times.contact),
+        ("impulse_hertz_n_s", Some(impulses.elastic)),
+        ("impulse_adhesion_rebound_n_s", Some(impulses.adhesion_rebound)),
+        ("work_material_j", Some(works.material)),
+        ("work_adhesion_j", Some(works.adhesion)),
     ];
     if case.number("speed_tangential_m_s") != 0.0 || case.number("spin_rad_s") != 0.0 {
-        columns.push(("displacement_tangential_m", Some(impact.tangential.displacement())));
-        if let Some(time) = impact.tangential.rolls_from() {
+        columns.push(("displacement_tangential_m", Some(slip.displacement)));
+        if let Some(time) = slip.rolls_from {
             columns.push(("time_roll_s", Some(time)));
         }
     }
@@ -115,7 +111,7 @@ fn damping_of_any_strength() {
         let unit = Contact::hertz(sphere, stiffness).with_damping(1.0).unwrap();
         let zeta = d / unit.groups(&motion).unwrap().material_damping;
         let scene = Contact::hertz(sphere, stiffness).with_damping(zeta).unwrap();
-        let impact = scene.impact(&method, &motion).unwrap();
+        let impact = scene.solve(&motion, &method).unwrap();
         let e = impact.normal.overall_restitution();
         assert_eq!(impact.run.status, Status::Solved, "{d}");
         // 1 - e d, which is all but zero for large d, from the equation itself.
@@ -126,9 +122,9 @@ fn damping_of_any_strength() {
     assert!(most < 3000, "{most}");
 }
 
-/// Whatever the adaptive method chooses, the stretches at their best say the same.
+/// Whatever the adaptive method chooses, intervals at their best say the same.
 #[test]
-fn random_scenes_agree_with_stretches() {
+fn random_scenes_agree_with_intervals() {
     let mut random = StdRng::seed_from_u64(1);
     let exact = Collocation::<14, f64>::new(1e-13).unwrap();
     let (mut phases, mut compared) = (0, 0);
@@ -142,7 +138,8 @@ fn random_scenes_agree_with_stretches() {
             .and_then(|scene| scene.with_ring(strength, adhesion))
             .unwrap();
         let motion = NormalMotion::new(speed).unwrap();
-        let Ok(impact) = scene.impact(&Adaptive::new(tolerance).unwrap(), &motion) else {
+        let method = Adaptive::new(tolerance).unwrap();
+        let Ok((impact, (times, impulses))) = scene.solve_for(&motion, &method, (Times, Impulses)) else {
             continue;
         };
         let reference = scene.solve_normal(&motion, &exact).unwrap();
@@ -150,7 +147,7 @@ fn random_scenes_agree_with_stretches() {
         let found = impact.normal.overall_restitution();
         let difference = (square(found) - square(reference.overall_restitution())).abs();
         assert!(difference <= LARGEST * tolerance, "{scene:?}, {motion:?}, {tolerance:e}: {difference:e}");
-        assert!(impact.outputs.impulses.elastic.is_finite() && impact.outputs.times.peak.is_none_or(f64::is_finite));
+        assert!(impulses.elastic.is_finite() && times.peak.is_none_or(f64::is_finite));
         compared += 1;
         phases += usize::from(impact.run.steps == 2);
     }

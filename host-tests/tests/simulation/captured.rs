@@ -3,10 +3,10 @@
 use core::f64::consts::PI;
 
 use microimpact::contact::{
-    Collocation, ContactImpulses, ContactWorks, Everything, MotionToRest, Nodes, RestCriterion, SettledImpact,
-    SimulatedImpact, Contact, Status, TangentialContact, Trajectory,
+    Collocation, Contact, Impulses, MotionToRest, Nodes, Output, Recording, RestCriterion, SettledImpact,
+    Slip, Status, Times, Works,
 };
-use microimpact::{NormalMotion, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
+use microimpact::{NormalMotion, Outcome, Real, Sphere, Stiffness};
 
 const DENSITY: f64 = 2600.0;
 const STIFFNESS: f64 = 7.5e10;
@@ -57,12 +57,13 @@ impl Scene {
         self.force * 2.0 * PI * self.strength * (radius * self.equilibrium()).sqrt()
     }
 
-    fn run<T: Nodes<N>, const N: usize, O: microimpact::contact::Output<T>>(
+    fn run<T: Nodes<N>, const N: usize, O: Output<T, ()>>(
         &self,
         tolerance: f64,
         share: f64,
         turning_points: u32,
-    ) -> SettledImpact<T, (), O> {
+        outputs: O,
+    ) -> SettledImpact<T, (), O::Result> {
         let c = T::constant;
         let scene = Contact::hertz(sphere(), Stiffness::new(c(STIFFNESS)).unwrap());
         let scene = scene.with_damping(c(self.material)).unwrap();
@@ -70,11 +71,11 @@ impl Scene {
         let scene = scene.with_external_force(c(self.external_force())).unwrap();
         let criterion = RestCriterion::new(c(share), turning_points).unwrap();
         let method = Collocation::<N, T>::new(c(tolerance)).unwrap();
-        scene.observe_to_rest(&method, &NormalMotion::new(c(self.speed)).unwrap(), &criterion).unwrap()
+        scene.solve_to_rest(&NormalMotion::new(c(self.speed)).unwrap(), &method, &criterion, outputs).unwrap()
     }
 
     fn motion(&self, share: f64) -> MotionToRest<f64> {
-        let settled = self.run::<f64, 12, ()>(1e-12, share, 100_000);
+        let settled = self.run::<f64, 12, _>(1e-12, share, 100_000, ());
         assert_eq!(settled.impact.run.status, Status::Solved, "{self:?}");
         settled.motion.unwrap()
     }
@@ -197,7 +198,7 @@ fn rest_agrees_with_an_independent_integration() {
             assert_eq!((motion.turning_points, motion.creeps), (turning_points, creeps), "{scene:?}");
             assert!((motion.time / (rest * time) - 1.0).abs() < 2e-9, "{scene:?}: {motion:?}");
             assert!((motion.indentation / (indentation * length) - 1.0).abs() < 1e-9, "{scene:?}: {motion:?}");
-            let single = scene.run::<f32, 8, ()>(1e-6, share, 1000);
+            let single = scene.run::<f32, 8, _>(1e-6, share, 1000, ());
             assert_eq!(single.impact.run.status, Status::Solved, "{scene:?}");
             let single = single.motion.unwrap();
             assert_eq!((single.turning_points, single.creeps), (turning_points, creeps), "{scene:?}");
@@ -237,8 +238,8 @@ fn energy_is_kept_over_a_thousand_swings() {
     let scene = scene(0.02, 0.08, 250.0, 0.02, 0.0);
     let sphere = sphere::<f64>();
     for share in [1e-1, 1e-4, 1e-10] {
-        let settled = scene.run::<f64, 12, ContactWorks<f64>>(1e-12, share, 100_000);
-        let (motion, works) = (settled.motion.unwrap(), settled.impact.outputs);
+        let settled = scene.run::<f64, 12, _>(1e-12, share, 100_000, Works);
+        let (motion, works) = (settled.motion.unwrap(), settled.outputs);
         assert_eq!(settled.impact.run.status, Status::Solved);
         assert!(share > 1e-5 || motion.turning_points > 1000, "{}", motion.turning_points);
         let (root, depth) = (sphere.radius().sqrt(), motion.indentation);
@@ -256,7 +257,7 @@ fn critical_damping_is_no_obstacle() {
     for damping in [1.8, 1.9, 1.95, 1.98, 1.99, 1.995, 1.999, 2.0, 2.001, 2.01, 2.05, 2.1] {
         let scene = scene(1.0, damping / unit, 250.0, 0.0, 0.0);
         for share in [1e-3, 1e-6, 1e-9, 1e-12] {
-            let settled = scene.run::<f64, 12, ()>(1e-12, share, 100);
+            let settled = scene.run::<f64, 12, _>(1e-12, share, 100, ());
             let run = settled.impact.run;
             assert_eq!(run.status, Status::Solved, "{damping} {share:e}");
             assert!(damping > 1.97 || run.steps + run.refused < 160, "{damping} {share:e}: {run:?}");
@@ -280,10 +281,8 @@ fn a_turning_point_next_to_the_equilibrium_spends_no_budget() {
     for step in 0..100 {
         let stiffness = Stiffness::new(4e9 * 1.008_f64.powi(step)).unwrap();
         let scene = Contact::hertz(sphere, stiffness).with_damping(10.5).unwrap().with_ring(250.0, 6.25).unwrap();
-        let impact = |method: &Collocation<14, f64>| -> SimulatedImpact<f64, ()> {
-            scene.observe(method, &NormalMotion::new(0.329_034_456_231).unwrap()).unwrap()
-        };
-        let found = impact(&Collocation::new(1e-13).unwrap());
+        let (motion, method) = (NormalMotion::new(0.329_034_456_231).unwrap(), Collocation::<14, f64>::new(1e-13).unwrap());
+        let (found, _) = scene.solve_for(&motion, &method, (Times, Impulses, Works)).unwrap();
         assert_eq!(found.run.status, Status::Solved, "{stiffness:?}: {:?}", found.run);
         assert_eq!(found.normal.outcome(), Some(Outcome::Capture));
     }
@@ -304,7 +303,7 @@ fn indentation_tends_to_the_equilibrium() {
 #[test]
 fn spent_turning_points_are_reported() {
     for most in [1, 2, 7] {
-        let settled = SCENES[0].run::<f64, 9, ()>(1e-9, 1e-6, most);
+        let settled = SCENES[0].run::<f64, 9, _>(1e-9, 1e-6, most, ());
         assert_eq!(settled.impact.run.status, Status::BudgetSpent);
         // That the sphere is captured is sure all the same.
         assert_eq!(settled.impact.normal.status(), Status::Solved);
@@ -323,10 +322,10 @@ fn rebound_is_not_followed() {
     let scene = Contact::hertz(sphere(), Stiffness::new(STIFFNESS).unwrap());
     let scene = scene.with_damping(10.5).unwrap().with_ring(250.0, 6.25).unwrap();
     let (method, motion) = (Collocation::<9, f64>::new(1e-9).unwrap(), NormalMotion::new(8.0).unwrap());
-    let settled: SettledImpact<_, _> =
-        scene.observe_to_rest(&method, &motion, &RestCriterion::new(1e-6, 10).unwrap()).unwrap();
+    let (criterion, all) = (RestCriterion::new(1e-6, 10).unwrap(), (Times, Impulses, Works));
+    let settled = scene.solve_to_rest(&motion, &method, &criterion, all).unwrap();
     assert_eq!(settled.motion, None);
-    assert_eq!(settled.impact, scene.impact(&method, &motion).unwrap());
+    assert_eq!((settled.impact, settled.outputs), scene.solve_for(&motion, &method, all).unwrap());
 }
 
 /// What friction has done until rest: all the impulse of the elastic force counts, and angular momentum is kept.
@@ -341,20 +340,19 @@ fn friction_acts_until_rest() {
     {
         let oblique = NormalMotion::new(1.0).unwrap().with_tangential(tangential).unwrap();
         let motion = oblique.with_peripheral_velocity(peripheral).unwrap();
-        type Outputs = (ContactImpulses<f64>, Trajectory<f64, 64>);
-        let settled: SettledImpact<_, TangentialContact<f64>, Outputs> =
-            scene.observe_to_rest(&method, &motion, &criterion).unwrap();
-        let (contact, (impulses, trajectory)) = (settled.impact.tangential, settled.impact.outputs);
+        let outputs = (Impulses, Recording::<64>, Slip);
+        let settled = scene.solve_to_rest(&motion, &method, &criterion, outputs).unwrap();
+        let (impulses, trajectory, slip) = settled.outputs;
         let rest = settled.motion.unwrap();
-        let momentum = contact.tangential() + 0.4 * sphere.radius() * contact.spin();
+        let momentum = slip.velocity + 0.4 * sphere.radius() * slip.spin;
         assert!((momentum / (tangential + 0.4 * peripheral) - 1.0).abs() < 1e-10);
         let change = 0.1 * impulses.elastic / sphere.mass();
         let rolls = change >= 2.0 / 7.0 * (tangential - peripheral);
         let velocity = if rolls { (5.0 * tangential + 2.0 * peripheral) / 7.0 } else { tangential - change };
-        assert_eq!(contact.motion() == SurfaceMotion::Rolling, rolls, "{tangential}");
-        assert!((contact.tangential() - velocity).abs() < 1e-9 * tangential, "{tangential}: {velocity}");
-        assert!(contact.displacement() > velocity * rest.time);
-        assert_eq!(trajectory.roll().map(|roll| roll.time), contact.rolls_from());
+        assert_eq!(!slip.slides, rolls, "{tangential}");
+        assert!((slip.velocity - velocity).abs() < 1e-9 * tangential, "{tangential}: {velocity}");
+        assert!(slip.displacement > velocity * rest.time);
+        assert_eq!(trajectory.roll().map(|roll| roll.time), slip.rolls_from);
         assert_eq!(rolls, tangential < 100.0);
     }
 }
@@ -363,14 +361,14 @@ fn friction_acts_until_rest() {
 #[test]
 fn swings_are_recorded() {
     for scene in SCENES {
-        let settled = scene.run::<f64, 9, (Everything<f64>, Trajectory<f64, 128>)>(1e-9, 1e-6, 1000);
-        let (rest, (everything, trajectory)) = (settled.motion.unwrap(), settled.impact.outputs);
+        let settled = scene.run::<f64, 9, _>(1e-9, 1e-6, 1000, (Times, Recording::<128>));
+        let (rest, (times, trajectory)) = (settled.motion.unwrap(), settled.outputs);
         let samples: Vec<_> = trajectory.samples().collect();
         let last = samples[samples.len() - 1];
         assert!(samples.len() <= 128 && samples.is_sorted_by(|a, b| a.time <= b.time));
         assert_eq!(last.time, rest.time, "{scene:?}");
         assert!((last.indentation / rest.indentation - 1.0).abs() < 1e-14, "{scene:?}");
-        assert_eq!(trajectory.peak().map(|peak| peak.time), everything.times.peak, "{scene:?}");
+        assert_eq!(trajectory.peak().map(|peak| peak.time), times.peak, "{scene:?}");
         let gaps = samples.windows(2).map(|pair| pair[1].time - pair[0].time);
         let evenness = gaps.fold(0.0, f64::max) / rest.time * samples.len() as f64;
         // Thinning takes every other sample at most: it leaves half the room, but for gaps between nodes.
@@ -390,8 +388,8 @@ fn every_captured_sphere_comes_to_rest() {
                 for strength in [1.0, 250.0, 1e4] {
                     for force in [0.0, -1e-3, -0.3, -30.0, 0.03, 0.3] {
                         let scene = Scene { speed, material, strength, adhesion, force };
-                        let double = scene.run::<f64, 9, ()>(1e-9, 1e-6, 100_000);
-                        let single = scene.run::<f32, 8, ()>(1e-6, 1e-6, 100_000);
+                        let double = scene.run::<f64, 9, _>(1e-9, 1e-6, 100_000, ());
+                        let single = scene.run::<f32, 8, _>(1e-6, 1e-6, 100_000, ());
                         let Some(motion) = double.motion else { continue };
                         captured += 1;
                         crept += u32::from(motion.creeps);

@@ -1,8 +1,6 @@
 //! Derivatives by dual numbers against differences of plain runs, and the rules of differentiation by themselves.
 
-use microimpact::contact::{
-    Collocation, FixedCost, HystereticDamping, Method, Nodes, NormalContact, Ring, Contact,
-};
+use microimpact::contact::{Collocation, Contact, FixedCost, Method, Nodes, NormalContact, RingScene};
 use microimpact::{
     CriticalSpeed, Dual, InputError, NormalMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
 };
@@ -11,17 +9,15 @@ use reference::{Case, cases};
 /// Names of the inputs below, for messages.
 const INPUTS: [&str; 7] = ["speed", "radius", "density", "stiffness", "f0", "zeta_H", "zeta_A"];
 
-type Contact<T> = Simulation<T, HystereticDamping<T>, Ring<T>>;
-
-fn scene<T: Real>(inputs: [T; 7]) -> Result<Contact<T>, InputError> {
+fn scene<T: Real>(inputs: [T; 7]) -> Result<RingScene<T>, InputError> {
     let [_, radius, density, stiffness, strength, zeta_h, zeta_a] = inputs;
     Contact::hertz(Sphere::solid(radius, density)?, Stiffness::new(stiffness)?)
         .with_damping(zeta_h)?
         .with_ring(strength, zeta_a)
 }
 
-fn contact<T: Real>(method: &impl Method<T, ()>, inputs: [T; 7]) -> NormalContact<T> {
-    scene(inputs).unwrap().normal_impact(method, &NormalMotion::new(inputs[0]).unwrap()).unwrap()
+fn contact<T: Real>(method: &impl Method<T>, inputs: [T; 7]) -> NormalContact<T> {
+    scene(inputs).unwrap().solve_normal(&NormalMotion::new(inputs[0]).unwrap(), method).unwrap()
 }
 
 fn exact<T: Real>() -> Collocation<14, T> {
@@ -68,7 +64,7 @@ fn rebounds(families: &'static [&str]) -> impl Iterator<Item = [f64; 7]> {
 }
 
 /// Largest error of the derivatives of e^2, which unlike e is smooth down to capture.
-fn worst_restitution(families: &'static [&str], method: &impl Method<Dual<f64, 7>, ()>) -> f64 {
+fn worst_restitution(families: &'static [&str], method: &impl Method<Dual<f64, 7>>) -> f64 {
     let errors = rebounds(families).map(|inputs| {
         let result = square(contact(method, Dual::variables(inputs)).overall_restitution());
         worst(inputs, result, 1e-3, |inputs| square(contact(&exact(), inputs).overall_restitution()))

@@ -1,9 +1,6 @@
 //! The method of fixed cost: its error over the paper's and random scenes, and its honesty where it does not serve.
 
-use microimpact::contact::{
-    Collocation, ContactImpulses, FixedCost, Method, PhaseSamples, SimulatedImpact, Contact, Status,
-    TangentialVelocities,
-};
+use microimpact::contact::{Collocation, Contact, FixedCost, Impulses, Method, PhaseSamples, Status};
 use microimpact::{NormalMotion, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
 use reference::{Case, cases};
 
@@ -11,11 +8,11 @@ use reference::{Case, cases};
 const TOO_DAMPED: &str = "r002";
 
 /// Largest error of e in some families, all of whose outcomes have to be right.
-fn largest_error<T: Real>(families: &[&str], method: &impl Method<T, ()>, double: impl Fn(T) -> f64) -> f64 {
+fn largest_error<T: Real>(families: &[&str], method: &impl Method<T>, double: impl Fn(T) -> f64) -> f64 {
     let mut largest = 0.0_f64;
     for case in cases().iter().filter(|case| families.contains(&case.text("family"))) {
         let name = case.text("name");
-        let contact = case.scene::<T>().unwrap().normal_impact(method, &case.motion::<T>().unwrap()).unwrap();
+        let contact = case.scene::<T>().unwrap().solve_normal(&case.motion::<T>().unwrap(), method).unwrap();
         if name == TOO_DAMPED {
             assert_eq!(contact.status(), Status::BudgetSpent);
             continue;
@@ -50,18 +47,18 @@ where
     let (mut velocity, mut impulse) = (0.0_f64, 0.0_f64);
     let rebounds = |case: &&Case| SCENES.contains(&case.text("family")) && case.text("outcome") == "rebound";
     for case in cases().iter().filter(rebounds) {
-        let impact: SimulatedImpact<f32, TangentialVelocities<f32>, ContactImpulses<f32>> =
-            case.scene().unwrap().observe(&method, &case.motion().unwrap()).unwrap();
-        let slides = impact.tangential.motion == SurfaceMotion::Sliding;
+        let (scene, motion) = (case.scene::<f32>().unwrap(), case.motion().unwrap());
+        let (impact, impulses) = scene.solve_for(&motion, &method, Impulses).unwrap();
+        let slides = impact.tangential.motion() == SurfaceMotion::Sliding;
         assert_eq!(slides, case.text("motion") == "sliding", "{}", case.text("name"));
         let (radius, tangential) = (case.number("radius_m"), case.number("speed_tangential_m_s"));
         let slip = (tangential - radius * case.number("spin_rad_s")).abs().max(tangential.abs());
-        let along = f64::from(impact.tangential.tangential) - case.number("speed_tangential_out_m_s");
-        let around = radius * (f64::from(impact.tangential.spin) - case.number("spin_out_rad_s"));
+        let along = f64::from(impact.tangential.velocity()) - case.number("speed_tangential_out_m_s");
+        let around = radius * (f64::from(impact.tangential.spin()) - case.number("spin_out_rad_s"));
         if slip > 0.0 {
             velocity = velocity.max(along.abs().max(around.abs()) / slip);
         }
-        impulse = impulse.max((f64::from(impact.outputs.elastic) / case.number("impulse_hertz_n_s") - 1.0).abs());
+        impulse = impulse.max((f64::from(impulses.elastic) / case.number("impulse_hertz_n_s") - 1.0).abs());
     }
     (velocity, impulse)
 }

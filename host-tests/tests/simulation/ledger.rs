@@ -1,15 +1,13 @@
 //! The energy ledger closes to rounding, however strong the damping.
 
-use microimpact::contact::{
-    Adaptive, Collocation, ContactWorks, Method, Output, SimulatedImpact, Contact, Status,
-};
+use microimpact::contact::{Adaptive, Collocation, Contact, Method, Status, Works};
 use microimpact::{InputError, NormalMotion, Real, Sphere, Stiffness};
 
 /// What the works lack of the energy lost, over the energy before, at a damping h of the materials; without adhesion and with.
 fn lacking<T, M>(method: &M, damping: f64, strength: f64) -> Result<f64, InputError>
 where
     T: Real + Into<f64>,
-    M: Method<T, (<ContactWorks<T> as Output<T>>::Observer, ())>,
+    M: Method<T>,
 {
     let c = T::constant;
     let sphere = Sphere::solid(c(5e-6), c(2600.0))?;
@@ -20,11 +18,11 @@ where
     let scene = Contact::hertz(sphere, Stiffness::new(c(1e10))?)
         .with_damping(c(material))?
         .with_ring(c(strength), c(0.5 * material))?;
-    let impact: SimulatedImpact<T, (), ContactWorks<T>> = scene.observe(method, &motion)?;
+    let (impact, works) = scene.solve_for(&motion, method, Works)?;
     assert_eq!(impact.run.status, Status::Solved, "{damping}");
     let e: f64 = impact.normal.overall_restitution().into();
     let before: f64 = 0.5 * sphere.mass().into();
-    let works: [f64; 2] = [impact.outputs.material, impact.outputs.adhesion].map(Into::into);
+    let works: [f64; 2] = [works.material, works.adhesion].map(Into::into);
     if impact.normal.rebound_speed() == T::ZERO {
         return Ok(0.0);
     }

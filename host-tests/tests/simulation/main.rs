@@ -7,6 +7,7 @@ mod checking;
 mod contest;
 mod critical_speed;
 mod dual;
+mod everything;
 mod fixed_cost;
 mod fixed_point;
 mod ledger;

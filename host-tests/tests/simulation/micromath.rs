@@ -1,18 +1,18 @@
 //! What the approximate functions of micromath do to both models: the reason why the library does not offer them.
 
-use microimpact::contact::{DimensionlessContact, FixedCost, PhaseNodes};
+use microimpact::contact::{DimensionlessContact, FixedCost, PhaseSamples};
 use microimpact::{CriticalSpeed, Outcome, Real, RigidBody, SpeedRestitution, Sphere};
 use microimpact_scenes::approximate::Approximate;
 use reference::{Case, cases};
 
 /// The scene set up and solved in one number type.
-fn solve<T: PhaseNodes<4>>(case: &Case) -> DimensionlessContact<T> {
+fn solve<T: PhaseSamples<4, 9>>(case: &Case) -> DimensionlessContact<T> {
     let impact = case.scene::<T>().unwrap().dimensionless(&case.motion::<T>().unwrap()).unwrap();
     impact.solve(&FixedCost::<4>::new(2).unwrap())
 }
 
 /// Largest error of e over the mildly damped scenes, and how many outcomes are wrong.
-fn errors<T: PhaseNodes<4>>(to_f64: impl Fn(T) -> f64) -> (f64, u32) {
+fn errors<T: PhaseSamples<4, 9>>(to_f64: impl Fn(T) -> f64) -> (f64, u32) {
     let (mut largest, mut wrong) = (0.0_f64, 0);
     for case in cases().iter().filter(|case| ["paper", "figure6"].contains(&case.text("family"))) {
         let contact = solve::<T>(case);

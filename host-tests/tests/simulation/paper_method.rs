@@ -1,18 +1,12 @@
 //! The paper's own method: how fast it converges, and the numbers that the paper prints, from it and from collocation.
 
-use microimpact::contact::{
-    Collocation, Everything, Nodes, NormalContact, RungeKuttaGill, SimulatedImpact, Contact, Status,
-    TangentialContact,
-};
+use crate::everything::{EVERYTHING, Everything, Impact, solve_case};
+use microimpact::contact::{Collocation, Contact, NormalContact, PaperScene, RungeKuttaGill, SlipHistory, Status};
 use microimpact::{InputError, NormalMotion, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
 use reference::{Case, cases};
 
-fn step_through<T: Real>(case: &Case, steps: u32) -> Result<SimulatedImpact<T, TangentialContact<T>>, InputError> {
-    let (scene, motion, method) = (case.scene()?, case.motion()?, RungeKuttaGill::new(steps));
-    match case.peeling() {
-        Some(lambda) => scene.with_peeling(lambda)?.impact(&method, &motion),
-        None => scene.impact(&method, &motion),
-    }
+fn step_through<T: Real>(case: &Case, steps: u32) -> Result<Impact<T>, InputError> {
+    solve_case(case, &RungeKuttaGill::new(steps))
 }
 
 fn case(name: &str) -> Case {
@@ -25,7 +19,7 @@ fn errors(case: &Case, from: u32, to: u32) -> Vec<(f64, f64)> {
     let mut steps = f64::from(from);
     let mut errors = Vec::new();
     while steps <= f64::from(to) {
-        let impact = step_through::<f64>(case, steps as u32).unwrap();
+        let (impact, _) = step_through::<f64>(case, steps as u32).unwrap();
         errors.push((steps, (impact.normal.overall_restitution() - exact).abs()));
         steps *= 2f64.sqrt().sqrt();
     }
@@ -67,7 +61,7 @@ fn thousands_of_steps_for_six_digits() {
 fn converges_to_the_reference() {
     for case in cases().iter().filter(|case| ["paper", "figure6", "random", "peeling"].contains(&case.text("family"))) {
         let name = case.text("name");
-        let impact = step_through::<f64>(case, 20_000).unwrap();
+        let (impact, (times, impulses, works, slip)) = step_through::<f64>(case, 20_000).unwrap();
         assert_eq!(impact.run.status, Status::Solved, "{name}");
         assert_eq!(impact.normal.outcome() == Some(Outcome::Rebound), case.text("outcome") == "rebound", "{name}");
         let compare = |value: f64, column: &str, allowed: f64| {
@@ -83,20 +77,25 @@ fn converges_to_the_reference() {
         }
         let (e, exact) = (impact.normal.overall_restitution(), case.number("restitution"));
         assert!((e * e - exact * exact).abs() <= 2e-6, "{name}: e = {e}, not {exact}");
-        compare(impact.outputs.times.peak.unwrap(), "time_peak_s", 2e-6);
-        compare(impact.outputs.times.contact.unwrap(), "contact_time_s", 1e-5);
-        compare(impact.outputs.impulses.elastic, "impulse_hertz_n_s", 2e-6);
+        compare(times.peak.unwrap(), "time_peak_s", 2e-6);
+        compare(times.contact.unwrap(), "contact_time_s", 1e-5);
+        compare(impulses.elastic, "impulse_hertz_n_s", 2e-6);
         // Counted from the step in which the sphere turns, so of first order.
-        compare(impact.outputs.impulses.adhesion_rebound, "impulse_adhesion_rebound_n_s", 1e-4);
-        compare(impact.outputs.works.material, "work_material_j", 2e-6);
-        compare(impact.outputs.works.adhesion, "work_adhesion_j", 1e-5);
+        compare(impulses.adhesion_rebound, "impulse_adhesion_rebound_n_s", 1e-4);
+        compare(works.material, "work_material_j", 2e-6);
+        compare(works.adhesion, "work_adhesion_j", 1e-5);
         let rolls = impact.tangential.motion() == SurfaceMotion::Rolling;
         assert_eq!(rolls, case.text("motion") == "rolling", "{name}");
-        compare(impact.tangential.tangential(), "speed_tangential_out_m_s", 1e-5);
-        compare(impact.tangential.spin(), "spin_out_rad_s", 1e-5);
-        compare(impact.tangential.rotation(), "rotation_rad", 1e-5);
-        compare(impact.tangential.displacement(), "displacement_tangential_m", 1e-5);
-        if let Some(time) = impact.tangential.rolls_from() {
+        assert_eq!(slip.slides, !rolls, "{name}");
+        for velocity in [slip.velocity, impact.tangential.velocity()] {
+            compare(velocity, "speed_tangential_out_m_s", 1e-5);
+        }
+        for spin in [slip.spin, impact.tangential.spin()] {
+            compare(spin, "spin_out_rad_s", 1e-5);
+        }
+        compare(slip.rotation, "rotation_rad", 1e-5);
+        compare(slip.displacement, "displacement_tangential_m", 1e-5);
+        if let Some(time) = slip.rolls_from {
             compare(time, "time_roll_s", 1e-5);
         }
     }
@@ -108,7 +107,7 @@ fn single_precision_loses_what_small_steps_gain() {
     let case = case("table1");
     let exact = case.number("restitution");
     let error = |steps| {
-        let impact = step_through::<f32>(&case, steps).unwrap();
+        let (impact, _) = step_through::<f32>(&case, steps).unwrap();
         (f64::from(impact.normal.overall_restitution()) - exact).abs()
     };
     assert!(error(256) < 1e-4);
@@ -120,7 +119,7 @@ fn single_precision_loses_what_small_steps_gain() {
 fn every_run_ends_in_numbers() {
     for case in cases() {
         for steps in [4, 50, 500] {
-            let impact = step_through::<f64>(&case, steps).unwrap();
+            let (impact, _) = step_through::<f64>(&case, steps).unwrap();
             assert!(impact.run.steps <= steps * RungeKuttaGill::LONGEST_RUN + 1);
             assert!(impact.normal.overall_restitution().is_finite(), "{}", case.text("name"));
         }
@@ -152,37 +151,36 @@ struct Answer {
     rebound_speed: f64,
     work_of_adhesion: f64,
     outcome: Outcome,
-    tangential: TangentialContact<f64>,
+    slip: SlipHistory<f64>,
 }
 
-fn collocated<const N: usize>(scene: &Scene, motion: &Motion) -> Answer
-where
-    f64: Nodes<N>,
-{
-    let impact = scene.impact(&Collocation::<N, f64>::new(1e-9).unwrap(), motion).unwrap();
-    Answer::from(&impact.normal, &impact.outputs, impact.tangential)
+fn collocated(scene: &Scene, motion: &Motion) -> Answer {
+    let method = Collocation::<9, f64>::new(1e-9).unwrap();
+    let (impact, outputs) = scene.solve_for(motion, &method, EVERYTHING).unwrap();
+    Answer::from(scene, &impact.normal, &outputs)
 }
 
 fn stepped(scene: &Scene, motion: &Motion) -> Answer {
-    let impact = scene.impact(&RungeKuttaGill::new(20_000), motion).unwrap();
-    Answer::from(&impact.normal, &impact.outputs, impact.tangential)
+    let (impact, outputs) = scene.solve_for(motion, &RungeKuttaGill::new(20_000), EVERYTHING).unwrap();
+    Answer::from(scene, &impact.normal, &outputs)
 }
 
 impl Answer {
-    fn from(normal: &NormalContact<f64>, outputs: &Everything<f64>, tangential: TangentialContact<f64>) -> Self {
+    fn from(scene: &Scene, normal: &NormalContact<f64>, (_, _, works, slip): &Everything<f64>) -> Self {
+        let peak = normal.peak_indentation().unwrap();
         Self {
             restitution: normal.overall_restitution(),
-            peak: normal.peak_indentation().unwrap(),
-            peak_radius: normal.peak_contact_radius().unwrap(),
+            peak,
+            peak_radius: scene.law().contact_radius_at(scene.sphere(), peak),
             rebound_speed: normal.rebound_speed(),
-            work_of_adhesion: outputs.works.adhesion,
+            work_of_adhesion: works.adhesion,
             outcome: normal.outcome().unwrap(),
-            tangential,
+            slip: *slip,
         }
     }
 }
 
-type Scene = reference::Scene<f64>;
+type Scene = PaperScene<f64>;
 type Motion = microimpact::PlanarMotion<f64>;
 
 fn scene(radius: f64, strength: f64, zeta_h: f64, zeta_a: f64) -> Scene {
@@ -217,10 +215,10 @@ fn printed(solve: impl Fn(&Scene, &Motion) -> Answer) -> Printed {
         restitution: table1.restitution,
         peak: table1.peak,
         work_of_adhesion: table1.work_of_adhesion,
-        rebound_angle: (table1.tangential.tangential() / table1.rebound_speed).atan().to_degrees(),
-        tangential: table1.tangential.tangential(),
-        spin: table1.tangential.spin(),
-        rotation: table1.tangential.rotation_degrees(),
+        rebound_angle: (table1.slip.velocity / table1.rebound_speed).atan().to_degrees(),
+        tangential: table1.slip.velocity,
+        spin: table1.slip.spin,
+        rotation: table1.slip.rotation_degrees(),
         equilibrium: slowly(2.5e-6, 250.0).peak * 0.6,
         rests_at: [rests_at(128.3), rests_at(513.3)],
         captured: [at(2.5e-6, 5.15, 0.0).outcome, at(2.5e-6, 5.17, 0.0).outcome],
@@ -256,5 +254,5 @@ fn table_of_the_paper_by_its_own_method() {
 
 #[test]
 fn table_of_the_paper_by_collocation() {
-    reproduces_the_table(&printed(collocated::<9>));
+    reproduces_the_table(&printed(collocated));
 }

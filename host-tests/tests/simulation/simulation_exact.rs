@@ -3,12 +3,10 @@
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;
 
-use microimpact::contact::{
-    Adaptive, Collocation, Everything, FixedCost, Method, Output, Peeling, Ring, SimulatedImpact, Contact, Status,
-    TangentialContact, TangentialScene,
-};
+use crate::everything::{EVERYTHING, Impact};
+use microimpact::contact::{Adaptive, Collocation, Contact, FixedCost, Impulses, Method, Slip, Status, Times};
 use microimpact::{
-    Coulomb, CriticalSpeed, InputError, NormalMotion, Outcome, PlanarMotion, Real, Sphere, Stiffness, SurfaceMotion,
+    CriticalSpeed, InputError, NormalMotion, Outcome, PlanarMotion, Real, Sphere, Stiffness, SurfaceMotion,
 };
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -39,9 +37,9 @@ fn no_damping_returns_everything() {
     let held = free.with_ring(250.0, 0.0).unwrap();
     for decade in -4..=4 {
         let motion = NormalMotion::new(10f64.powi(decade)).unwrap();
-        let e = free.normal_impact(&method(), &motion).unwrap().overall_restitution();
+        let e = free.solve_normal(&motion, &method()).unwrap().overall_restitution();
         assert!((e - 1.0).abs() < 1e-14, "{decade}: {e}");
-        let e = held.normal_impact(&method(), &motion).unwrap().overall_restitution();
+        let e = held.solve_normal(&motion, &method()).unwrap().overall_restitution();
         assert!((e - 1.0).abs() < 1e-13, "{decade}: {e}");
     }
 }
@@ -57,7 +55,7 @@ fn hunt_crossley() {
             let speed = 3.0;
             let zeta = d / (speed * damping_unit(&sphere, stiffness, speed));
             let scene = Contact::hertz(sphere, stiffness).with_damping(zeta).unwrap();
-            let contact = scene.normal_impact(&method(), &NormalMotion::new(speed).unwrap()).unwrap();
+            let contact = scene.solve_normal(&NormalMotion::new(speed).unwrap(), &method()).unwrap();
             let found = contact.overall_restitution();
             assert!((found - e).abs() < 6e-10, "{d}: {found}");
             let residual = d * (1.0 + found) - ((1.0 + d) / (1.0 - found * d)).ln();
@@ -73,7 +71,7 @@ fn strong_damping_has_no_cliff() {
         let d = 10f64.powi(decade);
         let zeta = d / damping_unit(&sphere(), stiffness(), 1.0);
         let scene = Contact::hertz(sphere(), stiffness()).with_damping(zeta).unwrap();
-        let impact = scene.impact(&method(), &NormalMotion::new(1.0).unwrap()).unwrap();
+        let impact = scene.solve(&NormalMotion::new(1.0).unwrap(), &method()).unwrap();
         assert_eq!(impact.run.status, Status::Solved);
         assert_eq!(impact.normal.outcome(), Some(Outcome::Rebound));
         let speed = impact.normal.rebound_speed();
@@ -92,7 +90,7 @@ fn undamped_peaks() {
     let unit = equilibrium * (k * (r * equilibrium).sqrt() / sphere().mass()).sqrt();
     let scene = Contact::hertz(sphere(), stiffness()).with_ring(250.0, 0.0).unwrap();
     for (v, x) in [(0.5, 1.79645), (1.0, 2.08258), (3.0, 3.43431), (1e-4, 5.0 / 3.0)] {
-        let contact = scene.normal_impact(&method(), &NormalMotion::new(v * unit).unwrap()).unwrap();
+        let contact = scene.solve_normal(&NormalMotion::new(v * unit).unwrap(), &method()).unwrap();
         let peak = contact.peak_indentation().unwrap() / equilibrium;
         assert!((peak - x).abs() < 6e-6, "{v}: {peak}");
         let (root, energy) = (peak.sqrt(), v * v / 2.0);
@@ -112,12 +110,16 @@ fn rolling_is_independent_of_the_force_law() {
         .unwrap();
     let motion = planar(2.8, 1.0, -0.5);
     let expected = (5.0 * 1.0 + 2.0 * -0.5) / 7.0;
-    for contact in
-        [free.impact(&method(), &motion).unwrap().tangential, held.impact(&method(), &motion).unwrap().tangential]
-    {
-        assert_eq!(contact.motion(), SurfaceMotion::Rolling);
-        assert!((contact.tangential() - expected).abs() < 1e-14);
-        assert!((contact.spin() * 5.06e-6 - expected).abs() < 1e-14);
+    for (impact, slip) in [
+        free.solve_for(&motion, &method(), Slip).unwrap(),
+        held.solve_for(&motion, &method(), Slip).unwrap(),
+    ] {
+        let contact = impact.tangential;
+        assert_eq!((contact.motion(), slip.slides), (SurfaceMotion::Rolling, false));
+        for (velocity, spin) in [(contact.velocity(), contact.spin()), (slip.velocity, slip.spin)] {
+            assert!((velocity - expected).abs() < 1e-14);
+            assert!((spin * 5.06e-6 - expected).abs() < 1e-14);
+        }
     }
 }
 
@@ -125,10 +127,13 @@ fn rolling_is_independent_of_the_force_law() {
 #[test]
 fn sliding_impulse() {
     let scene = Contact::hertz(sphere(), stiffness()).with_friction(0.05).unwrap();
-    let contact = scene.impact(&method(), &planar(2.0, 5.0, 0.0)).unwrap().tangential;
-    assert_eq!(contact.motion(), SurfaceMotion::Sliding);
-    assert!((contact.tangential() - (5.0 - 0.05 * 4.0)).abs() < 1e-12);
-    assert!((contact.spin() * 5.06e-6 - 2.5 * 0.05 * 4.0).abs() < 1e-12);
+    let (impact, slip) = scene.solve_for(&planar(2.0, 5.0, 0.0), &method(), Slip).unwrap();
+    let contact = impact.tangential;
+    assert_eq!((contact.motion(), slip.slides), (SurfaceMotion::Sliding, true));
+    for (velocity, spin) in [(contact.velocity(), contact.spin()), (slip.velocity, slip.spin)] {
+        assert!((velocity - (5.0 - 0.05 * 4.0)).abs() < 1e-12);
+        assert!((spin * 5.06e-6 - 2.5 * 0.05 * 4.0).abs() < 1e-12);
+    }
 }
 
 /// The same dimensionless scene in other units has the same restitution.
@@ -136,7 +141,7 @@ fn sliding_impulse() {
 fn similar_scenes_agree() {
     let e = |sphere: Sphere<f64>, stiffness: Stiffness<f64>, strength: f64, speed: f64| {
         let scene = Contact::hertz(sphere, stiffness).with_damping(10.5).unwrap().with_ring(strength, 6.25).unwrap();
-        scene.normal_impact(&method(), &NormalMotion::new(speed).unwrap()).unwrap().overall_restitution()
+        scene.solve_normal(&NormalMotion::new(speed).unwrap(), &method()).unwrap().overall_restitution()
     };
     let expected = e(sphere(), stiffness(), 250.0, 2.8);
     // All lengths times 100; and stiffness, strength and density times 9.
@@ -151,16 +156,16 @@ fn similar_scenes_agree() {
 fn constant_force_is_conservative() {
     let motion = NormalMotion::new(2.8).unwrap();
     let free = Contact::hertz(sphere(), stiffness());
-    let undisturbed = free.impact(&method(), &motion).unwrap();
+    let undisturbed = free.solve_normal(&motion, &method()).unwrap();
     for force in [-1e-5, 1e-5] {
         let scene = free.with_external_force(force).unwrap();
-        let impact = scene.impact(&method(), &motion).unwrap();
+        let (impact, (times, impulses)) = scene.solve_for(&motion, &method(), (Times, Impulses)).unwrap();
         assert!((impact.normal.overall_restitution() - 1.0).abs() < 1e-13);
-        let deeper = impact.normal.peak_indentation() > undisturbed.normal.peak_indentation();
+        let deeper = impact.normal.peak_indentation() > undisturbed.peak_indentation();
         assert_eq!(deeper, force < 0.0);
         // The elastic impulse makes up for that of the force.
-        let turned = 2.0 * sphere().mass() * 2.8 - force * impact.outputs.times.contact.unwrap();
-        assert!((impact.outputs.impulses.elastic / turned - 1.0).abs() < 1e-12);
+        let turned = 2.0 * sphere().mass() * 2.8 - force * times.contact.unwrap();
+        assert!((impulses.elastic / turned - 1.0).abs() < 1e-12);
     }
 }
 
@@ -177,16 +182,16 @@ fn force_out_of_the_surface_is_a_barrier() {
         };
         for (share, outcome) in [(0.98, Outcome::Capture), (0.8, Outcome::Capture), (1.02, Outcome::Rebound)] {
             let motion = NormalMotion::new(share * critical).unwrap();
-            let exact = scene.normal_impact(&method(), &motion).unwrap();
+            let exact = scene.solve_normal(&motion, &method()).unwrap();
             assert_eq!((exact.status(), exact.outcome()), (Status::Solved, Some(outcome)), "{force}, {share}");
-            let quick = scene.normal_impact(&FixedCost::<8>::new(12).unwrap(), &motion).unwrap();
+            let quick = scene.solve_normal(&motion, &FixedCost::<8>::new(12).unwrap()).unwrap();
             assert!(
                 quick.status() != Status::Solved || quick.outcome() == Some(outcome),
                 "{force}, {share}: {quick:?}"
             );
         }
         // Slower spheres turn back in front of the barrier.
-        let reflected = scene.normal_impact(&method(), &NormalMotion::new(0.01).unwrap()).unwrap();
+        let reflected = scene.solve_normal(&NormalMotion::new(0.01).unwrap(), &method()).unwrap();
         assert_eq!((reflected.status(), reflected.outcome()), (Status::Solved, Some(Outcome::Rebound)));
         assert!(reflected.overall_restitution() > 0.99, "{force}: {reflected:?}");
     }
@@ -205,12 +210,12 @@ fn spin_without_friction_decays_exponentially() {
     let motion = planar(10.0, 0.0, 1.0);
     let left = |lambda: f64, exact: bool| {
         let scene = scene.with_friction(0.0).unwrap().with_peeling(lambda).unwrap();
-        let tangential = if exact {
-            scene.impact(&method(), &motion).unwrap().tangential
+        let impact = if exact {
+            scene.solve(&motion, &method()).unwrap()
         } else {
-            scene.impact(&Adaptive::new(1e-11).unwrap(), &motion).unwrap().tangential
+            scene.solve(&motion, &Adaptive::new(1e-11).unwrap()).unwrap()
         };
-        tangential.spin() * sphere().radius()
+        impact.tangential.spin() * sphere().radius()
     };
     let small = 1e-13;
     let rate = -left(small, true).ln() / small;
@@ -221,12 +226,6 @@ fn spin_without_friction_decays_exponentially() {
         }
     }
 }
-
-/// What is observed of a scene with everything in it.
-type Observed<T> = (
-    <Everything<T> as Output<T>>::Observer,
-    <Coulomb<T> as TangentialScene<T, PlanarMotion<T>, Ring<T>, Peeling<T>, TangentialContact<T>>>::Observer,
-);
 
 /// A scene of any inputs.
 #[derive(Clone, Copy, Debug)]
@@ -290,10 +289,7 @@ impl Inputs {
         inputs
     }
 
-    fn simulate<T: Real>(
-        &self,
-        method: &impl Method<T, Observed<T>>,
-    ) -> Result<SimulatedImpact<T, TangentialContact<T>>, InputError> {
+    fn simulate<T: Real>(&self, method: &impl Method<T>) -> Result<Impact<T>, InputError> {
         let number = |input: f64| T::constant(input);
         let sphere = Sphere::new(number(self.radius), number(self.density), number(self.gyration))?;
         let motion = NormalMotion::new(number(self.speed))?
@@ -305,34 +301,35 @@ impl Inputs {
             .with_friction(number(self.friction))?
             .with_peeling(number(self.peeling))?;
         match self.force {
-            Some(force) => scene.with_external_force(number(force))?.impact(method, &motion),
-            None => scene.impact(method, &motion),
+            Some(force) => scene.with_external_force(number(force))?.solve_for(&motion, method, EVERYTHING),
+            None => scene.solve_for(&motion, method, EVERYTHING),
         }
     }
 }
 
 /// Values of an impact that have to be finite whatever the scene.
-fn values<T: Real>(impact: &SimulatedImpact<T, TangentialContact<T>>) -> Vec<T> {
-    let (normal, tangential, outputs) = (&impact.normal, &impact.tangential, &impact.outputs);
+fn values<T: Real>((impact, (times, impulses, works, slip)): &Impact<T>) -> Vec<T> {
+    let (normal, tangential) = (&impact.normal, &impact.tangential);
     let optional = [
         normal.peak_indentation(),
         normal.turning_indentation(),
-        normal.peak_force(),
-        outputs.times.peak,
-        outputs.times.contact,
-        tangential.rolls_from(),
+        times.peak,
+        times.contact,
+        slip.rolls_from,
     ];
     let always = [
         normal.overall_restitution(),
         normal.rebound_speed(),
-        outputs.impulses.elastic,
-        outputs.impulses.adhesion_rebound,
-        outputs.works.material,
-        outputs.works.adhesion,
-        tangential.tangential(),
-        tangential.rotation(),
-        tangential.displacement(),
+        impulses.elastic,
+        impulses.adhesion_rebound,
+        works.material,
+        works.adhesion,
+        tangential.velocity(),
         tangential.spin(),
+        slip.velocity,
+        slip.rotation,
+        slip.displacement,
+        slip.spin,
     ];
     optional.into_iter().flatten().chain(always).collect()
 }
@@ -340,17 +337,18 @@ fn values<T: Real>(impact: &SimulatedImpact<T, TangentialContact<T>>) -> Vec<T> 
 /// The restitution of a result that was solved. A named error was not; what is neither ends the test.
 fn solved<T: Real>(
     inputs: &Inputs,
-    result: Result<SimulatedImpact<T, TangentialContact<T>>, InputError>,
+    result: Result<Impact<T>, InputError>,
     counts: &mut Counts,
 ) -> Option<T> {
     counts.ended += 1;
-    let Ok(impact) = result else {
+    let Ok(solved) = result else {
         return None;
     };
-    assert!(values(&impact).iter().all(|value| value.is_finite()), "{inputs:?} {impact:?}");
+    let impact = &solved.0;
+    assert!(values(&solved).iter().all(|value| value.is_finite()), "{inputs:?} {impact:?}");
     let e = impact.normal.overall_restitution();
     assert!(e >= T::ZERO && e <= T::ONE + T::constant(16.0) * T::EPSILON, "{inputs:?} {impact:?}");
-    assert!(impact.run.steps + impact.run.refused <= Collocation::<8, T>::MOST_STRETCHES, "{inputs:?} {impact:?}");
+    assert!(impact.run.steps + impact.run.refused <= Collocation::<8, T>::MOST_INTERVALS, "{inputs:?} {impact:?}");
     if impact.run.status != Status::Solved {
         // Only where a force far exceeds elasticity and speed.
         assert!(inputs.force.is_some(), "{inputs:?} {impact:?}");
@@ -373,8 +371,8 @@ struct Counts {
 /// Simulates random scenes by one method in both precisions; what is solved in both agrees.
 fn simulate_everything<D, S>(scenes: u32, seed: u64, double: &D, single: &S) -> Counts
 where
-    D: Method<f64, Observed<f64>>,
-    S: Method<f32, Observed<f32>>,
+    D: Method<f64>,
+    S: Method<f32>,
 {
     let (mut random, mut counts) = (StdRng::seed_from_u64(seed), Counts::default());
     for _ in 0..scenes {

@@ -1,6 +1,7 @@
 //! The contact simulation against solutions to 20 digits.
 
-use microimpact::contact::{Collocation, Nodes, SimulatedImpact, Status, TangentialContact};
+use crate::everything::{Impact, solve_case};
+use microimpact::contact::{Collocation, Nodes, Status};
 use microimpact::{InputError, Outcome, Real, SurfaceMotion};
 use reference::{Case, cases};
 
@@ -12,38 +13,31 @@ fn family(case: &Case) -> String {
     }
 }
 
-fn simulate<const N: usize, T: Nodes<N>>(
-    case: &Case,
-    tolerance: f64,
-) -> Result<SimulatedImpact<T, TangentialContact<T>>, InputError> {
-    let (scene, motion) = (case.scene()?, case.motion()?);
-    let method = Collocation::<N, T>::new(T::constant(tolerance))?;
-    match case.peeling() {
-        Some(lambda) => scene.with_peeling(lambda)?.impact(&method, &motion),
-        None => scene.impact(&method, &motion),
-    }
+fn simulate<const N: usize, T: Nodes<N>>(case: &Case, tolerance: f64) -> Result<Impact<T>, InputError> {
+    solve_case(case, &Collocation::<N, T>::new(T::constant(tolerance))?)
 }
 
 /// Outputs by name, with the columns of their reference; those after the first two are of a rebound.
-fn outputs<T: Real>(
-    impact: &SimulatedImpact<T, TangentialContact<T>>,
-) -> [(&'static str, &'static str, Option<T>); 13] {
-    let SimulatedImpact { normal, tangential, outputs, .. } = impact;
+fn outputs<T: Real>((impact, everything): &Impact<T>) -> [(&'static str, &'static str, Option<T>); 15] {
+    let (normal, tangential) = (&impact.normal, &impact.tangential);
+    let (times, impulses, works, slip) = everything;
     [
         ("peak", "max_indentation_m", normal.peak_indentation()),
         ("turning", "turning_indentation_m", normal.turning_indentation()),
-        ("contact time", "contact_time_s", outputs.times.contact),
-        ("peak time", "time_peak_s", outputs.times.peak),
-        ("impulse", "impulse_hertz_n_s", Some(outputs.impulses.elastic)),
-        ("adhesion impulse", "impulse_adhesion_rebound_n_s", Some(outputs.impulses.adhesion_rebound)),
-        ("material work", "work_material_j", Some(outputs.works.material)),
-        ("adhesion work", "work_adhesion_j", Some(outputs.works.adhesion)),
-        ("V_t", "speed_tangential_out_m_s", Some(tangential.tangential())),
-        ("W", "spin_out_rad_s", Some(tangential.spin())),
-        ("rotation", "rotation_rad", Some(tangential.rotation())),
-        ("displacement", "displacement_tangential_m", Some(tangential.displacement())),
+        ("contact time", "contact_time_s", times.contact),
+        ("peak time", "time_peak_s", times.peak),
+        ("impulse", "impulse_hertz_n_s", Some(impulses.elastic)),
+        ("adhesion impulse", "impulse_adhesion_rebound_n_s", Some(impulses.adhesion_rebound)),
+        ("material work", "work_material_j", Some(works.material)),
+        ("adhesion work", "work_adhesion_j", Some(works.adhesion)),
+        ("V_t", "speed_tangential_out_m_s", Some(slip.velocity)),
+        ("W", "spin_out_rad_s", Some(slip.spin)),
+        ("V_t of the impulse", "speed_tangential_out_m_s", Some(tangential.velocity())),
+        ("W of the impulse", "spin_out_rad_s", Some(tangential.spin())),
+        ("rotation", "rotation_rad", Some(slip.rotation)),
+        ("displacement", "displacement_tangential_m", Some(slip.displacement)),
         // The reference has -1 where the slip does not end.
-        ("roll time", "time_roll_s", Some(tangential.rolls_from().unwrap_or(T::constant(-1.0)))),
+        ("roll time", "time_roll_s", Some(slip.rolls_from.unwrap_or(T::constant(-1.0)))),
     ]
 }
 
@@ -58,13 +52,14 @@ fn errors<const N: usize, T: Nodes<N>>(tolerance: f64, double: impl Fn(T) -> f64
     let (mut errors, mut wrong) = (Vec::new(), Vec::new());
     for case in cases() {
         let name = case.text("name").to_owned();
-        let impact = match simulate::<N, T>(&case, tolerance) {
-            Ok(impact) => impact,
+        let solved = match simulate::<N, T>(&case, tolerance) {
+            Ok(solved) => solved,
             Err(error) => {
                 wrong.push(format!("{name}: {error}"));
                 continue;
             }
         };
+        let (impact, (.., slip)) = &solved;
         let rebounds = case.text("outcome") == "rebound";
         let rolls = case.text("motion") == "rolling";
         let found = impact.normal.outcome() == Some(Outcome::Rebound);
@@ -72,11 +67,11 @@ fn errors<const N: usize, T: Nodes<N>>(tolerance: f64, double: impl Fn(T) -> f64
             wrong.push(format!("{name}: {:?}, {:?}", impact.normal.outcome(), impact.run));
             continue;
         }
-        if rebounds && (impact.tangential.motion() == SurfaceMotion::Rolling) != rolls {
-            wrong.push(format!("{name}: {:?}", impact.tangential.motion()));
+        if rebounds && ((impact.tangential.motion() == SurfaceMotion::Rolling) != rolls || slip.slides == rolls) {
+            wrong.push(format!("{name}: {:?}, {slip:?}", impact.tangential.motion()));
         }
         let mut note = |output, size| errors.push(Error { case: case.clone(), output, size });
-        let outputs = outputs(&impact);
+        let outputs = outputs(&solved);
         for (output, column, value) in &outputs[..if rebounds { outputs.len() } else { 2 }] {
             let exact = case.number(column);
             match value.map(&double) {
@@ -116,8 +111,7 @@ fn condition(case: &Case, output: &str) -> f64 {
     // Far less than the distance of any case from its critical speed, and far more than rounding.
     const STEP: f64 = 1e-8;
     let logarithm = |case: &Case| {
-        let impact = simulate::<14, f64>(case, 1e-13).unwrap();
-        let outputs = outputs(&impact);
+        let outputs = outputs(&simulate::<14, f64>(case, 1e-13).unwrap());
         let (.., value) = outputs.iter().find(|(name, ..)| *name == output).unwrap();
         value.unwrap().abs().ln()
     };

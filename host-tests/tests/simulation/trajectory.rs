@@ -1,12 +1,13 @@
 //! The recorded course of an impact: what is kept of it, how evenly, and how exactly.
 
+use crate::everything::{EVERYTHING, Everything};
 use microimpact::contact::{
-    Collocation, Everything, Nodes, NormalContact, RunReport, Sample, SimulatedImpact, Contact, TangentialContact,
+    Collocation, Contact, Nodes, NormalContact, Recording, RunReport, Sample, SimulatedImpact, TangentialVelocities,
     Trajectory,
 };
 use microimpact::{NormalMotion, Outcome, PlanarMotion, Real, Sphere, Stiffness};
 
-type Impact<T, const N: usize> = SimulatedImpact<T, TangentialContact<T>, (Everything<T>, Trajectory<T, N>)>;
+type Impact<T, const N: usize> = (SimulatedImpact<T, TangentialVelocities<T>>, (Everything<T>, Trajectory<T, N>));
 
 /// An impact of the sphere of Table 1: speed, slip, zeta_H, f0, zeta_A.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +39,11 @@ impl Scene {
         let oblique = NormalMotion::new(c(speed)).unwrap().with_tangential(c(slip)).unwrap();
         let motion: PlanarMotion<T> = oblique.with_peripheral_velocity(T::ZERO).unwrap();
         let method = Collocation::<9, T>::new(c(tolerance)).unwrap();
-        scene.with_friction(c(0.1)).unwrap().observe(&method, &motion).unwrap()
+        scene.with_friction(c(0.1)).unwrap().solve_for(&motion, &method, (EVERYTHING, Recording::<N>)).unwrap()
+    }
+
+    fn trajectory<const N: usize>(self, tolerance: f64) -> Trajectory<f64, N> {
+        self.run::<f64, N>(tolerance).1.1
     }
 }
 
@@ -51,7 +56,8 @@ fn largest<T: Real>(gaps: &[T]) -> T {
 }
 
 fn assert_keeps_what_it_must<T: Nodes<9>, const N: usize>(scene: Scene, close: T) {
-    let Impact { normal, tangential, outputs: (everything, trajectory), .. } = scene.run::<T, N>(1e-9);
+    let (impact, ((times, _, _, slip), trajectory)) = scene.run::<T, N>(1e-9);
+    let normal = impact.normal;
     let samples: Vec<Sample<T>> = trajectory.samples().collect();
     let [first, .., last] = samples[..] else { panic!("{scene:?}: {samples:?}") };
     assert!(samples.len() <= N, "{scene:?}");
@@ -62,7 +68,7 @@ fn assert_keeps_what_it_must<T: Nodes<9>, const N: usize>(scene: Scene, close: T
     assert_eq!((first.time, first.indentation, first.force, first.elastic), (zero, zero, zero, zero));
     assert!(near(first.velocity, T::constant(scene.0)), "{scene:?}");
 
-    assert_eq!(trajectory.peak().map(|peak| peak.time), everything.times.peak, "{scene:?}");
+    assert_eq!(trajectory.peak().map(|peak| peak.time), times.peak, "{scene:?}");
     // The same product in another order.
     let same = |a: T, b: Option<T>| (a - b.unwrap()).abs() <= T::constant(4.0) * T::EPSILON * a;
     if let Some(peak) = trajectory.peak() {
@@ -70,13 +76,13 @@ fn assert_keeps_what_it_must<T: Nodes<9>, const N: usize>(scene: Scene, close: T
         assert!(samples.contains(&peak) && peak.velocity == zero, "{scene:?}");
     }
 
-    assert_eq!(trajectory.roll().map(|roll| roll.time), tangential.rolls_from(), "{scene:?}");
+    assert_eq!(trajectory.roll().map(|roll| roll.time), slip.rolls_from, "{scene:?}");
     if let Some(roll) = trajectory.roll() {
         assert!(samples.contains(&roll), "{scene:?}");
     }
 
     if normal.outcome() == Some(Outcome::Rebound) {
-        assert_eq!((Some(last.time), last.indentation), (everything.times.contact, zero), "{scene:?}");
+        assert_eq!((Some(last.time), last.indentation), (times.contact, zero), "{scene:?}");
         assert!(near(-last.velocity, normal.rebound_speed()), "{scene:?}: {last:?}");
     } else if normal.turning_indentation().is_some() {
         assert!(same(last.indentation, normal.turning_indentation()) && last.velocity == zero, "{scene:?}");
@@ -102,21 +108,22 @@ fn first_touch_peak_roll_and_end_are_kept_exactly() {
 #[test]
 fn scenes_differ() {
     let runs = SCENES.map(|scene| scene.run::<f64, 512>(1e-9));
-    let count = |of: &dyn Fn(&NormalContact<f64>) -> bool| runs.iter().filter(|run| of(&run.normal)).count();
+    let count = |of: &dyn Fn(&NormalContact<f64>) -> bool| runs.iter().filter(|(impact, _)| of(&impact.normal)).count();
     assert!(count(&|normal| normal.outcome() == Some(Outcome::Rebound)) >= 3);
     assert!(count(&|normal| normal.turning_indentation().is_some()) >= 1);
     assert!(count(&|normal| normal.peak_indentation().is_none()) >= 1);
-    let rolls = runs.iter().filter(|run| run.tangential.rolls_from().is_some()).count();
+    let rolls = runs.iter().filter(|(_, ((.., slip), _))| slip.rolls_from.is_some()).count();
     assert!((2..SCENES.len()).contains(&rolls), "{rolls}");
     // Some take many steps.
-    assert!(runs.iter().any(|run| run.run.steps > 20), "{:?}", runs.map(|run| run.run.steps));
+    let steps = runs.map(|(impact, _)| impact.run.steps);
+    assert!(steps.iter().any(|steps| *steps > 20), "{steps:?}");
 }
 
 /// Largest gap over mean gap: below two but for the gaps that marked samples cut, and those that the steps leave.
 fn assert_is_even<const N: usize>(scene: Scene) {
-    let all = scene.run::<f64, 4096>(1e-9).outputs.1;
+    let all = scene.trajectory::<4096>(1e-9);
     let steps = largest(&gaps(&all));
-    let trajectory = scene.run::<f64, N>(1e-9).outputs.1;
+    let trajectory = scene.trajectory::<N>(1e-9);
     let (gaps, span) = (gaps(&trajectory), trajectory.dimensionless().last().unwrap().time);
     if all.dimensionless().len() < N {
         assert_eq!(trajectory.dimensionless(), all.dimensionless());
@@ -149,7 +156,7 @@ fn energy(sample: &Sample<f64>, p: f64) -> f64 {
 #[test]
 fn energy_never_grows() {
     for scene in SCENES {
-        let trajectory = scene.run::<f64, 512>(1e-12).outputs.1;
+        let trajectory = scene.trajectory::<512>(1e-12);
         // The peak of the undamped motion is the unit of length: 2 E = 1 - p.
         let first = trajectory.dimensionless()[0];
         let p = 1.0 - first.velocity * first.velocity;
@@ -166,7 +173,7 @@ fn energy_never_grows() {
 /// Error of the trapezoidal rule for the impulse of the force, which is the change of momentum, over the latter; and the
 /// number of samples.
 fn impulse_error<const N: usize>(scene: Scene) -> (f64, f64) {
-    let trajectory = scene.run::<f64, N>(1e-9).outputs.1;
+    let trajectory = scene.trajectory::<N>(1e-9);
     let samples: Vec<Sample<f64>> = trajectory.samples().collect();
     let impulse: f64 =
         samples.windows(2).map(|pair| 0.5 * (pair[0].force + pair[1].force) * (pair[1].time - pair[0].time)).sum();
@@ -190,7 +197,7 @@ fn impulse_of_the_samples_is_the_change_of_momentum() {
 /// Five numbers a sample, and nothing where none is asked for.
 #[test]
 fn room_of_a_recording() {
-    type Plain = SimulatedImpact<f32, (), ()>;
+    type Plain = SimulatedImpact<f32, ()>;
     let sample = 5 * size_of::<f32>();
     assert_eq!(size_of::<Sample<f32>>(), sample);
     assert_eq!(size_of::<Trajectory<f32, 64>>() - size_of::<Trajectory<f32, 4>>(), 60 * sample);

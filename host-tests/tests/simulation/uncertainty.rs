@@ -2,7 +2,7 @@
 
 use microimpact::measure::{ClassProbabilities, NormalDistribution, rebound_probability, stopped_slip};
 use microimpact::contact::{
-    Collocation, HystereticDamping, Nodes, Ring, SimulatedImpact, Contact, TangentialContact,
+    Collocation, Contact, ContactImpulses, Impulses, Nodes, RingScene, SimulatedImpact, TangentialVelocities,
 };
 use microimpact::{
     Approach, Class, Coulomb, CriticalSpeed, Dual, InputError, NormalMotion, ObliqueMotion, Outcome, PlanarMotion,
@@ -88,9 +88,7 @@ fn classes_of_the_rigid_body_model() -> Result<(), InputError> {
 }
 
 /// Speed, radius, stiffness, f0, zeta_H, zeta_A.
-fn contact<T: Real>(
-    inputs: [T; 6],
-) -> Result<(Simulation<T, HystereticDamping<T>, Ring<T>>, NormalMotion<T>), InputError> {
+fn contact<T: Real>(inputs: [T; 6]) -> Result<(RingScene<T>, NormalMotion<T>), InputError> {
     let [speed, radius, stiffness, f0, zeta_h, zeta_a] = inputs;
     let scene = Contact::hertz(Sphere::solid(radius, T::constant(2600.0))?, Stiffness::new(stiffness)?)
         .with_damping(zeta_h)?
@@ -115,7 +113,7 @@ fn outcomes_of_the_simulation() -> Result<(), InputError> {
         let mut rebounds = 0;
         for _ in 0..DRAWS {
             let (scene, motion) = contact(drawn(&mut random, inputs, &errors))?;
-            rebounds += usize::from(scene.normal_impact(&method()?, &motion)?.outcome() == Some(Outcome::Rebound));
+            rebounds += usize::from(scene.solve_normal(&motion, &method()?)?.outcome() == Some(Outcome::Rebound));
         }
         let share = rebounds as f64 / DRAWS as f64;
         assert!((share - probability).abs() < 0.02, "{speed}: {share} {probability}");
@@ -131,27 +129,27 @@ fn sliding_in_the_simulation() -> Result<(), InputError> {
     // The six inputs of the contact, then tangential velocity and friction.
     let (inputs, errors) =
         ([2.8, 5.06e-6, 7.5e10, 250.0, 10.5, 6.25, 0.0, 0.1], [0.05, 0.02e-6, 5e8, 3.0, 0.3, 0.2, 0.1, 0.004]);
-    fn solved<T: Nodes<9>>(
-        inputs: [T; 8],
-    ) -> Result<(ObliqueMotion<T>, SimulatedImpact<T, TangentialContact<T>>, Sphere<T>), InputError> {
+    type Solved<T> = (SimulatedImpact<T, TangentialVelocities<T>>, ContactImpulses<T>);
+    fn solved<T: Nodes<9>>(inputs: [T; 8]) -> Result<(ObliqueMotion<T>, Solved<T>, Sphere<T>), InputError> {
         let [speed, radius, stiffness, f0, zeta_h, zeta_a, tangential, friction] = inputs;
         let (scene, motion) = contact([speed, radius, stiffness, f0, zeta_h, zeta_a])?;
         let motion = motion.with_tangential(tangential)?;
-        Ok((motion, scene.with_friction(friction)?.impact(&method()?, &motion)?, *scene.sphere()))
+        let solved = scene.with_friction(friction)?.solve_for(&motion, &method()?, Impulses)?;
+        Ok((motion, solved, *scene.sphere()))
     }
     let mut random = StdRng::seed_from_u64(8);
     for tangential in [6.1, 6.3, 6.6] {
         let mut inputs = inputs;
         inputs[6] = tangential;
         let variables = Dual::variables(inputs);
-        let (motion, impact, sphere) = solved(variables)?;
-        let change = impact.outputs.impulses.elastic / sphere.mass();
+        let (motion, (_, impulses), sphere) = solved(variables)?;
+        let change = impulses.elastic / sphere.mass();
         let stopped = stopped_slip(&sphere, &Coulomb::new(variables[7])?, change);
         let always = CriticalSpeed::AlwaysRebounds;
         let probability = ClassProbabilities::new(&motion, &always, stopped, &errors)?.of(Class::ReboundSliding);
         let mut sliding = 0;
         for _ in 0..DRAWS {
-            let (_, impact, _) = solved(drawn(&mut random, inputs, &errors))?;
+            let (_, (impact, _), _) = solved(drawn(&mut random, inputs, &errors))?;
             sliding += usize::from(impact.class() == Some(Class::ReboundSliding));
         }
         let share = sliding as f64 / DRAWS as f64;
@@ -170,12 +168,12 @@ fn standard_error_of_restitution() -> Result<(), InputError> {
     const DRAWS: usize = 10_000;
     let (inputs, errors) = ([2.8, 5.06e-6, 7.5e10, 250.0, 10.5, 6.25], [0.02, 0.02e-6, 5e8, 3.0, 0.3, 0.2]);
     let (scene, motion) = contact(Dual::variables(inputs))?;
-    let restitution = scene.normal_impact(&method()?, &motion)?.overall_restitution();
+    let restitution = scene.solve_normal(&motion, &method()?)?.overall_restitution();
     let mut random = StdRng::seed_from_u64(6);
     let mut square = 0.0;
     for _ in 0..DRAWS {
         let (scene, motion) = contact(drawn(&mut random, inputs, &errors))?;
-        let e = scene.normal_impact(&method()?, &motion)?.overall_restitution();
+        let e = scene.solve_normal(&motion, &method()?)?.overall_restitution();
         square += (e - restitution.value).powi(2) / DRAWS as f64;
     }
     let error = restitution.standard_error(&errors);
