@@ -3,8 +3,7 @@
 use std::hint::black_box;
 
 use microimpact::contact::{
-    Adaptive, Collocation, ContactImpulses, ContactTimes, FixedCost, HystereticDamping, Method, NoPeeling, Nodes,
-    Output, PhaseNodes, Ring, RungeKuttaGill, SimulatedImpact, Contact, Tangential, TangentialScene,
+    Adaptive, Collocation, FixedCost, Impulses, Method, Nodes, RingScene, RungeKuttaGill, Surface, Times,
 };
 use microimpact::{Approach, Real, Stiffness};
 use reference::Case;
@@ -18,8 +17,6 @@ use microimpact_scenes::methods::ours::{ADAPTIVE, FIXED_COST, PAPER};
 
 /// Collocation in single precision.
 pub const SINGLE_PRECISION: &str = "Collocation, f32";
-
-type Outputs<T> = (ContactTimes<T>, ContactImpulses<T>);
 
 /// The normal motion.
 pub fn normal(case: &Case) -> Vec<Contestant> {
@@ -62,23 +59,21 @@ pub fn problem(case: &Case) -> Problem {
     Problem::new(&scene, stiffness, &motion)
 }
 
-/// A scene and a motion, for a method `S`.
-trait Impact<T, S>: Copy + 'static {
-    fn answer(&self, method: &S) -> Option<Answer>;
+/// A scene and a motion, for any method.
+trait Impact<T: Real>: Copy + 'static {
+    fn answer(&self, method: &impl Method<T>) -> Option<Answer>;
 }
 
-impl<T, F, M, S> Impact<T, S> for (Simulation<T, HystereticDamping<T>, Ring<T>, F>, M)
+impl<T, S, B> Impact<T> for (RingScene<T, S>, B)
 where
     T: Real + Into<f64> + 'static,
-    F: Tangential<T> + TangentialScene<T, M, Ring<T>, NoPeeling, <F as Tangential<T>>::Contact> + Copy + 'static,
-    M: Approach<T> + Copy + 'static,
-    S: Method<T, (<Outputs<T> as Output<T>>::Observer, Observer<T, F, M>)>,
+    S: Surface<T, B> + 'static,
+    B: Approach<T> + Copy + 'static,
 {
-    fn answer(&self, method: &S) -> Option<Answer> {
+    fn answer(&self, method: &impl Method<T>) -> Option<Answer> {
         let (scene, motion) = self;
-        let impact: SimulatedImpact<T, F::Contact, Outputs<T>> =
-            black_box(scene).observe(method, black_box(motion)).ok()?;
-        let (times, impulses) = &impact.outputs;
+        let (impact, (times, impulses)) =
+            black_box(scene).solve_for(black_box(motion), method, (Times, Impulses)).ok()?;
         Some(Answer {
             restitution: solved(impact.normal.overall_restitution(), impact.normal.status())?.into(),
             contact_time: times.contact.map(Into::into),
@@ -88,13 +83,7 @@ where
     }
 }
 
-/// What is integrated along the surface.
-type Observer<T, F, M> = <F as TangentialScene<T, M, Ring<T>, NoPeeling, <F as Tangential<T>>::Contact>>::Observer;
-
-fn collocation<const N: usize, T: Nodes<N> + 'static>(
-    entry: &'static str,
-    impact: impl Impact<T, Collocation<N, T>>,
-) -> Vec<Contestant> {
+fn collocation<const N: usize, T: Nodes<N> + 'static>(entry: &'static str, impact: impl Impact<T>) -> Vec<Contestant> {
     let contestant = |tolerance: f64| {
         let method = Collocation::<N, T>::new(T::constant(tolerance)).ok()?;
         let run = move || impact.answer(&method);
@@ -104,7 +93,7 @@ fn collocation<const N: usize, T: Nodes<N> + 'static>(
 }
 
 /// It chooses nodes and method by the tolerance.
-fn adaptive(impact: impl Impact<f64, Adaptive<f64>>) -> Vec<Contestant> {
+fn adaptive(impact: impl Impact<f64>) -> Vec<Contestant> {
     let contestant = |tolerance: f64| {
         let method = Adaptive::new(tolerance).ok()?;
         Some(Contestant::new(ADAPTIVE, "", format!("{tolerance:.0e}"), move || impact.answer(&method)))
@@ -113,17 +102,14 @@ fn adaptive(impact: impl Impact<f64, Adaptive<f64>>) -> Vec<Contestant> {
 }
 
 /// It gives no times or impulses.
-fn fixed_cost<const N: usize>(case: &Case) -> Vec<Contestant>
-where
-    f64: PhaseNodes<N>,
-{
-    let contestant = |sweeps: u32| {
+fn fixed_cost<const N: usize>(case: &Case) -> Vec<Contestant> {
+    let contestant = |iterations: u32| {
         let (scene, motion) = normal_scene::<f64>(case);
-        let method = FixedCost::<N>::new(sweeps).unwrap();
-        Contestant::new(FIXED_COST, format!("{N} nodes"), format!("{sweeps} sweeps"), move || {
-            let contact = black_box(&scene).normal_impact(&method, black_box(&motion)).ok()?;
+        let method = FixedCost::<N>::new(iterations).unwrap();
+        Contestant::new(FIXED_COST, format!("{N} nodes"), format!("{iterations} iterations"), move || {
+            let contact = black_box(&scene).solve_normal(black_box(&motion), &method).ok()?;
             let restitution = solved(contact.overall_restitution(), contact.status())?;
-            Some(Answer::of_restitution(restitution, Some((2 * N * sweeps as usize, "evaluations"))))
+            Some(Answer::of_restitution(restitution, Some((2 * N * iterations as usize, "evaluations"))))
         })
     };
     (2..=10).map(contestant).collect()
@@ -134,7 +120,7 @@ fn steps() -> impl Iterator<Item = u32> {
     (0..=14).map(|half_octaves| (250.0 * 2f64.powf(0.5 * f64::from(half_octaves))) as u32)
 }
 
-fn paper_method(impact: impl Impact<f64, RungeKuttaGill>) -> Vec<Contestant> {
+fn paper_method(impact: impl Impact<f64>) -> Vec<Contestant> {
     let contestant = |steps: u32| {
         let method = RungeKuttaGill::new(steps);
         Contestant::new(PAPER, "Runge-Kutta-Gill", format!("{steps} steps"), move || impact.answer(&method))

@@ -2,10 +2,10 @@
 
 use std::ops::Deref;
 
+use microimpact::contact::RingScene;
 use microimpact::{NormalMotion, Sphere, Stiffness};
 
 use super::contestant::Answer;
-use super::scene::NormalScene;
 use microimpact_scenes::methods::regularised::Regularised;
 
 /// Contact radius, speed, time and Hertz impulse.
@@ -30,13 +30,13 @@ struct Units {
 
 impl Problem {
     /// The equations of a motion.
-    pub fn new(scene: &NormalScene<f64>, stiffness: Stiffness<f64>, motion: &NormalMotion<f64>) -> Self {
+    pub fn new(scene: &RingScene<f64>, stiffness: Stiffness<f64>, motion: &NormalMotion<f64>) -> Self {
         let equations = Equations::new(&scene.groups(motion).expect("the scene can be represented"));
         let units = Units::new(&equations, scene.sphere(), stiffness, motion);
         Self { equations, units }
     }
 
-    /// The state at first touch.
+    /// The state at first contact.
     pub fn start(&self) -> Vector {
         self.equations.start()
     }

@@ -1,16 +1,13 @@
 //! Scenes of normal motion, from rows of the reference.
 
-use microimpact::contact::{HystereticDamping, Ring, Contact, Status};
+use microimpact::contact::{Contact, RingScene, Status};
 use microimpact::{NormalMotion, Real, Sphere, Stiffness};
 use reference::Case;
 
 use super::contestant::Answer;
 
-/// Damped, with adhesion, without friction.
-pub type NormalScene<T> = Simulation<T, HystereticDamping<T>, Ring<T>>;
-
 /// The normal motion of a row.
-pub fn normal_scene<T: Real>(case: &Case) -> (NormalScene<T>, NormalMotion<T>) {
+pub fn normal_scene<T: Real>(case: &Case) -> (RingScene<T>, NormalMotion<T>) {
     let number = |column| T::constant(case.number(column));
     let sphere = Sphere::solid(number("radius_m"), number("density_kg_m3")).unwrap();
     let scene = Contact::hertz(sphere, Stiffness::new(number("stiffness_pa")).unwrap())

@@ -1,6 +1,8 @@
-//! What tests and programs share: the reference solutions as scenes, what the C example must print, and how often tests repeat.
+//! What tests and programs share: the reference solutions as scenes, the grids of scenes over which errors are stated, what
+//! the C example must print, and how often tests repeat.
 
 pub mod c_results;
+pub mod grids;
 
 use microimpact::contact::{Contact, PaperScene};
 use microimpact::{InputError, NormalMotion, PlanarMotion, Real, Sphere, Stiffness};

@@ -66,9 +66,9 @@ pub(crate) struct Figure {
     pub(crate) data: Table,
 }
 
-/// How much a run is to do, and where it tells how far it is.
+/// How much a run does, and where it shows its progress.
 pub(crate) struct Run {
-    /// Within a minute rather than a quarter of an hour.
+    /// Whether it ends within a minute rather than a quarter of an hour.
     pub(crate) quick: bool,
 }
 

@@ -14,23 +14,24 @@ use crate::content::{Cell, Figure, Part, Run, Section, Table};
 use crate::plot::{self, Line};
 use point::{Entrant, Point, Series, Unit, front};
 
-const INTRODUCTION: &str = "Every method solves the impact of Table 1 of Brach and Dunn (1995): alone along the normal, or with friction and \
-    spin. Errors are measured against a solution of 20 digits: that of e; with friction and spin the largest of it \
-    and of tangential and peripheral velocity over the faster of both before the impact; with contact time and Hertz \
-    impulse the largest of all three, relative. A line joins the settings of a method that none of its other \
-    settings undercuts in both error and cost; the CSV file has all of them. Crosses at the right edge are settings \
-    that came to no solution, at what they cost. An error below half a unit in the last place of one is drawn there.";
+const INTRODUCTION: &str = "Every method solves the impact of Table 1 of Brach and Dunn (1995), along the normal alone or with friction and \
+    spin. Errors are measured against a solution of 20 digits. Along the normal the error is that of e. With friction and \
+    spin it is the largest of that error and those of tangential and peripheral velocity, relative to the faster of both \
+    before the impact. With contact time and Hertz impulse it is the largest of all three, relative. A line joins those \
+    settings of a method for which none of its other settings is better in both error and cost; the CSV file has all \
+    settings. Crosses at the right edge are settings that did not converge, at their cost. An error below half a unit in \
+    the last place of one is drawn at that half unit.";
 
-const CONTESTANTS: &str = "This library's methods, the paper's Runge-Kutta-Gill and RK4 in time, which is the classical Runge-Kutta method \
-    on equations B6 to B10 as they are printed, start from SI units. RK4 in z and the crates are given the \
-    regularised equations in the contact radius ready to solve. A crate without events is told a place short of each \
-    event and takes the rest against the event's own variable; or it looks for the event on its dense output, or \
-    uses its own search. The crates take part in normal scenes only: friction and spin are quadratures after the \
-    normal motion, so they would measure the same again. RK4 in time and the crates have no fixed point: SI units do \
-    not fit it. In fixed point the groups of the scene are computed before.";
+const CONTESTANTS: &str = "This library's methods, the paper's Runge-Kutta-Gill and RK4 in time start from SI units. RK4 in time is the \
+    classical Runge-Kutta method on equations B6 to B10 as they are printed. RK4 in z and the crates solve the \
+    regularised equations in the contact radius, which are set up before. A crate that does not find events is given a \
+    place shortly before each event and integrates the rest against the event's own variable; other entries find the \
+    event on the dense output of a crate or by its own search. The crates take part in normal scenes only: friction and \
+    spin are quadratures after the normal motion, so the comparison would be the same. RK4 in time and the crates do not \
+    run in fixed point, which cannot hold SI units. In fixed point the groups of the scene are computed before.";
 
 const INSTRUCTIONS: &str = "Instructions are not cycles: a division or a square root counts 1, and there are no wait states. The code for \
-    Cortex-M0 runs on a larger board than that core's own, which does not change a count.";
+    Cortex-M0 runs on a larger board than the one with that core; this does not change a count.";
 
 /// Whether the crate takes part that needs a newer compiler.
 const DIFFSOL: &str = if cfg!(feature = "diffsol") {
@@ -83,8 +84,8 @@ pub(crate) fn section(run: &Run) -> Result<Section, String> {
     parts.extend(notes.into_iter().map(Part::Text));
     parts.push(Part::Heading("What to use".to_owned()));
     let caption = format!(
-        "For this error, on this processor, use this; it costs that: the cheapest of all methods, settings and number \
-         types whose error is at most so much in each of {scenes} scenes."
+        "Recommended method for each processor and error, with its cost: the cheapest of all methods, settings and number \
+         types whose error does not exceed the one named in any of {scenes} scenes."
     );
     parts.push(Part::Table(choice::summary("cost-summary", caption, &everywhere)));
     for series in &all {
@@ -93,9 +94,9 @@ pub(crate) fn section(run: &Run) -> Result<Section, String> {
     }
     parts.push(Part::Heading("Over many scenes".to_owned()));
     parts.push(Part::Text(format!(
-        "One scene may be lucky. The next figures have the same costs, but the largest error over {scenes} scenes: the \
-         rebounds of the paper, of its figure 6 and of random scenes as mildly damped as fixed point holds. A method that \
-         comes to no solution in one of them has failed."
+        "The error in a single scene may be small by chance. The next figures have the same costs, but the largest error \
+         over {scenes} scenes: the rebounds of the paper, of its figure 6 and of random scenes, with damping mild enough \
+         for fixed point. A method that does not converge in one of them has failed."
     )));
     let elsewhere: Vec<Series> = shown_elsewhere(&all).map(|series| series.with_errors(&errors)).collect();
     for series in &elsewhere {
@@ -107,7 +108,7 @@ pub(crate) fn section(run: &Run) -> Result<Section, String> {
     let caption = "From the errors on the scene of Table 1.";
     parts.push(Part::Table(choice::table("cost-choice", caption.to_owned(), &all, Some(&errors))));
     parts.push(Part::Heading("The API's default".to_owned()));
-    parts.push(text("The default is Adaptive with the error asked for as its tolerance."));
+    parts.push(text("The default is Adaptive, with the required error as its tolerance."));
     parts.extend(everywhere.iter().filter_map(choice::sentence).map(Part::Text));
     parts.push(Part::Table(choice::comparison(&everywhere)));
     Ok(Section { title: "Error against run time", name: "cost", parts })

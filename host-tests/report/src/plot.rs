@@ -127,7 +127,7 @@ impl Scale {
     }
 
     /// Where a value lies between the ends, from 0 to 1.
-    fn share(&self, value: f64) -> f64 {
+    fn fraction(&self, value: f64) -> f64 {
         ((Self::flatten(value, self.logarithmic) - self.low) / (self.high - self.low)).clamp(0.0, 1.0)
     }
 }
@@ -323,7 +323,7 @@ impl Shade {
     fn colour(self, scale: &Scale) -> RGBColor {
         match self {
             Self::Value(value) => {
-                let level = (scale.share(value) * f64::from(LEVELS - 1)).round();
+                let level = (scale.fraction(value) * f64::from(LEVELS - 1)).round();
                 colour(level / f64::from(LEVELS - 1))
             }
             Self::Failed => FAILED,
@@ -332,8 +332,8 @@ impl Shade {
     }
 }
 
-fn colour(share: f64) -> RGBColor {
-    ViridisRGB.get_color(share)
+fn colour(fraction: f64) -> RGBColor {
+    ViridisRGB.get_color(fraction)
 }
 
 /// Borders of cells with these middles.

@@ -40,7 +40,7 @@ impl Family {
     }
 }
 
-const CLASSIFICATION: (Quantity, &str) = (Quantity::Classify, "instructions of the dearest impact");
+const CLASSIFICATION: (Quantity, &str) = (Quantity::Classify, "instructions of the most expensive impact");
 const CALIBRATION: (Quantity, &str) = (Quantity::Calibrate, "instructions");
 
 const FAMILIES: [Family; 5] = [
@@ -57,7 +57,7 @@ const FAMILIES: [Family; 5] = [
         ],
     },
     Family {
-        title: "Simulation by FixedCost<5>, 3 sweeps, to class and restitution",
+        title: "Simulation by FixedCost<5>, 3 iterations, to class and restitution",
         name: "fixed-cost",
         work: CLASSIFICATION,
         steps: &[
@@ -89,7 +89,7 @@ const FAMILIES: [Family; 5] = [
             start("table/restitution", "restitution table, made on the board"),
             start("planar/work", "rigid body with friction and spin"),
             start("planar/work-fixed-point", "the same in fixed point"),
-            start("simulation/fixed-class", "FixedCost<4>, 2 sweeps, set-up included"),
+            start("simulation/fixed-class", "FixedCost<4>, 2 iterations, set-up included"),
             start("simulation/fixed-point", "the same in fixed point, set up before"),
         ],
     },
@@ -124,10 +124,10 @@ pub(crate) fn section(_: &Run) -> Result<Section, String> {
     let prices = Prices { figures: stored.rows_of(compiler).collect() };
     let mut parts = vec![Part::Text(format!(
         "Measured by `cargo qemu --counts` with {compiler}, optimised for speed, on emulated boards. The first row of each \
-         number type is what its scene costs; a row below is what its term adds to the scene with one term less. \
-         Instructions are not cycles: a division counts 1. Code and constants are all that setting up a scene, validating a \
-         motion and classifying it, or calibrating, refer to, routines of the compiler for arithmetic in software included. A \
-         scene within the same functions may share them, so a price can be negative."
+         number type is the cost of its scene. Each row below is what its term adds to the scene with one term less. \
+         Instructions are not cycles: a division counts 1. Code and constants are all that the firmware needs to set up \
+         a scene, to validate a motion and to classify it, or to calibrate, including the compiler's routines for \
+         arithmetic in software. Two scenes may use the same function, so a price can be negative."
     ))];
     for family in &FAMILIES {
         parts.push(Part::Heading(family.short_title().to_owned()));
@@ -139,9 +139,8 @@ pub(crate) fn section(_: &Run) -> Result<Section, String> {
     }
     parts.push(Part::Heading("Absent terms".to_owned()));
     parts.push(Part::Text(
-        "An absent term costs nothing at all: the firmware of each scene below is built once with the library as it is, and \
-         once with a copy of its source from which every item that names an absent term is taken out. The table counts the \
-         bytes in which both differ."
+        "An absent term costs nothing. The firmware of each scene below is built twice: with the library as it is, and with a \
+         copy of its source without any item that names an absent term. The table counts the bytes in which both differ."
             .to_owned(),
     ));
     parts.push(Part::Table(prices.absent()));

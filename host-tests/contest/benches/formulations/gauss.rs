@@ -6,9 +6,9 @@ use gauss_quad::GaussLegendre;
 pub struct Nodes<const N: usize> {
     pub z: [f64; N],
     /// Integral from 0 to 1.
-    pub whole: [f64; N],
-    /// Integrals from 0 to each node: the sum over k of `running[k][j]` f(k).
-    pub running: [[f64; N]; N],
+    pub weights: [f64; N],
+    /// Integrals from 0 to each node: the sum over k of `integration[k][j]` f(k).
+    pub integration: [[f64; N]; N],
 }
 
 impl<const N: usize> Nodes<N> {
@@ -16,11 +16,11 @@ impl<const N: usize> Nodes<N> {
         let rule = GaussLegendre::new(N.try_into().expect("there are nodes"));
         let mut pairs: Vec<_> = rule.iter().map(|(x, weight)| (0.5 * (1.0 + x), 0.5 * weight)).collect();
         pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let (z, whole): ([f64; N], [f64; N]) =
+        let (z, weights): ([f64; N], [f64; N]) =
             (std::array::from_fn(|j| pairs[j].0), std::array::from_fn(|j| pairs[j].1));
         let lagrange =
             |k: usize, x: f64| -> f64 { (0..N).filter(|&i| i != k).map(|i| (x - z[i]) / (z[k] - z[i])).product() };
-        let integral = |k, end: f64| end * (0..N).map(|q| whole[q] * lagrange(k, end * z[q])).sum::<f64>();
-        Self { z, whole, running: std::array::from_fn(|k| std::array::from_fn(|j| integral(k, z[j]))) }
+        let integral = |k, end: f64| end * (0..N).map(|q| weights[q] * lagrange(k, end * z[q])).sum::<f64>();
+        Self { z, weights, integration: std::array::from_fn(|k| std::array::from_fn(|j| integral(k, z[j]))) }
     }
 }

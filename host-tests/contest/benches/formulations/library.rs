@@ -2,15 +2,13 @@
 
 use std::hint::black_box;
 
-use microimpact::contact::{
-    Collocation, ContactTimes, FixedCost, Nodes, PhaseNodes, RungeKuttaGill, SimulatedImpact,
-};
+use microimpact::contact::{Collocation, FixedCost, Method, RingScene, RunReport, RungeKuttaGill, Times};
 use microimpact::{CriticalSpeed, NormalMotion, Stiffness};
 use reference::{Case, case};
 
 use contest::contestant::{Answer, Contestant, tolerances};
 use contest::problem::Problem;
-use contest::scene::{NormalScene, normal_scene, solution, solved};
+use contest::scene::{normal_scene, solution, solved};
 
 /// The formulation that the others are compared with.
 pub const COLLOCATION: &str = "Collocation";
@@ -19,7 +17,7 @@ pub const COLLOCATION: &str = "Collocation";
 pub struct Scene {
     pub name: &'static str,
     pub exact: Answer,
-    scene: NormalScene<f64>,
+    scene: RingScene<f64>,
     stiffness: Stiffness<f64>,
     motion: NormalMotion<f64>,
 }
@@ -79,9 +77,7 @@ impl Scene {
     }
 
     fn solve(&self) -> Answer {
-        let impact: SimulatedImpact<_, _, ContactTimes<f64>> = self.scene.observe(&exactly(), &self.motion).unwrap();
-        let restitution = impact.normal.overall_restitution();
-        Answer { restitution, contact_time: impact.outputs.contact, impulse: None, effort: None }
+        answer(&self.scene, &self.motion, &exactly(), |_| None).unwrap()
     }
 
     pub fn equations(&self) -> Problem {
@@ -105,24 +101,19 @@ impl Scene {
     }
 
     /// With the contact time, and for e alone.
-    fn collocation<const N: usize>(&self) -> Vec<Contestant>
-    where
-        f64: Nodes<N>,
-    {
+    fn collocation<const N: usize>(&self) -> Vec<Contestant> {
         let mut all = Vec::new();
         for tolerance in tolerances() {
             let Ok(method) = Collocation::<N, f64>::new(tolerance) else { continue };
             let (scene, motion) = (self.scene, self.motion);
             let (name, setting) = (format!("{N} nodes"), format!("{tolerance:.0e}"));
             all.push(Contestant::new(COLLOCATION, name.clone(), setting.clone(), move || {
-                let impact: SimulatedImpact<_, _, ContactTimes<f64>> =
-                    black_box(&scene).observe(&method, black_box(&motion)).ok()?;
-                let restitution = solved(impact.normal.overall_restitution(), impact.run.status)?;
-                let effort = Some(((impact.run.evaluations / N as u32) as usize, "products"));
-                Some(Answer { restitution, contact_time: impact.outputs.contact, impulse: None, effort })
+                answer(black_box(&scene), black_box(&motion), &method, |run| {
+                    Some(((run.evaluations / N as u32) as usize, "products"))
+                })
             }));
             all.push(Contestant::new("Collocation, e alone", name, setting, move || {
-                let contact = black_box(&scene).normal_impact(&method, black_box(&motion)).ok()?;
+                let contact = black_box(&scene).solve_normal(black_box(&motion), &method).ok()?;
                 let restitution = solved(contact.overall_restitution(), contact.status())?;
                 Some(Answer::of_restitution(restitution, None))
             }));
@@ -130,17 +121,14 @@ impl Scene {
         all
     }
 
-    fn fixed_cost<const N: usize>(&self) -> Vec<Contestant>
-    where
-        f64: PhaseNodes<N>,
-    {
-        let contestant = |sweeps: u32| {
-            let (scene, motion, method) = (self.scene, self.motion, FixedCost::<N>::new(sweeps).unwrap());
-            let setting = format!("{N} nodes, {sweeps} sweeps");
+    fn fixed_cost<const N: usize>(&self) -> Vec<Contestant> {
+        let contestant = |iterations: u32| {
+            let (scene, motion, method) = (self.scene, self.motion, FixedCost::<N>::new(iterations).unwrap());
+            let setting = format!("{N} nodes, {iterations} iterations");
             Contestant::new("whole phase, weighted Gauss", "FixedCost", setting, move || {
-                let contact = black_box(&scene).normal_impact(&method, black_box(&motion)).ok()?;
+                let contact = black_box(&scene).solve_normal(black_box(&motion), &method).ok()?;
                 let restitution = solved(contact.overall_restitution(), contact.status())?;
-                Some(Answer::of_restitution(restitution, Some((2 * sweeps as usize, "products"))))
+                Some(Answer::of_restitution(restitution, Some((2 * iterations as usize, "products"))))
             })
         };
         (2..=12).map(contestant).collect()
@@ -151,15 +139,25 @@ impl Scene {
             let steps = (64.0 * 2f64.powf(0.5 * f64::from(half_octaves))) as u32;
             let (scene, motion, method) = (self.scene, self.motion, RungeKuttaGill::new(steps));
             Contestant::new("the paper's equations", "Runge-Kutta-Gill", format!("{steps} steps"), move || {
-                let impact: SimulatedImpact<_, _, ContactTimes<f64>> =
-                    black_box(&scene).observe(&method, black_box(&motion)).ok()?;
-                let restitution = solved(impact.normal.overall_restitution(), impact.run.status)?;
-                let effort = Some((impact.run.evaluations as usize, "evaluations"));
-                Some(Answer { restitution, contact_time: impact.outputs.contact, impulse: None, effort })
+                answer(black_box(&scene), black_box(&motion), &method, |run| {
+                    Some((run.evaluations as usize, "evaluations"))
+                })
             })
         };
         (0..19).map(contestant).collect()
     }
+}
+
+/// The restitution and the contact time of an impact, with what was counted; `None` where the method found no solution.
+fn answer(
+    scene: &RingScene<f64>,
+    motion: &NormalMotion<f64>,
+    method: &impl Method<f64>,
+    effort: impl Fn(&RunReport<f64>) -> Option<(usize, &'static str)>,
+) -> Option<Answer> {
+    let (impact, times) = scene.solve_for(motion, method, Times).ok()?;
+    let restitution = solved(impact.normal.overall_restitution(), impact.run.status)?;
+    Some(Answer { restitution, contact_time: times.contact, impulse: None, effort: effort(&impact.run) })
 }
 
 /// The setting that the others are measured by.

@@ -2,12 +2,12 @@
 //!
 //! The paper's equations with a fixed step; the [regularised equations] by a Runge-Kutta method, by splitting and by
 //! Taylor series; the energy by collocation over a whole phase, with plain nodes and, as the library's `FixedCost`,
-//! with nodes for the weight of the losses; and the energy by collocation in stretches, the library's `Collocation`,
+//! with nodes for the weight of the losses; and the energy by collocation in intervals, the library's `Collocation`,
 //! which is the measure of time. `FixedCost` gives e alone. The library starts from SI units, all others from scaled
 //! ones.
 //!
 //! A whole phase costs least where damping is mild, but it has no estimate of its error and does not converge where
-//! damping is overwhelming. Stretches have the one and need not fear the other.
+//! damping is overwhelming. Intervals have such an estimate and converge under any damping.
 //!
 //! [regularised equations]: microimpact_scenes::methods::regularised
 

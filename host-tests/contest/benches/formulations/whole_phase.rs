@@ -1,8 +1,8 @@
 //! Collocation of the energy over a whole phase with Gauss's plain nodes in z, where s = peak (1 - z^2).
 //!
 //! y^2 = 2 (V(peak) - V(s)) +- 2 integral of l(s) y ds from the peak, V = (2/5) A s^5 - (2/3) B s^3 and
-//! l = 2 s^2 (A h s^2 + B g): with the losses still to come on approach, without those past on rebound. Sweeps are
-//! plain fixed points; the peak moves by one of Newton's steps with each. The contact time is the integral of 2 s/y.
+//! l = 2 s^2 (A h s^2 + B g): with the losses still to come on approach, without those past on rebound. Iterations are
+//! plain fixed points; each also moves the peak by one of Newton's steps. The contact time is the integral of 2 s/y.
 
 use std::hint::black_box;
 
@@ -10,7 +10,7 @@ use crate::gauss::Nodes;
 use contest::contestant::{Answer, Contestant};
 use contest::problem::{Equations, Problem};
 
-/// Numbers of nodes, and changes of the speeds at which the sweeps end.
+/// Numbers of nodes, and changes of the speeds at which the iterations end.
 pub fn contestants(equations: Problem) -> Vec<Contestant> {
     let mut all = Vec::new();
     for digits in [4, 6, 8, 10, 12, 14] {
@@ -25,27 +25,27 @@ pub fn contestants(equations: Problem) -> Vec<Contestant> {
 }
 
 fn contestant<const N: usize>(equations: Problem, digits: i32) -> Contestant {
-    let (nodes, settled) = (Nodes::<N>::new(), 10f64.powi(-digits));
-    let setting = format!("{N} nodes to {settled:.0e}");
+    let (nodes, converged) = (Nodes::<N>::new(), 10f64.powi(-digits));
+    let setting = format!("{N} nodes to {converged:.0e}");
     Contestant::new("whole phase, plain Gauss", "fixed point", setting, move || {
-        solve(black_box(&equations), &nodes, settled)
+        solve(black_box(&equations), &nodes, converged)
     })
 }
 
-const MOST_SWEEPS: usize = 60;
+const MOST_ITERATIONS: usize = 60;
 
-fn solve<const N: usize>(problem: &Problem, nodes: &Nodes<N>, settled: f64) -> Option<Answer> {
+fn solve<const N: usize>(problem: &Problem, nodes: &Nodes<N>, converged: f64) -> Option<Answer> {
     let start = problem.start()[1];
     let energy = 0.5 * start * start;
     let mut peak = 1.0;
-    let (mut sweeps, mut time) = (0, 0.0);
+    let (mut iterations, mut time) = (0, 0.0);
     let mut left = energy;
     for equations in [**problem, problem.on_rebound()] {
         let sign = if equations.rebound { -1.0 } else { 1.0 };
         let mut phase = Phase::new(&equations, nodes, peak);
         loop {
-            let change = phase.sweep(nodes, sign);
-            let lost = phase.lost(&nodes.whole);
+            let change = phase.iterate(nodes, sign);
+            let lost = phase.lost(&nodes.weights);
             let mut moved = 0.0;
             if !equations.rebound {
                 // The loss grows with about the fifth power of the peak.
@@ -54,19 +54,19 @@ fn solve<const N: usize>(problem: &Problem, nodes: &Nodes<N>, settled: f64) -> O
                 peak -= moved;
                 phase.describe(&equations, nodes, peak);
             }
-            sweeps += 1;
-            if change.max(moved.abs()) <= settled {
+            iterations += 1;
+            if change.max(moved.abs()) <= converged {
                 break;
             }
-            if sweeps > MOST_SWEEPS {
+            if iterations > MOST_ITERATIONS {
                 return None;
             }
         }
-        left = potential(&equations, peak) - if equations.rebound { phase.lost(&nodes.whole) } else { 0.0 };
+        left = potential(&equations, peak) - if equations.rebound { phase.lost(&nodes.weights) } else { 0.0 };
         time += phase.time(nodes);
     }
     let answer = problem.answer([0.0, -(2.0 * left).sqrt(), time, 0.0], None);
-    Some(Answer { impulse: None, effort: Some((sweeps, "products")), ..answer })
+    Some(Answer { impulse: None, effort: Some((iterations, "products")), ..answer })
 }
 
 struct Phase<const N: usize> {
@@ -102,9 +102,9 @@ impl<const N: usize> Phase<N> {
     }
 
     /// One fixed-point step; the largest change of a speed.
-    fn sweep(&mut self, nodes: &Nodes<N>, sign: f64) -> f64 {
+    fn iterate(&mut self, nodes: &Nodes<N>, sign: f64) -> f64 {
         let mut lost = [0.0; N];
-        for (row, (loss, y)) in nodes.running.iter().zip(self.loss.iter().zip(&self.y)) {
+        for (row, (loss, y)) in nodes.integration.iter().zip(self.loss.iter().zip(&self.y)) {
             for (lost, weight) in lost.iter_mut().zip(row) {
                 *lost += weight * loss * y;
             }
@@ -118,12 +118,12 @@ impl<const N: usize> Phase<N> {
         change
     }
 
-    fn lost(&self, whole: &[f64; N]) -> f64 {
-        (0..N).map(|j| whole[j] * self.loss[j] * self.y[j]).sum()
+    fn lost(&self, weights: &[f64; N]) -> f64 {
+        (0..N).map(|j| weights[j] * self.loss[j] * self.y[j]).sum()
     }
 
     fn time(&self, nodes: &Nodes<N>) -> f64 {
-        (0..N).map(|j| nodes.whole[j] * 2.0 * self.s[j] * self.spent[j] / self.y[j]).sum()
+        (0..N).map(|j| nodes.weights[j] * 2.0 * self.s[j] * self.spent[j] / self.y[j]).sum()
     }
 }
 

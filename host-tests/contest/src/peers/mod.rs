@@ -15,8 +15,8 @@ use microimpact_scenes::methods::peers::SHARES;
 pub fn all(problem: Problem) -> Vec<Contestant> {
     let events = differential_equations::events(problem);
     let mut all = differential_equations::with_interpolation(problem);
-    for share in SHARES {
-        let places = events.map(|event| share * event);
+    for fraction in SHARES {
+        let places = events.map(|event| fraction * event);
         all.extend(differential_equations::with_last_step(problem, places));
         all.extend(ode_solvers::contestants(problem, places));
         all.extend(numeris::with_last_step(problem, places));

@@ -22,7 +22,7 @@ fn settings() -> impl Iterator<Item = (String, AdaptiveSettings<f64>, Option<f64
             ..AdaptiveSettings::default()
         };
         [(None, ""), (Some(0.5), ", long first step")]
-            .map(|(share, named)| (format!("{tolerance:.0e}{named}"), settings, share))
+            .map(|(fraction, named)| (format!("{tolerance:.0e}{named}"), settings, fraction))
     })
 }
 
@@ -31,13 +31,13 @@ pub fn with_last_step(equations: Problem, places: [f64; 2]) -> Vec<Contestant> {
     let mut all = Vec::new();
     macro_rules! compete {
         ($($method:ident),*) => {
-            $(for (setting, settings, share) in settings() {
+            $(for (setting, settings, fraction) in settings() {
                 let method = concat!(stringify!($method), ", last step");
                 all.push(Contestant::new("numeris", method, setting, move || {
                     let mut evaluations = 0;
                     let end = black_box(equations).without_events(places, |system, from, state, to| {
                         let rates = |_, state: &State| Vector::from_array(system.rates(vector(state)));
-                        let initial_step = share.map(|share| share * (to - from).abs());
+                        let initial_step = fraction.map(|fraction| fraction * (to - from).abs());
                         let settings = AdaptiveSettings { initial_step, ..settings };
                         let solution = $method::integrate(from, to, &Vector::from_array(state), rates, &settings).ok()?;
                         evaluations += solution.evals;
@@ -57,7 +57,7 @@ pub fn with_dense_output(equations: Problem, places: [f64; 2]) -> Vec<Contestant
     let mut all = Vec::new();
     macro_rules! compete {
         ($($method:ident),*) => {
-            $(for (setting, settings, share) in settings() {
+            $(for (setting, settings, fraction) in settings() {
                 let method = concat!(stringify!($method), ", dense output");
                 all.push(Contestant::new("numeris", method, setting, move || {
                     let mut evaluations = 0;
@@ -65,7 +65,7 @@ pub fn with_dense_output(equations: Problem, places: [f64; 2]) -> Vec<Contestant
                     let system = *black_box(equations);
                     for (system, to) in [system, system.on_rebound()].into_iter().zip(places) {
                         let rates = |_, state: &State| Vector::from_array(system.rates(vector(state)));
-                        let initial_step = share.map(|share| share * to);
+                        let initial_step = fraction.map(|fraction| fraction * to);
                         let settings = AdaptiveSettings { initial_step, dense_output: true, ..settings };
                         let solution = $method::integrate(0.0, to, &state, rates, &settings).ok()?;
                         evaluations += solution.evals;

@@ -43,7 +43,7 @@ pub(super) fn series(run: &Run) -> Result<(Vec<Series>, Vec<String>), String> {
     for board in &boards {
         let folder = firmware::target_folder(&toolchain, board).join(board.triple).join("release");
         if run.quick && !folder.join(FIRMWARE).exists() {
-            let note = "The quick run leaves microcontrollers out until a full run has built their firmware.";
+            let note = "The quick run omits microcontrollers until a full run has built their firmware.";
             return Ok((Vec::new(), vec![note.to_owned()]));
         }
         folders.push(firmware::build_with(&toolchain, board, "methods", &[FIRMWARE])?);

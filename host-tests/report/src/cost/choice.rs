@@ -1,4 +1,4 @@
-//! What to use for an error on a processor, and how far from it the choice of `Adaptive` is.
+//! The recommended method for each processor and error, and the cost of `Adaptive` beside it.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -169,7 +169,7 @@ pub(super) fn comparison(all: &[Series]) -> Table {
     Table {
         name: "cost-adaptive".to_owned(),
         caption:
-            "What Adaptive costs at a tolerance, over the cheapest setting of all methods whose error is below it."
+            "Cost of Adaptive at a tolerance, over that of the cheapest setting of all methods whose error is below it."
                 .to_owned(),
         columns: columns.map(str::to_owned).to_vec(),
         rows,

@@ -9,7 +9,8 @@ use contest::scene::solution;
 use contest::{ours, peers, runge_kutta};
 use microimpact_scenes::methods::inputs::{Inputs, TABLE_1};
 use microimpact_scenes::methods::{Contestant, Extent, Number, Reply, Visitor, visit, visit_fixed_point};
-use reference::{Case, case, cases};
+use reference::grids::mild_rebounds;
+use reference::{Case, case};
 
 use super::callgrind;
 use super::point::{Entrant, Point, Series, Unit, rounding};
@@ -159,7 +160,7 @@ pub(super) fn instructions(run: &Run, times: &Series) -> Result<Series, String> 
 /// The largest error of each entrant over many scenes, `None` where it fails in one of them; and how many scenes.
 pub(super) fn largest_errors(run: &Run) -> (HashMap<Entrant, Option<f64>>, usize) {
     let extent = Extent { most_steps: 1024, sparse: run.quick };
-    let scenes: Vec<Case> = cases().into_iter().filter(is_common).collect();
+    let scenes: Vec<Case> = mild_rebounds().collect();
     let bar = run.progress(scenes.len(), "errors over all scenes");
     let mut errors: HashMap<Entrant, Option<f64>> = HashMap::new();
     for scene in &scenes {
@@ -171,13 +172,6 @@ pub(super) fn largest_errors(run: &Run) -> (HashMap<Entrant, Option<f64>>, usize
         bar.inc(1);
     }
     (errors, scenes.len())
-}
-
-/// A rebound as mildly damped as fixed point holds, without a peeling moment.
-fn is_common(case: &Case) -> bool {
-    const STRONGEST: f64 = 0.5;
-    let mild = ["group_h", "group_g"].iter().all(|group| case.number(group) <= STRONGEST);
-    ["paper", "figure6", "random"].contains(&case.text("family")) && case.text("outcome") == "rebound" && mild
 }
 
 fn inputs(case: &Case) -> Inputs {

@@ -1,6 +1,6 @@
 //! Figures of the simulation: 6, 7, 8 and 9.
 
-use microimpact::contact::{Collocation, SimulatedImpact, Status, Trajectory};
+use microimpact::contact::{Collocation, Recording, RingScene, Status};
 use microimpact::{InputError, NormalMotion, RigidBody, SpeedRestitution};
 
 use super::{LAW_SPEED, Outcome, RADIUS, SPEED, WORK, column, contact, figure, glass, method, spaced};
@@ -28,7 +28,7 @@ fn figure_6() -> Outcome<Part> {
     let [small, large] = [contact(RADII[0])?, contact(RADII[1])?];
     let row = |speed| {
         let motion = NormalMotion::new(speed)?;
-        let simulated = |scene: &super::Contact| Ok(scene.solve_normal(&motion, &method)?.overall_restitution());
+        let simulated = |scene: &RingScene<f64>| Ok(scene.solve_normal(&motion, &method)?.overall_restitution());
         Ok([speed, simulated(&small)?, simulated(&large)?, rigid.impact(&motion).normal.overall_restitution()])
     };
     let rows = spaced(0.5, 100.0, 401).map(row).collect::<Result<Vec<_>, InputError>>()?;
@@ -54,23 +54,21 @@ fn figure_6() -> Outcome<Part> {
 /// Figures 7, 8 and 9: one impact in time, normalized as the paper does.
 fn figures_in_time() -> Outcome<[Part; 3]> {
     let scene = contact(RADIUS)?;
-    // Few nodes make many stretches, and so many samples.
+    // Few nodes make many intervals, and so many samples.
     let method = Collocation::<5, f64>::new(1e-11)?;
-    let impact: SimulatedImpact<f64, (), Trajectory<f64, SAMPLES>> =
-        scene.observe(&method, &NormalMotion::new(SPEED)?)?;
+    let (impact, trajectory) = scene.solve_for(&NormalMotion::new(SPEED)?, &method, Recording::<SAMPLES>)?;
     if impact.run.status != Status::Solved {
         return Err("the impact of Table 1 is not solved".into());
     }
-    let rows: Vec<_> = impact
-        .outputs
+    let rows: Vec<_> = trajectory
         .samples()
         .map(|sample| {
             let force = [sample.force, sample.elastic, sample.force - sample.elastic].map(|force| force / 1e-4);
             [sample.time / 1e-8, force[0], force[1], force[2], sample.indentation, -sample.velocity / SPEED]
         })
         .collect();
-    let peak = impact.outputs.peak().ok_or("the impact of Table 1 has no peak")?;
-    let last = impact.outputs.samples().last().ok_or("the impact of Table 1 has no end")?;
+    let peak = trajectory.peak().ok_or("the impact of Table 1 has no peak")?;
+    let last = trajectory.samples().last().ok_or("the impact of Table 1 has no end")?;
     let time = Axis::linear("time, 10⁻⁸ s");
 
     let forces = [
@@ -81,8 +79,8 @@ fn figures_in_time() -> Outcome<[Part; 3]> {
     let seventh = figure(
         plot::chart("Figure 7: force in time", &time, &Axis::linear("force, 10⁻⁴ N"), &forces)?,
         "figure-7",
-        "Figure 7: normal force on the sphere of Table 1, positive where the surface repels. Nothing can be read from the \
-         paper's figure but its units; ours adds the two parts that its text speaks of.",
+        "Figure 7: normal force on the sphere of Table 1, positive where the surface repels. Only the \
+         units can be read from the paper's figure; ours adds the two parts that its text mentions.",
         ["time, 1e-8 s", "normal force, 1e-4 N", "elastic part, 1e-4 N", "adhesion and damping, 1e-4 N"],
         rows.iter().map(|row| [row[0], row[1], row[2], row[3]]),
     );
@@ -94,7 +92,12 @@ fn figures_in_time() -> Outcome<[Part; 3]> {
         Line::new("paper", Mark::Points, vec![(0.0, -1.0), (deepest, 1.0), (end, REBOUND / SPEED)]),
     ];
     let eighth = figure(
-        plot::chart("Figure 8: motion in time", &time, &Axis::linear("share of the paper's largest"), &motion)?,
+        plot::chart(
+            "Figure 8: motion in time",
+            &time,
+            &Axis::linear("fraction of the paper's largest value"),
+            &motion,
+        )?,
         "figure-8",
         "Figure 8: displacement over 4.243e-8 m, the paper's largest, and velocity, positive out of the surface, over \
          2.8 m/s. Points: the paper's first velocity, largest displacement and last velocity, at our times, as it gives \
@@ -118,8 +121,8 @@ fn figures_in_time() -> Outcome<[Part; 3]> {
     let ninth = figure(
         plot::chart("Figure 9: hysteresis", &x, &y, &loop_)?,
         "figure-9",
-        "Figure 9: the loop encloses the energy that the impact of Table 1 loses. Nothing can be read from the paper's \
-         figure but its units and, from figure 8, the largest displacement.",
+        "Figure 9: the loop encloses the energy that the impact of Table 1 loses. Only the units can be read from the paper's \
+         figure and, from figure 8, the largest displacement.",
         ["displacement, 1e-8 m", "normal force, 1e-4 N"],
         rows.iter().map(|row| [displacement(row), row[1]]),
     );

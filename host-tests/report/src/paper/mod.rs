@@ -2,8 +2,8 @@
 
 use std::error::Error;
 
-use microimpact::contact::{Adaptive, HystereticDamping, Ring, Contact};
-use microimpact::{InputError, NoFriction, NormalMotion, PlanarMotion, Sphere, Stiffness};
+use microimpact::contact::{Adaptive, Contact, RingScene};
+use microimpact::{InputError, NormalMotion, PlanarMotion, Sphere, Stiffness};
 use microimpact_scenes::table_1::{
     APPROACH_M_S as SPEED, DENSITY_KG_M3 as GLASS, FRICTION, MATERIAL_DAMPING as ZETA_H, RADIUS_M as RADIUS,
     RESTITUTION_SPEED_M_S as LAW_SPEED, RING_DAMPING as ZETA_A, RING_N_M as ADHESION, SPIN_RAD_S as SPIN,
@@ -26,8 +26,6 @@ const SPIN_DEGREES: f64 = 8.34e6;
 
 /// Tolerance of every simulation of this section.
 const TOLERANCE: f64 = 1e-10;
-
-type Contact = Simulation<f64, HystereticDamping<f64>, Ring<f64>, NoFriction>;
 
 pub(crate) fn section(run: &Run) -> Result<Section, String> {
     let parts = || -> Outcome<Vec<Part>> {
@@ -53,7 +51,7 @@ fn glass(radius: f64) -> Result<Sphere<f64>, InputError> {
 }
 
 /// The contact of the paper for a sphere.
-fn contact(radius: f64) -> Result<Contact, InputError> {
+fn contact(radius: f64) -> Result<RingScene<f64>, InputError> {
     Contact::hertz(glass(radius)?, Stiffness::new(STIFFNESS)?).with_damping(ZETA_H)?.with_ring(ADHESION, ZETA_A)
 }
 

@@ -3,16 +3,13 @@
 
 use std::collections::BTreeMap;
 
+use microimpact::contact::{ContactWorks, RingScene, Works};
 use microimpact::measure::{MeasuredRebound, RestitutionFit};
-use microimpact::contact::{Collocation, Everything, SimulatedImpact};
 use microimpact::{
     CriticalSpeed, InputError, NormalMotion, RigidBody, SpeedRestitution, rigid::WorkOfAdhesion as WorkTerm,
 };
 
-use super::{
-    Contact, FRICTION, LAW_SPEED, Outcome, RADIUS, SPEED, TOLERANCE, WORK, column, contact, figure, glass, method,
-    spaced,
-};
+use super::{FRICTION, LAW_SPEED, Outcome, RADIUS, SPEED, WORK, column, contact, figure, glass, method, spaced};
 use crate::content::{Cell, Part, Run, Table};
 use crate::plot::{self, Axis, Line, Map, Mark, Shade};
 
@@ -35,7 +32,7 @@ struct Pair {
     reach: f64,
     /// Critical speed by the simulation, m/s.
     critical: Option<f64>,
-    simulation: Contact,
+    simulation: RingScene<f64>,
     fit: RestitutionFit<f64>,
     rigid: Rigid,
     /// Speed; restitution by simulation and rigid body; works of adhesion and of the materials by both, over the energy.
@@ -52,7 +49,7 @@ pub(super) fn parts(run: &Run) -> Outcome<Vec<Part>> {
     let mut parts = vec![
         Part::Text(
             "The simulation has the paper's constants; the rigid-body model has R = k/(k + v) \
-             and the work of adhesion W_A that fit the simulated rebounds (module calibrate): those up to eight times the \
+             and the work of adhesion W_A that fit the simulated rebounds (module `measure`): those up to eight times the \
              critical speed, and those up to 100 m/s."
                 .to_owned(),
         ),
@@ -68,30 +65,28 @@ pub(super) fn parts(run: &Run) -> Outcome<Vec<Part>> {
 impl Pair {
     fn new(radius: f64, slow: bool, points: u32) -> Outcome<Self> {
         let (method, simulation) = (method()?, contact(radius)?);
-        let critical = at(simulation.critical_speed(&Collocation::<9, f64>::new(TOLERANCE)?)?);
+        let critical = at(simulation.critical_speed(&method)?);
         let reach = critical.filter(|_| slow).map_or(SPEEDS[1], |speed| SLOW * speed);
         let sphere = glass(radius)?;
         let simulate = |speed: f64| {
-            let impact: SimulatedImpact<f64, (), Everything<f64>> =
-                simulation.observe(&method, &NormalMotion::new(speed)?)?;
-            Ok((speed, impact))
+            let (impact, works) = simulation.solve_for(&NormalMotion::new(speed)?, &method, Works)?;
+            Ok((speed, impact.normal.overall_restitution(), works))
         };
         let impacts = spaced(SPEEDS[0], SPEEDS[1], points).map(simulate).collect::<Result<Vec<_>, InputError>>()?;
         let rebounds: Vec<_> = impacts
             .iter()
-            .filter(|(speed, _)| *speed <= reach)
-            .map(|(speed, impact)| MeasuredRebound { speed: *speed, restitution: impact.normal.overall_restitution() })
+            .filter(|(speed, ..)| *speed <= reach)
+            .map(|(speed, e, _)| MeasuredRebound { speed: *speed, restitution: *e })
             .collect();
         let fit = RestitutionFit::of(&sphere, &rebounds)?;
         let rigid = RigidBody::new(sphere, SpeedRestitution::new(fit.restitution_speed.value)?)
             .with_work_of_adhesion(fit.work_of_adhesion.value)?;
-        let row = |(speed, simulated): &(f64, SimulatedImpact<f64, (), Everything<f64>>)| {
+        let row = |(speed, e, works): &(f64, f64, ContactWorks<f64>)| {
             let energy = 0.5 * sphere.mass() * speed * speed;
             let impact = rigid.impact(&NormalMotion::new(*speed)?);
             // Where the sphere is captured, the works up to its turning point are not comparable.
-            let rebounds = |e: f64, share: f64| if e > 0.0 { share } else { f64::NAN };
-            let (e, ours) = (simulated.normal.overall_restitution(), impact.normal.overall_restitution());
-            let works = &simulated.outputs.works;
+            let rebounds = |e: f64, fraction: f64| if e > 0.0 { fraction } else { f64::NAN };
+            let (e, ours) = (*e, impact.normal.overall_restitution());
             Ok([
                 *speed,
                 e,
@@ -171,7 +166,7 @@ fn restitution(pair: &Pair, wide: &Pair) -> Outcome<Part> {
         plot::chart("Restitution by both models", &x, &Axis::linear("restitution e").between(0.0, 1.0), &lines)?,
         "models-restitution",
         "Restitution of the sphere of Table 1. With k = 130 m/s and W_A = 2.22e-12 J, chosen by fast rebounds and by the \
-         impact of Table 1, the rigid-body model meets the simulation in that impact and rebounds faster from there to 50 m/s. No k and \
+         impact of Table 1, the rigid-body model agrees with the simulation in that impact and rebounds faster from there to 50 m/s. No k and \
          W_A give the whole curve: those of the slow rebounds lose too much at high speed, those of all rebounds take the \
          slow ones for outliers.",
         [
@@ -198,10 +193,10 @@ fn works(pair: &Pair) -> Outcome<Part> {
     ];
     let x = Axis::logarithmic("approach speed, m/s");
     Ok(figure(
-        plot::chart("Where the energy goes", &x, &Axis::linear("share of the energy").between(0.0, 1.0), &lines)?,
+        plot::chart("Where the energy goes", &x, &Axis::linear("fraction of the energy").between(0.0, 1.0), &lines)?,
         "models-works",
         "Energy of the sphere of Table 1 lost to adhesion and in the materials. The models agree in e but not here: \
-         adhesion draws the sphere deeper, which the simulation books as a loss of the materials and the rigid-body model \
+         adhesion draws the sphere deeper, which the simulation counts as a loss of the materials and the rigid-body model \
          as work of adhesion. The paper found the same.",
         [
             "approach speed, m/s",
@@ -292,7 +287,7 @@ fn classes(pair: &Pair, run: &Run) -> Outcome<[Part; 2]> {
     for speed in spaced(SPEEDS[0], SPEEDS[1], count) {
         for tangential in spaced(0.01, 100.0, count) {
             let motion = NormalMotion::new(speed)?.with_tangential(tangential)?;
-            let class = simulation.impact(&method, &motion)?.class();
+            let class = simulation.solve(&motion, &method)?.class();
             let simulated = class.map_or_else(|| "not solved".to_owned(), |class| class.to_string());
             let ours = rigid.classify(&motion).class().to_string();
             if simulated != ours {
@@ -316,8 +311,8 @@ fn classes(pair: &Pair, run: &Run) -> Outcome<[Part; 2]> {
         plot::chart("Impacts whose class differs", &x, &y, &lines)?,
         "models-classes-apart",
         "Impacts whose class differs, by simulation and by rigid body: between the two critical speeds, and beside the \
-         border of sliding. Friction follows the elastic force alone in the simulation, and the whole normal impulse in the \
-         rigid-body model.",
+         border of sliding. Friction is proportional to the elastic force alone in the simulation, and to the whole \
+         normal impulse in the rigid-body model.",
         ["approach speed, m/s", "tangential velocity, m/s"],
         rows,
     );

@@ -103,13 +103,13 @@ fn figure_a2() -> Outcome<Part> {
         Line::new("lost to adhesion", Mark::Dashed, column(&rows, 3)),
     ];
     let x = Axis::logarithmic("approach speed, m/s");
-    let y = Axis::linear("share of the energy").between(0.0, 1.05);
+    let y = Axis::linear("fraction of the energy").between(0.0, 1.05);
     Ok(figure(
         plot::chart("Figure A2: energy restitution", &x, &y, &lines)?,
         "figure-a2",
         "Figure A2: e² = R² - B (A34). The paper draws it without scales or values; ours has R = k/(k + v), k = 130 m/s, and \
-         W_A = 2.22e-12 J on the sphere of Table 1. A capture loses to adhesion what the materials leave.",
-        ["approach speed, m/s", "e^2", "R^2", "share lost to adhesion"],
+         W_A = 2.22e-12 J on the sphere of Table 1. A captured sphere loses to adhesion all the energy that remains after the loss in the materials.",
+        ["approach speed, m/s", "e^2", "R^2", "fraction lost to adhesion"],
         rows,
     ))
 }

@@ -4,12 +4,12 @@
 //!
 //! ds/dz = y,   dy/dz = 2 s^2 (B (1 - g y [y < 0]) - (5/4) s^2 (1 + h y))
 //!
-//! The steps are a fixed share of the time in which the motion changes. An event is met by a last step against its own
+//! The steps are a fixed fraction of the time in which the motion changes. An event is met by a last step against its own
 //! variable (Henon 1982).
 
 use std::f64::consts::PI;
 
-use super::impact::Impact;
+use reference::grids::Impact;
 
 /// Steps after which a stiff motion is given up.
 const MOST_STEPS: u32 = 200_000;
@@ -33,8 +33,8 @@ impl Equations {
         let damping = impact.damping_unit() * impact.speed;
         Self {
             adhesion: 2.0 * PI * impact.strength * root * length.powf(1.5) / energy,
-            material_damping: impact.material * damping,
-            adhesion_damping: impact.adhesion * damping,
+            material_damping: impact.zeta_h * damping,
+            adhesion_damping: impact.zeta_a * damping,
         }
     }
 
@@ -153,9 +153,9 @@ mod tests {
     fn closed_form_and_steps_agree() {
         for (damping, e) in [(0.1, 0.937_475_580), (1.0, 0.593_624_260), (10.0, 0.099_981_625)] {
             assert!((without_adhesion(damping) - e).abs() < 1e-9, "{damping}");
-            let unit = Impact { strength: 0.0, adhesion: 0.0, ..Impact::PAPER };
-            let material = damping / (unit.damping_unit() * unit.speed);
-            let (square, _) = restitution_squared(&Impact { material, ..unit }, 300.0).unwrap();
+            let unit = Impact { strength: 0.0, zeta_a: 0.0, ..Impact::PAPER };
+            let zeta_h = damping / (unit.damping_unit() * unit.speed);
+            let (square, _) = restitution_squared(&Impact { zeta_h, ..unit }, 300.0).unwrap();
             assert!((square.sqrt() - e).abs() < 2e-9, "{damping}: {}", square.sqrt());
         }
     }

@@ -1,4 +1,4 @@
-//! What the energies of each impact lack in sum: the works of damping and friction are integrals of their own.
+//! The energy balance error of each impact: the works of damping and friction are integrals of their own.
 
 use super::maps::{Map, listed};
 use super::trial::Method;
@@ -23,44 +23,41 @@ pub(super) fn parts(maps: &[Map]) -> Result<Vec<Part>, String> {
         ]);
         lines.push(Line::new(method.name(), Mark::Solid, exceeding(&residuals)));
     }
-    let caption = "Share of the impacts of all maps whose energies lack more than so much";
-    let (x, y) = ("lacking energy over that of the motion", "share of the impacts");
-    let drawing = plot::chart(
-        "Energy that the ledgers lack",
-        &Axis::logarithmic(x).between(1e-17, 1.0),
-        &Axis::logarithmic(y),
-        &lines,
-    )?;
+    let caption = "Fraction of the impacts of all maps whose energy balance error exceeds a value";
+    let (x, y) = ("energy balance error over the energy of the motion", "fraction of the impacts");
+    let drawing =
+        plot::chart("Energy balance error", &Axis::logarithmic(x).between(1e-17, 1.0), &Axis::logarithmic(y), &lines)?;
     let points = lines.iter().flat_map(|line| {
         line.points.iter().map(|at| vec![Cell::Text(line.name.clone()), Cell::from(at.0), Cell::from(at.1)])
     });
     let data = Table {
-        name: "stability-ledger-shares".to_owned(),
+        name: "stability-ledger-fractions".to_owned(),
         caption: caption.to_owned(),
         columns: ["method", x, y].map(str::to_owned).to_vec(),
         rows: points.collect(),
     };
     let table = Table {
         name: "stability-ledger".to_owned(),
-        caption: "Energy that the ledgers lack, over that of the motion".to_owned(),
+        caption: "Energy balance error over the energy of the motion".to_owned(),
         columns: ["method", "impacts", "median", "99 of 100 below", "largest"].map(str::to_owned).to_vec(),
         rows,
     };
-    let text = "The kinetic energy before is that after and what damping and friction took, each an integral of its \
-                own, so that what they lack in sum shows the error of a run. Of a rebound it counts over the energy \
-                before; of a capture, along the normal and up to its first turning point, over the largest kinetic \
-                energy of the undamped motion. Spheres that creep to rest have no turning point, and the energies of \
-                some are too small in joules for single precision; both are left out. The paper's method tells no \
-                turning point: its ledger is that of the rebounds. Where its steps are unstable they make energy.";
+    let text = "The kinetic energy before an impact equals that after it and the works of damping and friction. Each work \
+                is an integral of its own, so that the error of their sum shows the error of a run. For a rebound it is \
+                relative to the energy before. For a capture it covers the motion along the normal up to the first \
+                turning point, relative to the largest kinetic energy of the undamped motion. Left out are spheres that \
+                creep to rest, which have no turning point, and energies too small in joules for single precision. The \
+                paper's method reports no turning point: its ledger covers rebounds only. Where its steps are unstable \
+                they create energy.";
     let ours = [Method::Double, Method::Single];
-    let lacking = ours.iter().flat_map(|method| maps.iter().flat_map(|map| map.lacking(*method))).collect();
-    let none = "No ledger in f64 or f32 lacks more than its bound.";
-    let caption = "Regions in which a ledger lacks more than its bound";
+    let unbalanced = ours.iter().flat_map(|method| maps.iter().flat_map(|map| map.unbalanced(*method))).collect();
+    let none = "No energy balance error in f64 or f32 exceeds its bound.";
+    let caption = "Regions in which an energy balance error exceeds its bound";
     Ok(vec![
         Part::Heading("Energy ledger".to_owned()),
         Part::Text(text.to_owned()),
         Part::Table(table),
-        listed("stability-regions-ledger", caption, none, lacking),
+        listed("stability-regions-ledger", caption, none, unbalanced),
         Part::Figure(Figure { drawing, data }),
     ])
 }
@@ -71,16 +68,16 @@ fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
     values
 }
 
-/// The value that a share of the sorted values does not exceed.
-fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
+/// The value that a fraction of the sorted values does not exceed.
+fn quantile(sorted: &[f64], fraction: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
-    sorted.get((share * last as f64).round() as usize).copied()
+    sorted.get((fraction * last as f64).round() as usize).copied()
 }
 
-/// Values with the share of all that exceed them, thinned to a few hundred points.
+/// Values with the fraction of all that exceed them, thinned to a few hundred points.
 fn exceeding(sorted: &[f64]) -> Vec<(f64, f64)> {
     let count = sorted.len();
-    // Evenly over the logarithm of the share.
+    // Evenly over the logarithm of the fraction.
     let mut points = Vec::new();
     let mut above = count as f64;
     while above >= 1.0 {
@@ -96,7 +93,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shares_fall_from_all_to_one() {
+    fn fractions_fall_from_all_to_one() {
         let values = sorted([3e-9, 1e-9, 4e-9, 2e-9].into_iter());
         assert_eq!(exceeding(&values), [(1e-9, 1.0), (2e-9, 0.75), (3e-9, 0.5), (4e-9, 0.25)]);
         assert_eq!(quantile(&values, 1.0), Some(4e-9));

@@ -2,9 +2,10 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use super::families::{FAMILIES, Family};
+use reference::grids::{PLANES, Plane};
+
 use super::regions::{Region, regions};
-use super::trial::{MOST_STRETCHES, Method, Point, Trial, Verdict};
+use super::trial::{Assessment, MOST_INTERVALS, Method, Point, Trial};
 use crate::content::{Cell, Figure, Part, Run, Table};
 use crate::plot::{self, Axis, Shade};
 
@@ -13,7 +14,7 @@ const SMALLEST: f64 = 1e-16;
 
 /// The points of a plane.
 pub(super) struct Map {
-    pub(super) family: &'static Family,
+    pub(super) plane: &'static Plane,
     columns: Vec<f64>,
     rows: Vec<f64>,
     /// By row, then by column.
@@ -24,17 +25,17 @@ impl Map {
     /// All planes.
     pub(super) fn all(run: &Run) -> Vec<Self> {
         let (columns, rows) = if run.quick { (12, 10) } else { (40, 30) };
-        let bar = run.progress(FAMILIES.len() * rows, "maps");
-        let solve = |family: &'static Family| {
-            let (columns, rows) = (family.x.values(columns), family.y.values(rows));
+        let bar = run.progress(PLANES.len() * rows, "maps");
+        let solve = |plane: &'static Plane| {
+            let (columns, rows) = (plane.x.values(columns), plane.y.values(rows));
             let points = in_parallel(&rows, |row| {
-                let points = columns.iter().map(|column| Point::at((family.impact)(*column, *row))).collect();
+                let points = columns.iter().map(|column| Point::at((plane.impact)(*column, *row))).collect();
                 bar.inc(1);
                 points
             });
-            Self { family, columns, rows, points }
+            Self { plane, columns, rows, points }
         };
-        FAMILIES.iter().map(solve).collect()
+        PLANES.iter().map(solve).collect()
     }
 
     pub(super) fn points(&self) -> impl Iterator<Item = &Point> {
@@ -43,7 +44,7 @@ impl Map {
 
     /// A paragraph, and the figures.
     pub(super) fn parts(&self) -> Result<Vec<Part>, String> {
-        let Family { title, text, .. } = self.family;
+        let Plane { title, text, .. } = self.plane;
         let mut parts = vec![Part::Heading(format!("Map: {title}")), Part::Text((*text).to_owned())];
         if self.points().any(|point| point.restitution > Some(0.0)) {
             let scale = Axis::linear("e").between(0.0, 1.0);
@@ -57,22 +58,22 @@ impl Map {
         for method in Method::ALL {
             let shade = |point: &Point| {
                 let trial = point.trial(method);
-                match (trial.verdict, trial.error) {
-                    (Verdict::Refused | Verdict::Declined, _) => Shade::NotApplicable,
-                    (Verdict::Within, Some(error)) => Shade::Value(error.max(SMALLEST)),
+                match (trial.assessment, trial.error) {
+                    (Assessment::Refused | Assessment::Declined, _) => Shade::NotApplicable,
+                    (Assessment::Within, Some(error)) => Shade::Value(error.max(SMALLEST)),
                     _ => Shade::Failed,
                 }
             };
             if self.points().all(|point| matches!(shade(point), Shade::NotApplicable)) {
-                parts.push(Part::Text(format!("All of these impacts are out of the range of {}.", method.name())));
+                parts.push(Part::Text(format!("All of these impacts lie outside the range of {}.", method.name())));
                 continue;
             }
             let (caption, name) = (format!("Error, {}, {title}", method.name()), format!("error-{}", method.file()));
             parts.push(self.figure(&name, &caption, &error, &[method], shade)?);
         }
-        let steps = Axis::logarithmic("stretches").between(1.0, f64::from(MOST_STRETCHES));
+        let steps = Axis::logarithmic("intervals").between(1.0, f64::from(MOST_INTERVALS));
         for method in [Method::Double, Method::Single] {
-            let caption = format!("Stretches, {}, {title}", method.name());
+            let caption = format!("Intervals, {}, {title}", method.name());
             parts.push(self.figure(&format!("steps-{}", method.file()), &caption, &steps, &[method], |point| {
                 match point.trial(method).steps {
                     Some(steps) => Shade::Value(f64::from(steps)),
@@ -92,7 +93,7 @@ impl Map {
         methods: &[Method],
         shade: impl Fn(&Point) -> Shade,
     ) -> Result<Part, String> {
-        let Family { x, y, .. } = self.family;
+        let Plane { x, y, .. } = self.plane;
         let cells: Vec<Vec<_>> = self.points.iter().map(|row| row.iter().map(&shade).collect()).collect();
         let map = plot::Map { columns: &self.columns, rows: &self.rows, cells: &cells, scale: scale.clone() };
         let drawing =
@@ -101,7 +102,7 @@ impl Map {
             let place = [Cell::from(column), Cell::from(row), Cell::from(point.restitution)];
             let of_methods = methods.iter().flat_map(|method| {
                 let trial = point.trial(*method);
-                [trial.error.into(), count(trial.steps), trial.residual.into(), trial.verdict.text().into()]
+                [trial.error.into(), count(trial.steps), trial.residual.into(), trial.assessment.text().into()]
             });
             place.into_iter().chain(of_methods).collect()
         };
@@ -110,9 +111,9 @@ impl Map {
                 self.columns.iter().zip(points).map(|(column, point)| (*row, *column, point))
             });
         let mut columns = vec![x.description, y.description, "e"];
-        columns.extend(methods.iter().flat_map(|_| ["error", "steps", "energy lacking", "status"]));
+        columns.extend(methods.iter().flat_map(|_| ["error", "steps", "energy balance error", "status"]));
         let data = Table {
-            name: format!("stability-{}-{name}", self.family.name),
+            name: format!("stability-{}-{name}", self.plane.name),
             caption: caption.to_owned(),
             columns: columns.into_iter().map(str::to_owned).collect(),
             rows: places.map(row).collect(),
@@ -124,18 +125,18 @@ impl Map {
     fn summary(&self) -> impl Iterator<Item = Vec<Cell>> {
         Method::ALL.into_iter().map(|method| {
             let trials = || self.points().map(|point| point.trial(method));
-            let number = |wanted: &dyn Fn(Verdict) -> bool| {
-                Cell::Count(trials().filter(|trial| wanted(trial.verdict)).count() as u64)
+            let number = |wanted: &dyn Fn(Assessment) -> bool| {
+                Cell::Count(trials().filter(|trial| wanted(trial.assessment)).count() as u64)
             };
             let largest = trials().filter_map(|trial| trial.error).reduce(f64::max);
             let most = trials().filter_map(|trial| trial.steps).max();
             vec![
-                Cell::from(self.family.title),
+                Cell::from(self.plane.title),
                 Cell::from(method.name()),
                 Cell::from(method.bound()),
                 number(&|_| true),
-                number(&|verdict| matches!(verdict, Verdict::Refused | Verdict::Declined)),
-                number(&|verdict| verdict.fails()),
+                number(&|assessment| matches!(assessment, Assessment::Refused | Assessment::Declined)),
+                number(&|assessment| assessment.fails()),
                 Cell::from(largest),
                 count(most),
             ]
@@ -144,15 +145,15 @@ impl Map {
 
     /// A row for each region in which a method fails.
     fn failures(&self, method: Method) -> Vec<Vec<Cell>> {
-        let fails = |trial: &Trial| trial.verdict.fails();
-        self.regions(method, method.bound(), fails, |trial| trial.error, |trial| trial.verdict.text())
+        let fails = |trial: &Trial| trial.assessment.fails();
+        self.regions(method, method.bound(), fails, |trial| trial.error, |trial| trial.assessment.text())
     }
 
-    /// A row for each region in which the energies of a method do not add up.
-    pub(super) fn lacking(&self, method: Method) -> Vec<Vec<Cell>> {
+    /// A row for each region in which the energy balance error of a method exceeds its bound.
+    pub(super) fn unbalanced(&self, method: Method) -> Vec<Vec<Cell>> {
         let bound = method.ledger_bound();
         let fails = |trial: &Trial| trial.residual.is_some_and(|residual| residual > bound);
-        self.regions(method, bound, fails, |trial| trial.residual, |_| "energies do not add up")
+        self.regions(method, bound, fails, |trial| trial.residual, |_| "energy balance error")
     }
 
     fn regions(
@@ -171,16 +172,16 @@ impl Map {
             reasons.sort_unstable();
             reasons.dedup();
             vec![
-                Cell::from(self.family.title),
+                Cell::from(self.plane.title),
                 Cell::from(method.name()),
                 Cell::Text(reasons.join(", ")),
                 Cell::Count(region.cells.len() as u64),
                 Cell::from(trials().filter_map(&size).reduce(f64::max)),
                 Cell::from(bound),
-                Cell::from(self.family.x.description),
+                Cell::from(self.plane.x.description),
                 Cell::from(self.columns[region.columns.0]),
                 Cell::from(self.columns[region.columns.1]),
-                Cell::from(self.family.y.description),
+                Cell::from(self.plane.y.description),
                 Cell::from(self.rows[region.rows.0]),
                 Cell::from(self.rows[region.rows.1]),
             ]
@@ -216,7 +217,7 @@ fn count(number: Option<u32>) -> Cell {
     number.map_or(Cell::Number(None), |number| Cell::Count(number.into()))
 }
 
-/// What the bounds are, how many points keep them, and each region in which one does not.
+/// The bounds, how many points lie within them, and each region in which one is exceeded.
 pub(super) fn bounds(maps: &[Map]) -> Vec<Part> {
     let columns = ["map", "method", "bound", "points", "refused", "failed", "largest error", "most steps"];
     let summary = Table {

@@ -1,9 +1,10 @@
 //! Order of convergence: how fast the error falls with the number of steps or nodes.
 
-use microimpact::contact::{Collocation, FixedCost, Nodes, NormalContact, PhaseNodes, RungeKuttaGill, Status};
+use microimpact::InputError;
+use microimpact::contact::{Collocation, FixedCost, NormalContact, RungeKuttaGill, Status, Times};
+use reference::grids::Impact;
 use reference::{Case, cases};
 
-use super::impact::Impact;
 use super::independent;
 use crate::content::{Cell, Figure, Part, Run, Table};
 use crate::plot::{self, Line, Mark};
@@ -15,9 +16,9 @@ const ROUNDING: f64 = 2e-13;
 struct Convergence {
     name: &'static str,
     scene: &'static str,
-    /// Steps of the contact, or nodes of all its stretches or phases, and error of e.
+    /// Steps of the contact, or nodes of all its intervals or phases, and error of e.
     points: Vec<(f64, f64)>,
-    /// Whether a power of their number is what is expected of the error.
+    /// Whether the error should fall with a power of their number.
     power: bool,
 }
 
@@ -34,13 +35,13 @@ pub(super) fn parts(run: &Run) -> Result<Vec<Part>, String> {
         all.push(Convergence { name: "Runge-Kutta in the contact radius", scene, points, power: true });
     }
     for (scene, case) in scenes {
-        all.push(Convergence { name: "FixedCost, 40 sweeps", scene, points: whole_phases(case)?, power: false });
+        all.push(Convergence { name: "FixedCost, 40 iterations", scene, points: whole_phases(case)?, power: false });
     }
     for (scene, case) in scenes {
-        all.push(Convergence { name: "Collocation<7>", scene, points: stretches::<7>(case)?, power: false });
+        all.push(Convergence { name: "Collocation<7>", scene, points: intervals::<7>(case)?, power: false });
     }
     let caption = "Error of e of Table 1 and of the mean sphere without adhesion";
-    let (x, y) = ("steps, or nodes of all stretches", "error of e");
+    let (x, y) = ("steps, or nodes of all intervals", "error of e");
     // The methods come in pairs, one for each scene.
     let line = |(index, one): (usize, &Convergence)| {
         let line = Line::new(&format!("{}, {}", one.name, one.scene), Mark::Joined, one.points.clone());
@@ -79,11 +80,12 @@ pub(super) fn parts(run: &Run) -> Result<Vec<Part>, String> {
             .to_vec(),
         rows: rows.collect(),
     };
-    let text = "The forces of the paper's equations go with the powers 1/2 and 3/2 of the indentation, so that at first \
-                touch and at separation a method of order 4 falls to an order of 3/2 with adhesion and of 5/2 \
-                without. In the contact radius the motion is smooth. The classical Runge-Kutta method keeps its order \
-                there; collocation over whole phases gains digits in proportion to the nodes, faster than any \
-                power, and more stretches of seven nodes converge with a higher order.";
+    let text = "The forces of the paper's equations contain the powers 1/2 and 3/2 of the indentation. At first contact \
+                and at separation they are not smooth, and a method of order 4 reaches an order of only 3/2 with adhesion \
+                and 5/2 without. In the contact radius the motion is smooth, and the classical Runge-Kutta method keeps \
+                its order. With collocation over whole phases the number of correct digits is proportional to the \
+                number of nodes, which is faster than any power. More intervals of seven nodes converge with a higher \
+                order.";
     Ok(vec![
         Part::Heading("Order of convergence".to_owned()),
         Part::Text(text.to_owned()),
@@ -110,10 +112,10 @@ fn half_octaves(from: u32, to: u32) -> impl Iterator<Item = f64> {
 }
 
 fn by_the_paper(case: &Case, most: u32) -> Result<Vec<(f64, f64)>, String> {
-    let text = |error: microimpact::InputError| error.to_string();
+    let text = |error: InputError| error.to_string();
     let (scene, motion) = (case.scene::<f64>().map_err(text)?, case.motion::<f64>().map_err(text)?);
     let at = |steps: f64| {
-        let contact = scene.normal_impact(&RungeKuttaGill::new(steps as u32), &motion).ok()?;
+        let contact = scene.solve_normal(&motion, &RungeKuttaGill::new(steps as u32)).ok()?;
         Some((steps, error(case, &contact)?))
     };
     Ok(half_octaves(16, most).filter_map(at).collect())
@@ -124,9 +126,9 @@ fn in_contact_radius(case: &Case, most: u32) -> Vec<(f64, f64)> {
         radius: case.number("radius_m"),
         stiffness: case.number("stiffness_pa"),
         speed: case.number("speed_normal_m_s"),
-        material: case.number("zeta_h"),
+        zeta_h: case.number("zeta_h"),
         strength: case.number("adhesion_n_m"),
-        adhesion: case.number("zeta_a"),
+        zeta_a: case.number("zeta_a"),
     };
     let at = |fineness: f64| {
         let (square, steps) = independent::restitution_squared(&impact, fineness)?;
@@ -151,30 +153,24 @@ fn whole_phases(case: &Case) -> Result<Vec<(f64, f64)>, String> {
 }
 
 /// Two phases of `N` nodes.
-fn whole_phase<const N: usize>(case: &Case) -> Result<Option<(f64, f64)>, String>
-where
-    f64: PhaseNodes<N>,
-{
+fn whole_phase<const N: usize>(case: &Case) -> Result<Option<(f64, f64)>, String> {
     let contact =
-        case.scene::<f64>().and_then(|scene| scene.normal_impact(&FixedCost::<N>::new(40)?, &case.motion::<f64>()?));
+        case.scene::<f64>().and_then(|scene| scene.solve_normal(&case.motion::<f64>()?, &FixedCost::<N>::new(40)?));
     let contact = contact.map_err(|error| error.to_string())?;
     Ok(error(case, &contact).map(|error| (2.0 * N as f64, error)))
 }
 
-/// Stretches of `N` nodes, as many as a tolerance asks for.
-fn stretches<const N: usize>(case: &Case) -> Result<Vec<(f64, f64)>, String>
-where
-    f64: Nodes<N>,
-{
+/// Intervals of `N` nodes, as many as a tolerance asks for.
+fn intervals<const N: usize>(case: &Case) -> Result<Vec<(f64, f64)>, String> {
     let at = |digits: i32| {
         let method = Collocation::<N, f64>::new(10_f64.powf(-0.5 * f64::from(digits)))?;
-        let impact = case.scene::<f64>()?.impact(&method, &case.motion::<f64>()?)?;
+        let (impact, _) = case.scene::<f64>()?.solve_for(&case.motion::<f64>()?, &method, Times)?;
         let nodes = f64::from(impact.run.steps) * N as f64;
         Ok(error(case, &impact.normal).map(|error| (nodes, error)))
     };
-    let points: Result<Vec<_>, microimpact::InputError> = (6..=26).map(at).collect();
+    let points: Result<Vec<_>, InputError> = (6..=26).map(at).collect();
     let mut points: Vec<_> = points.map_err(|error| error.to_string())?.into_iter().flatten().collect();
-    // Of tolerances that take the same number of stretches the tightest.
+    // Of tolerances that take the same number of intervals the tightest.
     points.reverse();
     points.dedup_by_key(|at| at.0);
     points.reverse();

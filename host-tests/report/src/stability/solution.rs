@@ -1,22 +1,18 @@
 //! What a method finds of an impact.
 
-use microimpact::contact::{
-    Adaptive, Collocation, Everything, FixedCost, Method, NoPeeling, Output, Ring, RungeKuttaGill, SimulatedImpact,
-    Status, TangentialContact, TangentialScene,
-};
-use microimpact::{Coulomb, InputError, ObliqueMotion, Outcome, Real};
-
-use super::impact::Impact;
+use microimpact::contact::{Adaptive, Collocation, Energy, FixedCost, Method, RungeKuttaGill, Status, Works};
+use microimpact::{InputError, Outcome, Real};
+use reference::grids::Impact;
 
 /// How a run ended, in double precision.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
     /// `None` where the run spent its budget.
     pub(super) solution: Option<Solution>,
-    /// Stretches or steps, refused ones included.
+    /// Intervals or steps, refused ones included.
     pub(super) steps: u32,
-    /// What the energies of the ledger lack, over the energy before; of a capture along the normal alone, over the largest
-    /// kinetic energy of the undamped motion.
+    /// Energy balance error over the energy before; of a capture along the normal alone, over the largest kinetic energy of
+    /// the undamped motion.
     pub(super) residual: Option<f64>,
 }
 
@@ -25,7 +21,7 @@ pub(super) struct Solution {
     pub(super) rebounds: bool,
     /// e^2.
     pub(super) square: f64,
-    /// m; `None` where there is none, or the method does not tell.
+    /// m; `None` where there is none, or the method does not report it.
     pub(super) peak: Option<f64>,
 }
 
@@ -48,25 +44,25 @@ impl Solution {
 
 /// The setting that the others are measured by.
 pub(super) fn exactly(impact: &Impact) -> Result<Found, InputError> {
-    solve::<f64, _>(impact, &Collocation::<14, f64>::new(1e-13)?)
+    solve::<f64>(impact, &Collocation::<14, f64>::new(1e-13)?)
 }
 
 /// Tolerance of the adaptive method in the maps.
 pub(super) const TOLERANCE: f64 = 1e-11;
 
 pub(super) fn in_double_precision(impact: &Impact) -> Result<Found, InputError> {
-    solve::<f64, _>(impact, &Adaptive::new(TOLERANCE)?)
+    solve::<f64>(impact, &Adaptive::new(TOLERANCE)?)
 }
 
 pub(super) fn in_single_precision(impact: &Impact) -> Result<Found, InputError> {
-    solve::<f32, _>(impact, &Collocation::<8, f32>::new(1e-6)?)
+    solve::<f32>(impact, &Collocation::<8, f32>::new(1e-6)?)
 }
 
 /// Steps of the paper's method in the duration of Hertz's impact.
 pub(super) const STEPS: u32 = 1000;
 
 pub(super) fn by_the_paper(impact: &Impact) -> Result<Found, InputError> {
-    solve::<f64, _>(impact, &RungeKuttaGill::new(STEPS))
+    solve::<f64>(impact, &RungeKuttaGill::new(STEPS))
 }
 
 /// Fixed point and, by the same method, double precision.
@@ -83,25 +79,9 @@ pub(super) fn in_fixed_point(impact: &Impact) -> Result<(Found, Found), InputErr
     Ok((found(narrow.outcome, narrow.restitution_squared.to_f64()), found(wide.outcome, wide.restitution_squared)))
 }
 
-fn solve<T, S>(impact: &Impact, method: &S) -> Result<Found, InputError>
-where
-    T: Real + Into<f64>,
-    S: Method<
-            T,
-            (
-                <Everything<T> as Output<T>>::Observer,
-                <Coulomb<T> as TangentialScene<
-                    T,
-                    ObliqueMotion<T>,
-                    Ring<T>,
-                    NoPeeling,
-                    TangentialContact<T>,
-                >>::Observer,
-            ),
-        >,
-{
+fn solve<T: Real + Into<f64>>(impact: &Impact, method: &impl Method<T>) -> Result<Found, InputError> {
     let scene = impact.scene::<T>()?;
-    let simulated: SimulatedImpact<T, TangentialContact<T>> = scene.impact(method, &impact.motion()?)?;
+    let (simulated, (works, ledger)) = scene.solve_for(&impact.motion()?, method, (Works, Energy))?;
     let (run, normal) = (&simulated.run, &simulated.normal);
     let square: f64 = normal.overall_restitution().into();
     let solution = normal.outcome().filter(|_| run.status == Status::Solved).map(|outcome| Solution {
@@ -110,12 +90,11 @@ where
         peak: normal.peak_indentation().map(Into::into),
     });
     let residual = match solution {
-        Some(Solution { rebounds: true, .. }) => simulated.energy(scene.sphere()).map(|ledger| {
+        Some(Solution { rebounds: true, .. }) => ledger.map(|ledger| {
             let [before, after, lost] = [ledger.before, ledger.after, ledger.lost()].map(Into::<f64>::into);
             (before, (before - after - lost) / before)
         }),
         Some(_) => normal.turning_indentation().map(|turning| {
-            let works = &simulated.outputs.works;
             let taken = [works.material, works.adhesion].map(Into::<f64>::into);
             let before = 0.5 * impact.mass() * impact.speed * impact.speed;
             let largest = before - impact.potential(impact.equilibrium());

@@ -1,8 +1,8 @@
 //! Methods tried on one impact, and the bounds they are held to.
 
 use microimpact::contact::Collocation;
+use reference::grids::Impact;
 
-use super::impact::Impact;
 use super::independent;
 use super::solution::{
     Found, TOLERANCE, by_the_paper, exactly, in_double_precision, in_fixed_point, in_single_precision,
@@ -41,7 +41,7 @@ impl Method {
     /// Largest error: of e^2 and of the peak indentation, in fixed point of e.
     pub(super) const fn bound(self) -> f64 {
         match self {
-            // What the adaptive method promises.
+            // The error that the adaptive method promises.
             Self::Double => 3.0 * TOLERANCE,
             Self::Single => 2e-6,
             // What rounding adds to the error of the method.
@@ -51,7 +51,7 @@ impl Method {
         }
     }
 
-    /// Largest energy that may lack in a ledger, over that of the motion.
+    /// Largest energy balance error, over the energy of the motion.
     pub(super) const fn ledger_bound(self) -> f64 {
         match self {
             // The errors of e^2 and of the works.
@@ -62,13 +62,13 @@ impl Method {
     }
 }
 
-/// Stretches after which a run gives up.
-pub(super) const MOST_STRETCHES: u32 = Collocation::<14, f64>::MOST_STRETCHES;
+/// Intervals after which a run gives up.
+pub(super) const MOST_INTERVALS: u32 = Collocation::<14, f64>::MOST_INTERVALS;
 
 /// What became of a method on an impact.
 #[derive(Clone, Copy)]
 pub(super) struct Trial {
-    pub(super) verdict: Verdict,
+    pub(super) assessment: Assessment,
     /// Where there is a solution.
     pub(super) error: Option<f64>,
     pub(super) steps: Option<u32>,
@@ -76,15 +76,15 @@ pub(super) struct Trial {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Verdict {
+pub(super) enum Assessment {
     /// An input lies outside its range.
     Refused,
     Within,
     /// e^2, in fixed point e, errs by more than the bound.
     InexactRestitution,
     InexactPeak,
-    /// What the energies lack exceeds the bound.
-    LackingEnergy,
+    /// The energy balance error exceeds the bound.
+    UnbalancedEnergy,
     /// A capture for a rebound or the reverse, by more than the bound.
     WrongOutcome,
     NoSolution,
@@ -93,17 +93,17 @@ pub(super) enum Verdict {
     TooManySteps,
 }
 
-impl Verdict {
+impl Assessment {
     pub(super) const fn text(self) -> &'static str {
         match self {
             Self::Refused => "refused",
             Self::Within => "within the bound",
             Self::InexactRestitution => "restitution beyond the bound",
             Self::InexactPeak => "peak indentation beyond the bound",
-            Self::LackingEnergy => "energies do not add up",
+            Self::UnbalancedEnergy => "energy balance error beyond the bound",
             Self::WrongOutcome => "wrong outcome",
-            Self::NoSolution => "no solution",
-            Self::Declined => "declined by the method",
+            Self::NoSolution => "did not converge",
+            Self::Declined => "outside the range of the method",
             Self::TooManySteps => "too many steps",
         }
     }
@@ -148,31 +148,35 @@ impl Point {
 }
 
 impl Trial {
-    const REFUSED: Self = Self { verdict: Verdict::Refused, error: None, steps: None, residual: None };
+    const REFUSED: Self = Self { assessment: Assessment::Refused, error: None, steps: None, residual: None };
 
     fn of(method: Method, found: Option<Found>, exact: Option<Found>) -> Self {
         let Some(found) = found else {
             return Self::REFUSED;
         };
-        let unsolved =
-            Self { verdict: Verdict::NoSolution, error: None, steps: Some(found.steps), residual: found.residual };
+        let unsolved = Self {
+            assessment: Assessment::NoSolution,
+            error: None,
+            steps: Some(found.steps),
+            residual: found.residual,
+        };
         let (Some(solution), Some(exact)) = (found.solution, exact.and_then(|exact| exact.solution)) else {
             return unsolved;
         };
         let error = solution.error(&exact);
         let bound = method.bound();
-        let verdict = match method {
-            _ if error > bound && solution.rebounds != exact.rebounds => Verdict::WrongOutcome,
-            _ if solution.error_of_square(&exact) > bound => Verdict::InexactRestitution,
+        let assessment = match method {
+            _ if error > bound && solution.rebounds != exact.rebounds => Assessment::WrongOutcome,
+            _ if solution.error_of_square(&exact) > bound => Assessment::InexactRestitution,
             // NaN is beyond it too.
-            _ if error.is_nan() || error > bound => Verdict::InexactPeak,
+            _ if error.is_nan() || error > bound => Assessment::InexactPeak,
             Method::Paper if found.residual.is_some_and(|residual| residual > method.ledger_bound()) => {
-                Verdict::LackingEnergy
+                Assessment::UnbalancedEnergy
             }
-            Method::Double | Method::Single if found.steps > MOST_STRETCHES => Verdict::TooManySteps,
-            _ => Verdict::Within,
+            Method::Double | Method::Single if found.steps > MOST_INTERVALS => Assessment::TooManySteps,
+            _ => Assessment::Within,
         };
-        Self { verdict, error: Some(error).filter(|error| !error.is_nan()), ..unsolved }
+        Self { assessment, error: Some(error).filter(|error| !error.is_nan()), ..unsolved }
     }
 
     /// The bound holds for what fixed point adds to the error in double precision, where e exceeds 0.2 and p is below 0.95;
@@ -181,24 +185,25 @@ impl Trial {
         let (Ok((narrow, wide)), Ok(exact)) = (in_fixed_point(impact), exactly(impact)) else {
             return Self::REFUSED;
         };
-        let unsolved = Self { verdict: Verdict::NoSolution, error: None, steps: Some(narrow.steps), residual: None };
+        let unsolved =
+            Self { assessment: Assessment::NoSolution, error: None, steps: Some(narrow.steps), residual: None };
         let (solution, wide) = match (narrow.solution, wide.solution) {
             (Some(narrow), Some(wide)) => (narrow, wide),
-            (None, None) => return Self { verdict: Verdict::Declined, ..unsolved },
+            (None, None) => return Self { assessment: Assessment::Declined, ..unsolved },
             _ => return unsolved,
         };
         let [e, of_wide] = [solution, wide].map(|solution| solution.square.sqrt());
-        let verdict = match () {
-            () if solution.rebounds != wide.rebounds && of_wide.max(e) > 0.02 => Verdict::WrongOutcome,
+        let assessment = match () {
+            () if solution.rebounds != wide.rebounds && of_wide.max(e) > 0.02 => Assessment::WrongOutcome,
             () if of_wide > 0.2
                 && impact.adhesion_strength().is_some_and(|p| p < 0.95)
                 && (e - of_wide).abs() > Method::Fixed.bound() =>
             {
-                Verdict::InexactRestitution
+                Assessment::InexactRestitution
             }
-            () => Verdict::Within,
+            () => Assessment::Within,
         };
         let error = exact.solution.map(|exact| solution.error_of_square(&exact));
-        Self { verdict, error, ..unsolved }
+        Self { assessment, error, ..unsolved }
     }
 }
