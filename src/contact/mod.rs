@@ -77,9 +77,14 @@ pub type RingScene<T, S = NoFriction> = Contact<T, HertzLaw<T, HystereticDamping
 
 /// The scene of the paper: damping, a ring of adhesion, and Coulomb friction.
 ///
+/// Firmware holds it in a static, made at start:
+///
 /// ```
 /// use microimpact::contact::{Contact, PaperScene};
 /// use microimpact::{InputError, Sphere, Stiffness};
+/// use static_cell::StaticCell;
+///
+/// static SCENE: StaticCell<PaperScene<f32>> = StaticCell::new();
 ///
 /// fn glass_on_steel(radius: f32) -> Result<PaperScene<f32>, InputError> {
 ///     Contact::hertz(Sphere::solid(radius, 2600.0)?, Stiffness::new(7.5e10)?)
@@ -87,7 +92,9 @@ pub type RingScene<T, S = NoFriction> = Contact<T, HertzLaw<T, HystereticDamping
 ///         .with_ring(250.0, 6.25)?
 ///         .with_friction(0.1)
 /// }
-/// assert!(glass_on_steel(5.06e-6).is_ok());
+/// let scene: &'static PaperScene<f32> = SCENE.init(glass_on_steel(5.06e-6)?);
+/// assert_eq!(scene.sphere().radius(), 5.06e-6);
+/// # Ok::<(), InputError>(())
 /// ```
 pub type PaperScene<T> = RingScene<T, Coulomb<T>>;
 

@@ -117,6 +117,26 @@ impl<T: Real, const N: usize> Trajectory<T, N> {
         self.samples.iter().map(|sample| sample.in_units(&self.unit))
     }
 
+    /// The samples in SI units, as a vector with room for `N`.
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact, Recording};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// let (_, trajectory) =
+    ///     scene.solve_for(&NormalMotion::new(1.0)?, &Adaptive::new(1e-9_f64)?, Recording::<16>)?;
+    /// let samples: heapless::Vec<_, 16> = trajectory.into_samples();
+    /// assert_eq!(samples[0].time, 0.0);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn into_samples(mut self) -> Vec<Sample<T>, N> {
+        for sample in &mut self.samples {
+            *sample = sample.in_units(&self.unit);
+        }
+        self.samples
+    }
+
     /// The same in the [`units`](Self::units) of the motion.
     ///
     /// ```

@@ -308,8 +308,11 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> ContactLaw<T> f
         if self.force.is_present() {
             let peak = law.undamped_peak(units.energy);
             if let Some(peak) = peak.filter(|peak| *peak > T::constant(LEAST_PEAK)) {
-                units = units.enlarged(peak);
-                law = self.in_hertz_units(sphere, &units)?;
+                let enlarged = units.enlarged(peak);
+                // Damping that is out of range in larger units stays in those of the impact without the force.
+                if let Ok(in_enlarged) = self.in_hertz_units(sphere, &enlarged) {
+                    (units, law) = (enlarged, in_enlarged);
+                }
             }
         }
         Ok((law, Units { length: units.length, speed: units.speed, energy: units.energy }))
