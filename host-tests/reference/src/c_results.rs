@@ -99,7 +99,10 @@ fn trajectories() -> Result<String, InputError> {
     Ok(trajectories_of("trajectory", &contact)? + &trajectories_of("elastic", &elastic)?)
 }
 
-fn trajectories_of<L: ContactLaw<f32>>(name: &str, scene: &Contact<f32, L, Coulomb<f32>>) -> Result<String, InputError> {
+fn trajectories_of<L: ContactLaw<f32>>(
+    name: &str,
+    scene: &Contact<f32, L, Coulomb<f32>>,
+) -> Result<String, InputError> {
     let method = Collocation::<7, f32>::new(1e-6)?;
     let mut text = String::new();
     for (index, before) in MOTIONS.into_iter().enumerate() {

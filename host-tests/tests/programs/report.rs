@@ -1,4 +1,4 @@
-//! `cargo write-report` as it is run: a page that needs nothing else, its tables as CSV, and the paper's numbers within bounds.
+//! `cargo write-report`: one page without other files, its tables as CSV, and the paper's numbers within bounds.
 
 use std::collections::BTreeSet;
 use std::fs;

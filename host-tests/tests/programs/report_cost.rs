@@ -1,4 +1,4 @@
-//! The section on cost of `cargo write-report`: its choices hold what they promise, and are the cheapest of what is drawn.
+//! The section on cost of `cargo write-report`: its choices are within the errors that they promise, and the cheapest drawn.
 
 use std::path::Path;
 
@@ -52,7 +52,7 @@ fn choices_are_the_cheapest_within_their_error() {
     }
     assert!(summary.len() >= 12, "{}", summary.len());
 
-    // Settings that came to no solution are in the data too.
+    // Settings that did not converge are in the data too.
     let data = rows(&folder, "cost-host-s-normal-with-contact-time-and-impulse-f64.csv");
     assert!(data.iter().any(|row| row["error"].is_empty()) && data.iter().any(|row| !row["error"].is_empty()));
 }

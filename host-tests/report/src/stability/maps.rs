@@ -231,11 +231,11 @@ pub(super) fn bounds(maps: &[Map]) -> Vec<Part> {
     };
     let ours = failures(&[Method::Double, Method::Single, Method::Fixed]);
     let none = "No point of any map lies beyond a bound in f64, f32 or fixed point.";
-    let caption = "Regions in which the paper's method breaks";
+    let caption = "Regions in which the paper's method fails";
     vec![
         Part::Table(summary),
         listed("stability-regions", "Regions in which a bound fails", none, ours),
-        listed("stability-regions-paper", caption, "The paper's method breaks nowhere.", failures(&[Method::Paper])),
+        listed("stability-regions-paper", caption, "The paper's method fails nowhere.", failures(&[Method::Paper])),
     ]
 }
 
