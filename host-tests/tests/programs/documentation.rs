@@ -11,9 +11,9 @@ static STORED: LazyLock<Stored> = LazyLock::new(|| Stored::read(&Stored::path())
 
 /// Scenes by their names in README and in the measurements.
 const SCENES: [(&str, &str); 4] = [
-    ("normal, rho given", "normal/coefficient"),
+    ("normal, adhesion coefficient given", "normal/coefficient"),
     ("normal, W_A given", "normal/work"),
-    ("friction and spin, rho given", "planar/coefficient"),
+    ("friction and spin, adhesion coefficient given", "planar/coefficient"),
     ("friction and spin, W_A given", "planar/work"),
 ];
 
@@ -32,9 +32,9 @@ fn measured_on(core: &str, scene: &str, quantity: Quantity) -> f64 {
 
 /// The same of the simulation and of tables.
 const SIMULATED: [(&str, &str); 9] = [
-    ("`FixedCost<4>`, 2 sweeps, class alone", "simulation/fixed-class"),
-    ("`FixedCost<5>`, 3 sweeps, error of e 1e-5", "simulation/fixed-1e-5"),
-    ("`FixedCost<7>`, 3 sweeps, error of e 1e-6", "simulation/fixed-1e-6"),
+    ("`FixedCost<4>`, 2 iterations, class alone", "simulation/fixed-class"),
+    ("`FixedCost<5>`, 3 iterations, error of e 1e-5", "simulation/fixed-1e-5"),
+    ("`FixedCost<7>`, 3 iterations, error of e 1e-6", "simulation/fixed-1e-6"),
     ("`FixedCost<5, 7>` with friction and spin", "simulation/fixed-oblique-1e-5"),
     ("`FixedCost<7, 9>` with friction and spin", "simulation/fixed-oblique-1e-6"),
     ("`Collocation<7>`, tolerance 1e-6", "simulation/normal"),
@@ -148,10 +148,10 @@ fn accuracy_of_the_simulation_is_the_tested_one() {
 #[test]
 fn numbers_in_prose_are_the_tested_ones() {
     let words = words();
-    let stretches = Collocation::<9, f64>::MOST_INTERVALS;
+    let intervals = Collocation::<9, f64>::MOST_INTERVALS;
     for statement in [
         format!("compared with {} solutions to 20 digits", reference::cases().len()),
-        format!("end in finite numbers within {stretches} stretches"),
+        format!("end in finite numbers within {intervals} intervals"),
         format!("Rust {} or newer", env!("CARGO_PKG_RUST_VERSION")),
     ] {
         assert!(words.contains(&statement), "README.md lacks: {statement}");
@@ -181,8 +181,8 @@ fn errors_of_fixed_cost_are_the_tested_ones() {
     let statement = format!("closer to the critical speed they are up to {added:e} larger");
     assert!(words().contains(&statement), "README.md lacks: {statement}");
     for (method, row, scene) in [
-        ("&FixedCost::<5>::new(3)", "`FixedCost<5>`, 3 sweeps, error of e", "simulation/fixed-1e-5"),
-        ("&FixedCost::<7>::new(3)", "`FixedCost<7>`, 3 sweeps, error of e", "simulation/fixed-1e-6"),
+        ("&FixedCost::<5>::new(3)", "`FixedCost<5>`, 3 iterations, error of e", "simulation/fixed-1e-5"),
+        ("&FixedCost::<7>::new(3)", "`FixedCost<7>`, 3 iterations, error of e", "simulation/fixed-1e-6"),
     ] {
         let test = tests.split("#[test]").find(|test| test.contains(method)).unwrap();
         let bound = test.split_once("error < ").unwrap().1.split_once(',').unwrap().0;
