@@ -8,7 +8,7 @@ mod analyse;
 mod classify;
 mod command;
 mod critical;
-pub mod fit;
+mod fit;
 mod table;
 mod words;
 

@@ -146,8 +146,17 @@ pub fn differing(toolchain: &Toolchain, board: &Board) -> Result<Vec<u32>, Strin
 /// depend on it.
 fn frame(copy: &Path) -> Result<(), String> {
     let files = ["README.md", "memory.x"].map(PathBuf::from).into_iter().chain(
-        ["Cargo.toml", "Cargo.lock", "build.rs", "maps/mps2.x", "maps/mps2-an505.x", "maps/virt.x"]
-            .map(|file| Path::new(FOLDER).join(file)),
+        [
+            "Cargo.toml",
+            "Cargo.lock",
+            "build.rs",
+            "maps/mps2.x",
+            "maps/mps2-an505.x",
+            "maps/virt.x",
+            "measurement/Cargo.toml",
+            "scenes/Cargo.toml",
+        ]
+        .map(|file| Path::new(FOLDER).join(file)),
     );
     for file in files {
         let to = copy.join(&file);
@@ -164,33 +173,28 @@ fn frame(copy: &Path) -> Result<(), String> {
 }
 
 /// What the firmware of one scene does not need.
-const OTHER_FIRMWARE: [&str; 10] = [
-    "approximate",
-    "bin",
-    "calibrations",
-    "entries",
-    "fixed_contacts",
-    "measurement",
-    "methods",
-    "station",
-    "tables",
-    "variants",
-];
+const OTHER_FIRMWARE: [&str; 9] =
+    ["approximate", "bin", "calibrations", "entries", "fixed_contacts", "methods", "station", "tables", "variants"];
 
 /// The sources of the library and of the firmware, without some parts.
 fn sources(copy: &Path, parts: &Parts<'_>) -> Result<(), String> {
-    let firmware = Path::new(FOLDER).join("src");
-    for folder in [Path::new("src"), &firmware] {
-        let folder = copy.join(folder);
-        if folder.exists() {
-            fs::remove_dir_all(&folder).map_err(|error| format!("cannot remove {}: {error}", folder.display()))?;
-        }
-    }
-    without::copy(&repository().join("src"), &copy.join("src"), parts)?;
     let mut rest = parts.clone();
     rest.modules.extend(OTHER_FIRMWARE);
-    without::copy(&repository().join(&firmware), &copy.join(&firmware), &rest)?;
-    without::copy(&repository().join(&firmware).join("bin"), &copy.join(&firmware).join("bin"), &Parts::default())
+    let of_the_firmware = |folder: &str| Path::new(FOLDER).join(folder);
+    for (folder, parts) in [
+        (PathBuf::from("src"), parts),
+        (of_the_firmware("src"), &rest),
+        (of_the_firmware("scenes/src"), &rest),
+        (of_the_firmware("measurement/src"), &Parts::default()),
+        (of_the_firmware("src/bin"), &Parts::default()),
+    ] {
+        let to = copy.join(&folder);
+        if to.exists() {
+            fs::remove_dir_all(&to).map_err(|error| format!("cannot remove {}: {error}", to.display()))?;
+        }
+        without::copy(&repository().join(&folder), &to, parts)?;
+    }
+    Ok(())
 }
 
 /// All bytes that a firmware puts into memory.

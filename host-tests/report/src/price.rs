@@ -123,7 +123,7 @@ pub(crate) fn section(_: &Run) -> Result<Section, String> {
     };
     let prices = Prices { figures: stored.rows_of(compiler).collect() };
     let mut parts = vec![Part::Text(format!(
-        "Measured by `cargo qemu --counts` with {compiler}, optimised for speed, on emulated boards. The first row of each \
+        "Measured by `cargo qemu --all-cores --counts` with {compiler}, optimised for speed, on emulated boards. The first row of each \
          number type is what its scene costs; a row below is what its term adds to the scene with one term less. \
          Instructions are not cycles: a division counts 1. Code and constants are all that setting up a scene, validating a \
          motion and classifying it, or calibrating, refer to, routines of the compiler for arithmetic in software included. A \

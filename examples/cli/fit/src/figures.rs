@@ -59,7 +59,7 @@ fn draw_cloud(fit: &JointFit, area: &Panel<'_>) -> Result<(), Box<dyn Error>> {
     let mut sorted = fit.predictions.clone();
     sorted.sort_by(|a, b| a.0.speed.total_cmp(&b.0.speed));
     let line = |deviations: f64| {
-        let at = |moments: &super::joint::Moments<f64>| moments.mean + deviations * moments.variance.sqrt();
+        let at = |moments: &super::Moments<f64>| moments.mean + deviations * moments.variance.sqrt();
         sorted.iter().map(|(impact, moments)| (impact.speed, at(moments))).collect()
     };
     let lines = [line(-2.0), line(0.0), line(2.0)];

@@ -8,6 +8,8 @@
 //! The restitution depends on f0 and on the diameter only through their ratio: no cloud of speeds and restitutions can tell
 //! them apart. A measured mean diameter with its standard error is therefore part of the data.
 
+pub mod figures;
+
 use std::fmt;
 use std::num::NonZeroUsize;
 

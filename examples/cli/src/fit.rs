@@ -9,14 +9,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 use comfy_table::Table;
+use joint_fit::{Impact, JointFit, Known, NAMES, figures};
 use sheet::Sheet;
 
 use crate::Streams;
 use crate::command::exit_status;
-pub use joint::{COUNT, FitError, Impact, JointFit, Known, NAMES, Parameters, restitution};
-
-pub mod figures;
-mod joint;
 
 /// Fit f0, zeta_H, zeta_A, mean and spread of diameters to a table of speeds and restitutions.
 ///
