@@ -348,7 +348,7 @@ fn assert_sound<T: Real>(radius: f64, data: &[(f64, f64)]) -> Result<(), TestCas
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2_000, failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: reference::repetitions(2_000, 200), failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
 
     #[test]
     fn any_cloud_gives_numbers_or_a_reason(
