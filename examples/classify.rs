@@ -2,7 +2,7 @@
 //!
 //! `cargo run --example classify`. The command line does the same for tables: `cargo microimpact classify`.
 
-use microimpact::contact::{Adaptive, Contact};
+use microimpact::contact::{Collocation, Contact};
 use microimpact::{InputError, NormalMotion, RigidBody, SpeedRestitution, Sphere, Stiffness};
 
 fn main() -> Result<(), InputError> {
@@ -16,7 +16,8 @@ fn main() -> Result<(), InputError> {
         .with_damping(10.5)?
         .with_ring(250.0, 6.25)?
         .with_friction(0.1)?;
-    let method = Adaptive::new(1e-9)?;
+    // Nine nodes, and an error of e^2 of 1e-9 at most.
+    let method = Collocation::<9, f64>::new(1e-9)?;
 
     for (approach, tangential, spin) in [(2.8, 0.0, 1.46e5), (2.8, 20.0, 0.0), (0.5, 0.0, 0.0)] {
         let before = NormalMotion::new(approach)?.with_tangential(tangential)?.with_spin(&sphere, spin)?;

@@ -1,4 +1,4 @@
-/* Made by cargo run --release --example boundary -- --smallest-radius 2e-6 --cells 8 --format c */
+/* Made by cargo microimpact table --smallest-radius 2e-6 --cells 8 --format c */
 /* Critical speeds: density 2600 kg/m^3, K 7.5e10 Pa, f0 250 N/m, zeta_H 10.5, zeta_A 6.25; greatest relative error 4.9e-5. */
 #include <stdint.h>
 #include <string.h>

@@ -34,7 +34,7 @@ static const MicroimpactMotion LOOKED_UP[] = {
 };
 static const float SMALLEST_RADIUS = 2e-6f, LARGEST_SPEED_RATIO = 10.0f;
 
-/* As the example `boundary` of the library has written it. */
+/* As `cargo microimpact table` has written it. */
 static const MicroimpactBoundaryTable CONSTANT = {BOUNDARY_SMALLEST_RADIUS, BOUNDARY_MARGIN, boundary, BOUNDARY_CELLS};
 
 static unsigned long bits(float number)

@@ -223,7 +223,7 @@ typedef struct MicroimpactContact {
 } MicroimpactContact;
 
 // The critical speeds of spheres of one material on one surface, over a range of radii. Made by microimpact_boundary_make,
-// or a constant that the example `boundary` has written.
+// or a constant that `cargo microimpact table` has written.
 typedef struct MicroimpactBoundaryTable {
   // Radius at which the table begins, m.
   float smallest_radius;

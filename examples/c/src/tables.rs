@@ -33,7 +33,7 @@ impl From<TableOutcome> for Verdict {
 }
 
 /// The critical speeds of spheres of one material on one surface, over a range of radii. Made by microimpact_boundary_make,
-/// or a constant that the example `boundary` has written.
+/// or a constant that `cargo microimpact table` has written.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct BoundaryTable {

@@ -57,23 +57,26 @@ const OF_THE_RIGID_BODY: [Term; 4] = [
     },
     Term { name: "constant restitution", types: &["ConstantRestitution"], ..TERM },
     // With the firmware's scenes of it.
-    Term { name: "the simulation", modules: &["simulation", "hertz", "contacts"], types: &["Hertz"], ..TERM },
+    Term { name: "the simulation", modules: &["contact", "hertz", "contacts"], types: &["Hertz"], ..TERM },
 ];
 
 /// What no simulation of the proof uses.
-const OF_THE_SIMULATION: [Term; 5] = [
-    Term { name: "peeling", types: &["Peeling"], methods: &["with_peeling"], ..TERM },
+const OF_THE_SIMULATION: [Term; 8] = [
+    Term { name: "laws chosen at run time", modules: &["chosen"], types: &["AnyLaw"], ..TERM },
+    Term { name: "peeling", modules: &["peeling"], types: &["Peeling"], methods: &["with_peeling"], ..TERM },
     Term { name: "external force", types: &["ConstantForce"], methods: &["with_external_force"], ..TERM },
-    Term { name: "recording", modules: &["trajectory"], ..TERM },
-    Term { name: "motion to rest", modules: &["rest"], ..TERM },
-    Term { name: "the paper's method", modules: &["paper"], ..TERM },
+    Term { name: "recording", modules: &["trajectory"], types: &["Recording"], ..TERM },
+    Term { name: "motion to rest", modules: &["rest"], methods: &["solve_to_rest"], ..TERM },
+    Term { name: "the search for the critical speed", modules: &["critical"], ..TERM },
+    Term { name: "the choice of a method", types: &["Adaptive"], ..TERM },
+    Term { name: "the paper's method", modules: &["gill"], types: &["RungeKuttaGill"], ..TERM },
 ];
 
 /// What no impact alone uses.
 const AROUND_AN_IMPACT: [Term; 5] = [
     Term { name: "tables", modules: &["table"], ..TERM },
     Term { name: "calibration", modules: &["measure"], ..TERM },
-    Term { name: "uncertainty", modules: &["dual", "tables"], types: &["Dual"], ..TERM },
+    Term { name: "uncertainty", modules: &["dual"], types: &["Dual"], ..TERM },
     Term { name: "instrument", modules: &["instrument"], ..TERM },
     Term { name: "fixed point", modules: &["fixed"], types: &["FixedPoint", "InFixedPoint"], ..TERM },
 ];
@@ -147,8 +150,17 @@ pub fn differing(toolchain: &Toolchain, board: &Board) -> Result<Vec<u32>, Strin
 /// depend on it.
 fn frame(copy: &Path) -> Result<(), String> {
     let files = ["README.md", "memory.x"].map(PathBuf::from).into_iter().chain(
-        ["Cargo.toml", "Cargo.lock", "build.rs", "maps/mps2.x", "maps/mps2-an505.x", "maps/virt.x"]
-            .map(|file| Path::new(FOLDER).join(file)),
+        [
+            "Cargo.toml",
+            "Cargo.lock",
+            "build.rs",
+            "maps/mps2.x",
+            "maps/mps2-an505.x",
+            "maps/virt.x",
+            "measurement/Cargo.toml",
+            "scenes/Cargo.toml",
+        ]
+        .map(|file| Path::new(FOLDER).join(file)),
     );
     for file in files {
         let to = copy.join(&file);
@@ -165,33 +177,28 @@ fn frame(copy: &Path) -> Result<(), String> {
 }
 
 /// What the firmware of one scene does not need.
-const OTHER_FIRMWARE: [&str; 10] = [
-    "approximate",
-    "bin",
-    "calibrations",
-    "entries",
-    "fixed_contacts",
-    "measurement",
-    "methods",
-    "station",
-    "tables",
-    "variants",
-];
+const OTHER_FIRMWARE: [&str; 9] =
+    ["approximate", "bin", "calibrations", "entries", "fixed_contacts", "methods", "station", "tables", "variants"];
 
 /// The sources of the library and of the firmware, without some parts.
 fn sources(copy: &Path, parts: &Parts<'_>) -> Result<(), String> {
-    let firmware = Path::new(FOLDER).join("src");
-    for folder in [Path::new("src"), &firmware] {
-        let folder = copy.join(folder);
-        if folder.exists() {
-            fs::remove_dir_all(&folder).map_err(|error| format!("cannot remove {}: {error}", folder.display()))?;
-        }
-    }
-    without::copy(&repository().join("src"), &copy.join("src"), parts)?;
     let mut rest = parts.clone();
     rest.modules.extend(OTHER_FIRMWARE);
-    without::copy(&repository().join(&firmware), &copy.join(&firmware), &rest)?;
-    without::copy(&repository().join(&firmware).join("bin"), &copy.join(&firmware).join("bin"), &Parts::default())
+    let of_the_firmware = |folder: &str| Path::new(FOLDER).join(folder);
+    for (folder, parts) in [
+        (PathBuf::from("src"), parts),
+        (of_the_firmware("src"), &rest),
+        (of_the_firmware("scenes/src"), &rest),
+        (of_the_firmware("measurement/src"), &Parts::default()),
+        (of_the_firmware("src/bin"), &Parts::default()),
+    ] {
+        let to = copy.join(&folder);
+        if to.exists() {
+            fs::remove_dir_all(&to).map_err(|error| format!("cannot remove {}: {error}", to.display()))?;
+        }
+        without::copy(&repository().join(&folder), &to, parts)?;
+    }
+    Ok(())
 }
 
 /// All bytes that a firmware puts into memory.

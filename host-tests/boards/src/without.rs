@@ -32,16 +32,22 @@ struct Taken {
     functions: BTreeSet<String>,
 }
 
-/// Copies the Rust files below `from` to `to`, without some parts.
+/// Copies the files below `from` to `to`, those in Rust without some parts.
 pub fn copy(from: &Path, to: &Path, parts: &Parts<'_>) -> Result<(), String> {
-    let mut files = BTreeMap::new();
-    read(from, Path::new(""), &parts.modules, &mut files)?;
+    let (mut files, mut others) = (BTreeMap::new(), Vec::new());
+    read(from, Path::new(""), &parts.modules, &mut files, &mut others)?;
     take_out(&mut files, parts);
-    for (path, file) in &files {
+    let others = others.into_iter().map(|path| {
+        let text = fs::read_to_string(from.join(&path));
+        text.map(|text| (path.clone(), text)).map_err(|error| format!("{}: {error}", from.join(&path).display()))
+    });
+    let texts = files.into_iter().map(|(path, file)| Ok((path, file.to_token_stream().to_string())));
+    for file in texts.chain(others) {
+        let (path, text) = file?;
         let path = to.join(path);
         let wrong = |error: std::io::Error| format!("cannot write {}: {error}", path.display());
         fs::create_dir_all(path.parent().unwrap_or(to)).map_err(wrong)?;
-        fs::write(&path, file.to_token_stream().to_string()).map_err(wrong)?;
+        fs::write(&path, text).map_err(wrong)?;
     }
     Ok(())
 }
@@ -64,8 +70,14 @@ pub fn take_out(files: &mut BTreeMap<PathBuf, File>, parts: &Parts<'_>) {
     }
 }
 
-/// Parses the files of all modules but those to be without.
-fn read(root: &Path, below: &Path, without: &[&str], files: &mut BTreeMap<PathBuf, File>) -> Result<(), String> {
+/// Parses the files of all modules but those to be without, and lists the files that are not in Rust.
+fn read(
+    root: &Path,
+    below: &Path,
+    without: &[&str],
+    files: &mut BTreeMap<PathBuf, File>,
+    others: &mut Vec<PathBuf>,
+) -> Result<(), String> {
     let folder = root.join(below);
     let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", folder.display());
     for entry in fs::read_dir(&folder).map_err(|error| wrong(&error))? {
@@ -75,10 +87,12 @@ fn read(root: &Path, below: &Path, without: &[&str], files: &mut BTreeMap<PathBu
             continue;
         }
         if entry.path().is_dir() {
-            read(root, &path, without, files)?;
+            read(root, &path, without, files, others)?;
         } else if path.extension().is_some_and(|extension| extension == "rs") {
             let text = fs::read_to_string(entry.path()).map_err(|error| wrong(&error))?;
             files.insert(path, syn::parse_file(&text).map_err(|error| wrong(&error))?);
+        } else {
+            others.push(path);
         }
     }
     Ok(())
@@ -107,6 +121,7 @@ fn strip(file: &mut File, taken: &mut Taken) {
             }
             item.items.retain(|member| match member {
                 ImplItem::Fn(method) => !here.names_any(method.to_token_stream()),
+                ImplItem::Const(constant) => !here.names_any(constant.to_token_stream()),
                 _ => true,
             });
             true

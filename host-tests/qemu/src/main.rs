@@ -1,12 +1,12 @@
-//! `cargo qemu`: builds the firmware of `examples/firmware` for six processor
-//! cores, runs it in QEMU, compares every class with the host's, and reports what
-//! the library costs: instructions, flash, static memory and stack.
+//! `cargo qemu`: builds the firmware of `examples/firmware` for one processor core or all six, runs it in QEMU, compares
+//! every class with the host's, and reports what the library costs: instructions, flash, static memory and stack.
 
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use clap::builder::PossibleValuesParser;
 use clap::{Parser, Subcommand, ValueEnum};
 
 use answers::{Case, Code, Expected, Protocol};
@@ -28,7 +28,7 @@ mod panics;
 mod report;
 mod session;
 
-/// Runs the firmware on emulated Cortex-M0, M3, M4F, M7 and M33 and on RISC-V, and
+/// Runs the firmware on an emulated Cortex-M4F, or on Cortex-M0, M3, M4F, M7, M33 and RISC-V, and
 /// reports class and instructions of every classification, flash, static memory, stack,
 /// and whether a panicking path is left.
 ///
@@ -39,6 +39,12 @@ mod session;
 struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
+    /// Core to run on
+    #[arg(long, value_name = "NAME", default_value = REFERENCE_CORE, value_parser = PossibleValuesParser::new(BOARDS.map(|board| board.core)))]
+    core: String,
+    /// Run on all cores
+    #[arg(long, conflicts_with = "core")]
+    all_cores: bool,
     /// The largest figures of each scene, number type and core in one row: instructions, flash, stack, static memory and error;
     /// panicking paths are not looked for
     #[arg(long)]
@@ -49,7 +55,7 @@ struct Arguments {
     /// Compiler for the boards
     #[arg(long, global = true, value_enum, default_value_t = Choice::Auto)]
     toolchain: Choice,
-    /// Store the figures as those that later runs are compared with
+    /// Run on all cores and store the figures as those that later runs are compared with
     #[arg(long)]
     overwrite: bool,
     /// Install nothing; say what is missing
@@ -102,13 +108,15 @@ fn run(arguments: &Arguments, permission: Permission) -> Result<Vec<String>, Str
     let stored = Stored::read(&Stored::path())?;
     let expected = answers::expected()?;
     let calibrated = calibrate::expected()?;
-    let toolchain = tools(arguments.toolchain, &BOARDS, permission)?;
+    let is_chosen = |board: &Board| arguments.all_cores || arguments.overwrite || board.core == arguments.core;
+    let boards: Vec<Board> = BOARDS.into_iter().filter(is_chosen).collect();
+    let toolchain = tools(arguments.toolchain, &boards, permission)?;
 
     let mut failures = Vec::new();
     let mut protocols = Vec::new();
     let mut figures = Vec::new();
     let mut proved = Vec::new();
-    for board in &BOARDS {
+    for board in &boards {
         match run_board(&toolchain, board) {
             Ok((protocol, code)) => {
                 let differences = protocol.differences(&expected);
@@ -135,7 +143,7 @@ fn run(arguments: &Arguments, permission: Permission) -> Result<Vec<String>, Str
             failures.extend(doubts);
         }
     }
-    for board in BOARDS.iter().filter(|board| absent::CORES.contains(&board.core)) {
+    for board in boards.iter().filter(|board| absent::CORES.contains(&board.core)) {
         eprintln!("looking for bytes of absent terms on {} ...", board.core);
         match absent::differing(&toolchain, board) {
             Ok(bytes) => figures.extend(absent::PROOFS.iter().zip(bytes).map(|(proof, bytes)| {
@@ -144,9 +152,11 @@ fn run(arguments: &Arguments, permission: Permission) -> Result<Vec<String>, Str
             Err(error) => failures.push(error),
         }
     }
-    match flash(&toolchain) {
-        Ok(sizes) => figures.extend(sizes),
-        Err(error) => failures.push(error),
+    for board in boards.iter().filter(|board| board.core == REFERENCE_CORE) {
+        match flash(&toolchain, board) {
+            Ok(sizes) => figures.extend(sizes),
+            Err(error) => failures.push(error),
+        }
     }
     let checked = limits::check(&figures);
     failures.extend(limits::broken(&checked));
@@ -291,25 +301,23 @@ const FLASH: [(&str, &str); 8] = [
 const SMALL_FLASH: [(&str, &str); 2] =
     [("small/fixed-1e-5", "flash_contact_fixed"), ("small/fixed-oblique-1e-5", "flash_contact_fixed_oblique")];
 
-fn flash(toolchain: &Toolchain) -> Result<Vec<Figure>, String> {
+fn flash(toolchain: &Toolchain, board: &Board) -> Result<Vec<Figure>, String> {
     let mut figures = Vec::new();
-    for board in BOARDS.iter().filter(|board| board.core == REFERENCE_CORE) {
-        let binaries = |scenes: &[(&'static str, &'static str)]| {
-            let mut binaries = vec!["flash_empty"];
-            binaries.extend(scenes.iter().map(|(_, binary)| *binary));
-            binaries
-        };
-        let fast = firmware::build(toolchain, board, &binaries(&FLASH))?;
-        let small = firmware::build_small(toolchain, board, &binaries(&SMALL_FLASH))?;
-        for (folder, scenes) in [(fast, &FLASH[..]), (small, &SMALL_FLASH[..])] {
-            let empty = Footprint::of(&folder.join("flash_empty"))?;
-            for (scene, binary) in scenes {
-                let added = Footprint::of(&folder.join(binary))?.minus(empty);
-                figures.push(of_scene(board, scene, limits::SCALAR, Quantity::Flash, added.flash.into()));
-                if limits::is_small(scene) {
-                    let variables = added.static_memory.into();
-                    figures.push(of_scene(board, scene, limits::SCALAR, Quantity::StaticMemory, variables));
-                }
+    let binaries = |scenes: &[(&'static str, &'static str)]| {
+        let mut binaries = vec!["flash_empty"];
+        binaries.extend(scenes.iter().map(|(_, binary)| *binary));
+        binaries
+    };
+    let fast = firmware::build(toolchain, board, &binaries(&FLASH))?;
+    let small = firmware::build_small(toolchain, board, &binaries(&SMALL_FLASH))?;
+    for (folder, scenes) in [(fast, &FLASH[..]), (small, &SMALL_FLASH[..])] {
+        let empty = Footprint::of(&folder.join("flash_empty"))?;
+        for (scene, binary) in scenes {
+            let added = Footprint::of(&folder.join(binary))?.minus(empty);
+            figures.push(of_scene(board, scene, limits::SCALAR, Quantity::Flash, added.flash.into()));
+            if limits::is_small(scene) {
+                let variables = added.static_memory.into();
+                figures.push(of_scene(board, scene, limits::SCALAR, Quantity::StaticMemory, variables));
             }
         }
     }

@@ -123,7 +123,7 @@ pub(crate) fn section(_: &Run) -> Result<Section, String> {
     };
     let prices = Prices { figures: stored.rows_of(compiler).collect() };
     let mut parts = vec![Part::Text(format!(
-        "Measured by `cargo qemu --counts` with {compiler}, optimised for speed, on emulated boards. The first row of each \
+        "Measured by `cargo qemu --all-cores --counts` with {compiler}, optimised for speed, on emulated boards. The first row of each \
          number type is the cost of its scene. Each row below is what its term adds to the scene with one term less. \
          Instructions are not cycles: a division counts 1. Code and constants are all that the firmware needs to set up \
          a scene, to validate a motion and to classify it, or to calibrate, including the compiler's routines for \

@@ -164,7 +164,7 @@ fn numbers_in_prose_are_the_tested_ones() {
         ),
         (
             include_str!("../simulation/simulation_exact.rs"),
-            "assert!(spent < SCENES / 2500,",
+            "assert!(spent < all / 2500,",
             "fewer than one in ten thousand",
         ),
         (include_str!("../rigid/table1.rs"), "(spin / 4.16e4 - 1.0).abs() < 0.004", "but for the final spin (0.4 %)"),

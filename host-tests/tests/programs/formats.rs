@@ -1,6 +1,6 @@
 //! Every public type can be logged by defmt, and written by serde.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use quote::ToTokens;
@@ -20,40 +20,51 @@ const UNWRITTEN: [&str; 10] = [
     "Sender",
 ];
 
-/// What the source says of types.
+/// A name in a module: the path from the root of the crate.
+type Place = Vec<String>;
+
+/// What the source states of types.
 #[derive(Default)]
 struct Types {
-    /// Declared with their attributes as text.
-    declared: Vec<(String, String)>,
-    exported: BTreeSet<String>,
-    /// Traits implemented by hand, with the types they are implemented for.
+    /// Attributes of each declared type, as text.
+    declared: BTreeMap<Place, String>,
+    /// What a public name of a module stands for.
+    exported: BTreeMap<Place, Place>,
+    public_modules: BTreeSet<Place>,
+    /// Traits implemented by hand, with the names of the types they are implemented for.
     implemented: BTreeSet<(String, String)>,
 }
 
 impl Types {
     fn read(folder: &Path) -> Self {
         let mut types = Self::default();
-        types.read_folder(folder);
+        types.read_folder(folder, &[]);
         types
     }
 
-    fn read_folder(&mut self, folder: &Path) {
+    fn read_folder(&mut self, folder: &Path, module: &[String]) {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
+            let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
             if path.is_dir() {
-                self.read_folder(&path);
+                self.read_folder(&path, &[module, &[name]].concat());
             } else if path.extension().is_some_and(|extension| extension == "rs") {
-                self.read_items(&syn::parse_file(&std::fs::read_to_string(&path).unwrap()).unwrap().items);
+                let items = syn::parse_file(&std::fs::read_to_string(&path).unwrap()).unwrap().items;
+                let own = if name == "mod" || name == "lib" { Vec::new() } else { vec![name] };
+                self.read_items(&items, &[module, &own].concat());
             }
         }
     }
 
-    fn read_items(&mut self, items: &[Item]) {
+    fn read_items(&mut self, items: &[Item], module: &[String]) {
+        let public = |visibility: &Visibility| matches!(visibility, Visibility::Public(_));
+        let place = |name: &Ident| [module, &[name.to_string()]].concat();
         for item in items {
             match item {
-                Item::Struct(item) => self.declare(&item.vis, &item.ident, &item.attrs),
-                Item::Enum(item) => self.declare(&item.vis, &item.ident, &item.attrs),
-                Item::Use(item) if matches!(item.vis, Visibility::Public(_)) => self.export(&item.tree),
+                Item::Struct(item) if public(&item.vis) => self.declare(place(&item.ident), &item.attrs),
+                Item::Enum(item) if public(&item.vis) => self.declare(place(&item.ident), &item.attrs),
+                Item::Mod(item) if public(&item.vis) => drop(self.public_modules.insert(place(&item.ident))),
+                Item::Use(item) if public(&item.vis) => self.export(&item.tree, module, module),
                 Item::Impl(item) => {
                     if let (Some((_, path, _)), syn::Type::Path(of)) = (&item.trait_, &*item.self_ty) {
                         let last = |path: &syn::Path| path.segments.last().unwrap().ident.to_string();
@@ -65,37 +76,72 @@ impl Types {
         }
     }
 
-    fn declare(&mut self, visibility: &Visibility, name: &Ident, attributes: &[Attribute]) {
-        if matches!(visibility, Visibility::Public(_)) {
-            let text = attributes.iter().map(|attribute| attribute.to_token_stream().to_string());
-            self.declared.push((name.to_string(), text.collect()));
-        }
+    fn declare(&mut self, place: Place, attributes: &[Attribute]) {
+        let text = attributes.iter().map(|attribute| attribute.to_token_stream().to_string()).collect();
+        self.declared.insert(place, text);
     }
 
-    fn export(&mut self, tree: &UseTree) {
+    /// Exports the names of a `use` in `module`, whose tree stands below the path `from`.
+    fn export(&mut self, tree: &UseTree, module: &[String], from: &[String]) {
+        let below = |from: &[String], name: &Ident| [from, &[name.to_string()]].concat();
         match tree {
-            UseTree::Path(path) => self.export(&path.tree),
-            UseTree::Name(name) => drop(self.exported.insert(name.ident.to_string())),
-            UseTree::Rename(rename) => drop(self.exported.insert(rename.ident.to_string())),
-            UseTree::Group(group) => group.items.iter().for_each(|item| self.export(item)),
+            UseTree::Path(path) => {
+                let from = match path.ident.to_string().as_str() {
+                    "crate" => Vec::new(),
+                    "self" => from.to_vec(),
+                    "super" => from[..from.len() - 1].to_vec(),
+                    _ => below(from, &path.ident),
+                };
+                self.export(&path.tree, module, &from);
+            }
+            UseTree::Name(name) => drop(self.exported.insert(below(module, &name.ident), below(from, &name.ident))),
+            UseTree::Rename(rename) => {
+                self.exported.insert(below(module, &rename.rename), below(from, &rename.ident));
+            }
+            UseTree::Group(group) => group.items.iter().for_each(|item| self.export(item, module, from)),
             UseTree::Glob(_) => panic!("the test does not follow globs"),
         }
     }
 
+    /// Types that another crate can name.
+    fn public(&self) -> BTreeSet<&Place> {
+        let in_public_module = |place: &Place| {
+            let modules = &place[..place.len() - 1];
+            (1..=modules.len()).all(|depth| self.public_modules.contains(&modules[..depth]))
+        };
+        let exported = self.exported.keys().filter(|place| in_public_module(place)).map(|mut place| {
+            while let Some(of) = self.exported.get(place) {
+                place = of;
+            }
+            place
+        });
+        let declared = self.declared.keys().filter(|place| in_public_module(place));
+        declared.chain(exported.filter(|place| self.declared.contains_key(*place))).collect()
+    }
+
     /// Public types that neither derive a trait nor have it by hand.
     fn without(&self, name: &str, derived: &str) -> Vec<&str> {
-        let has = |(of, attributes): &(String, String)| {
-            attributes.contains(derived) || self.implemented.contains(&(name.to_owned(), of.clone()))
+        let lacks = |place: &&Place| {
+            let by_hand = (name.to_owned(), last(place).to_owned());
+            !self.declared[*place].contains(derived) && !self.implemented.contains(&by_hand)
         };
-        let public = self.declared.iter().filter(|(of, _)| self.exported.contains(of));
-        public.filter(|declared| !has(declared)).map(|(of, _)| of.as_str()).collect()
+        self.public().into_iter().filter(lacks).map(last).collect()
     }
+}
+
+/// The name of a place, without its module.
+fn last(place: &Place) -> &str {
+    place.last().map_or("", String::as_str)
 }
 
 #[test]
 fn every_public_type_has_its_formats() {
     let types = Types::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../src"));
-    let public = types.declared.iter().filter(|(of, _)| types.exported.contains(of)).count();
+    let public = types.public().len();
+    let names: BTreeSet<&str> = types.exported.keys().chain(types.exported.values()).map(last).collect();
+    let found = types.public();
+    for place in types.declared.keys() { if names.contains(last(place)) != found.contains(place) { println!("DIFF {place:?} {}", found.contains(place)); } }
+    println!("COUNT {public}");
     assert!(public > 100, "{public}");
     assert_eq!(types.without("Format", "defmt :: Format"), [""; 0]);
     let mut unwritten = types.without("Serialize", "serde :: Serialize");

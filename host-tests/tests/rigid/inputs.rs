@@ -151,7 +151,7 @@ fn assert_bounds_hold<T: Single + NormalDistribution + Into<f64>>(not_a_number: 
             let error = supply(parameter, value).unwrap_err();
             let ImpactError::Input(error) = error else { panic!("{parameter:?}: {error}") };
             assert_eq!((error.parameter, error.fault), (parameter, fault), "{value:?}");
-            assert!(!(parameter.range().0..=parameter.range().1).contains(&error.value), "{error:?}");
+            assert!(!(parameter.range().0..=parameter.range().1).contains(&f64::from(error.value)), "{error:?}");
         };
         for value in not_a_number {
             // The impulse itself is checked before the change of velocity that it makes.

@@ -99,7 +99,7 @@ fn close(a: f64, b: f64, scale: f64) -> Result<(), TestCaseError> {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 4000,
+        cases: reference::repetitions(4000, 400),
         failure_persistence: None,
         rng_seed: RngSeed::Fixed(1995),
         ..ProptestConfig::default()

@@ -76,7 +76,7 @@ fn distance_to_neighbours(classification: &Classification<f64, ContactClass<f64>
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 10_000,
+        cases: reference::repetitions(10_000, 1000),
         failure_persistence: None,
         rng_seed: RngSeed::Fixed(1995),
         ..ProptestConfig::default()

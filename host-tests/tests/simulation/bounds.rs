@@ -7,7 +7,7 @@ use microimpact::Outcome;
 use microimpact::contact::{Collocation, DimensionlessImpact, FixedCost};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
-use reference::cases;
+use reference::{cases, repetitions};
 
 /// Bound of fixed point.
 const FIXED_POINT: f64 = 128.0;
@@ -42,11 +42,12 @@ fn captures_of(scenes: u32, seed: u64) -> u32 {
 
 #[test]
 fn values_of_a_million_random_scenes() {
+    let scenes = repetitions(250_000, 10_000);
     let captures: u32 = thread::scope(|scope| {
-        let threads: Vec<_> = (0..4).map(|seed| scope.spawn(move || captures_of(250_000, seed))).collect();
+        let threads: Vec<_> = (0..4).map(|seed| scope.spawn(move || captures_of(scenes, seed))).collect();
         threads.into_iter().map(|thread| thread.join().unwrap()).sum()
     });
-    assert!((50_000..950_000).contains(&captures), "{captures} captures");
+    assert!((scenes / 5..scenes * 19 / 5).contains(&captures), "{captures} captures");
 }
 
 #[test]
@@ -101,8 +102,9 @@ fn largest_by_collocation(scenes: u32, seed: u64) -> f64 {
 
 #[test]
 fn values_of_random_scenes_by_collocation() {
+    let scenes = repetitions(50_000, 5_000);
     let largest = thread::scope(|scope| {
-        let threads: Vec<_> = (0..4).map(|seed| scope.spawn(move || largest_by_collocation(50_000, seed))).collect();
+        let threads: Vec<_> = (0..4).map(|seed| scope.spawn(move || largest_by_collocation(scenes, seed))).collect();
         threads.into_iter().map(|thread| thread.join().unwrap()).fold(0.0, f64::max)
     });
     assert!(largest < SINGLE_PRECISION, "{largest:.1e}");

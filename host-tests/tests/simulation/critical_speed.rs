@@ -247,7 +247,7 @@ prop_compose! {
 }
 
 proptest! {
-    #![proptest_config(config(2000))]
+    #![proptest_config(config(reference::repetitions(2000, 200)))]
 
     #[test]
     fn capture_below_and_rebound_above(inputs in scenes()) {
@@ -284,7 +284,7 @@ proptest! {
 /// Inputs anywhere within and beyond their ranges end in a result or a named error.
 #[test]
 fn nothing_panics_or_returns_what_is_no_speed() {
-    let mut runner = proptest::test_runner::TestRunner::new(config(500));
+    let mut runner = proptest::test_runner::TestRunner::new(config(reference::repetitions(500, 50)));
     let wild = (decades(-10.0, 0.0), decades(-2.0, 6.0), decades(0.0, 16.0), decades(-12.0, 9.0))
         .prop_flat_map(|scene| (Just(scene), decades(-12.0, 9.0), decades(-12.0, 9.0), -1.0..1.0, decades(-20.0, 6.0)));
     let result = runner.run(&wild, |((radius, density, stiffness, adhesion), zeta_h, zeta_a, sign, force)| {

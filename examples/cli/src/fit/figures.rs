@@ -4,10 +4,9 @@
 use std::error::Error;
 use std::path::Path;
 
+use joint_fit::{JointFit, Moments, NAMES};
 use plotters::style::RED;
 
-use super::joint::Moments;
-use super::{JointFit, NAMES};
 use crate::figure::{Panel, chart, drawing};
 
 /// Draws four panels into an SVG file.

@@ -1,4 +1,4 @@
-//! What the instrument measures and how it speaks of it. Firmware and host compile this file, so that they agree.
+//! What the instrument measures and how it speaks of it. Firmware and host share this file, so that they agree.
 
 use microimpact::instrument::link::{Reply, Request};
 use microimpact::instrument::{PlanarReading, SpeedBins};

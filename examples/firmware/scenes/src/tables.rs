@@ -15,7 +15,7 @@ use super::table_1::{FRICTION, RADIUS_M};
 /// Three octaves of radii around that of the sphere.
 pub type Table = BoundaryTable<12>;
 
-/// As `cargo run --release --example boundary -- --smallest-radius 2e-6 --cells 12` writes it: made here, it would take the
+/// As `cargo microimpact table --smallest-radius 2e-6 --cells 12` writes it: made here, it would take the
 /// last of the flash for the search of critical speeds.
 const TABLE: Table = match BoundaryTable::from_parts(
     1.9073486e-6,

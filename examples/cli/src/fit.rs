@@ -7,14 +7,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 use comfy_table::Table;
+use joint_fit::{Impact, JointFit, Known, NAMES};
 use sheet::Sheet;
 
 use crate::Streams;
 use crate::command::{exit_status, open};
-pub use joint::{COUNT, FitError, Impact, JointFit, Known, NAMES, Parameters, restitution};
 
 pub mod figures;
-mod joint;
 
 /// Fit f0, zeta_H, zeta_A, and mean and spread of the diameters to a table of approach speeds and restitutions.
 ///
