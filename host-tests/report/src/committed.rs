@@ -1,4 +1,4 @@
-//! Figures that README shows: kept in the repository, on a ground of their own that reads in light and dark.
+//! Figures that the documentation shows: kept in the repository, on a background of their own that suits light and dark pages.
 //!
 //! They show results alone, never times, and their coordinates are whole numbers: every machine draws the same.
 
@@ -14,27 +14,22 @@ use crate::paper;
 /// Figures by their names, all of one section.
 const NAMES: [&str; 2] = ["figure-6", "figure-7"];
 
-const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../data/figures");
-
-/// The same as addresses that contain the drawings, for documentation, which has no files beside it: README names its figures
-/// by labels, and of two definitions of a label the first counts.
-const EMBEDDED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../src/figures.md");
+/// The file of the documentation, which has no files beside it: each figure is an address that contains the drawing.
+const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../src/figures.md");
 
 /// What may not stand in an address, or means something in Markdown.
 const ENCODED: &AsciiSet =
     &CONTROLS.add(b' ').add(b'"').add(b'#').add(b'%').add(b'&').add(b'(').add(b')').add(b'<').add(b'>');
 
-/// The files with what they ought to contain.
-fn drawn() -> Result<Vec<(PathBuf, String)>, String> {
+/// What the file should contain.
+fn drawn() -> Result<String, String> {
     let section = paper::section(&Run { quick: true })?;
-    let (mut files, mut embedded) = (Vec::new(), String::new());
+    let mut embedded = String::new();
     for name in NAMES {
         let drawing = drawing(&section, name)?;
         embedded += &format!("[{name}]: data:image/svg+xml,{}\n", utf8_percent_encode(&drawing, ENCODED));
-        files.push((PathBuf::from(FOLDER).join(format!("{name}.svg")), drawing));
     }
-    files.push((PathBuf::from(EMBEDDED), embedded));
-    Ok(files)
+    Ok(embedded)
 }
 
 fn drawing(section: &Section, name: &str) -> Result<String, String> {
@@ -47,18 +42,16 @@ fn drawing(section: &Section, name: &str) -> Result<String, String> {
     Ok(format!("{head}\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{rest}"))
 }
 
-/// Draws them anew.
+/// Draws the figures again.
 pub(crate) fn write() -> Result<(), Box<dyn Error>> {
-    fs::create_dir_all(FOLDER)?;
-    for (path, drawing) in drawn()? {
-        fs::write(&path, drawing)?;
-        eprintln!("{}", path.display());
-    }
+    fs::write(PATH, drawn()?)?;
+    eprintln!("{PATH}");
     Ok(())
 }
 
-/// Those that differ from what would be drawn now.
-pub(crate) fn stale() -> Result<Vec<PathBuf>, Box<dyn Error>> {
-    let current = |(path, drawing): &(PathBuf, String)| fs::read_to_string(path).is_ok_and(|text| text == *drawing);
-    Ok(drawn()?.into_iter().filter(|file| !current(file)).map(|(path, _)| path).collect())
+/// The file, if it differs from what would be drawn now.
+pub(crate) fn stale() -> Result<Option<PathBuf>, Box<dyn Error>> {
+    let current = drawn()?;
+    let is_current = fs::read_to_string(PATH).is_ok_and(|text| text == current);
+    Ok((!is_current).then(|| PathBuf::from(PATH)))
 }

@@ -38,10 +38,10 @@ pub struct Options {
     /// Only these sections
     #[arg(long, value_name = "SECTION", value_parser = PossibleValuesParser::new(SECTIONS.map(|(name, _)| name)))]
     only: Vec<String>,
-    /// Draw the figures that README shows, and nothing else
+    /// Draw the figures of the documentation, and nothing else
     #[arg(long, conflicts_with_all = ["check", "quick", "output", "only"])]
     figures: bool,
-    /// See whether the figures that README shows are current, and do nothing else
+    /// Check whether the figures of the documentation are current, and do nothing else
     #[arg(long, conflicts_with_all = ["quick", "output", "only"])]
     check: bool,
 }
@@ -54,7 +54,7 @@ const SECTIONS: [(&str, Write); 4] =
 
 const REPOSITORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 
-/// Does what is asked for; whether all of it succeeded.
+/// Does what the options ask for, and returns whether all of it succeeded.
 ///
 /// # Errors
 /// A file that cannot be written.
@@ -66,16 +66,16 @@ pub fn run(options: &Options) -> Result<bool, Box<dyn Error>> {
     }
 }
 
-/// Whether the figures that README shows are current.
+/// Whether the figures of the documentation are current.
 fn check() -> Result<bool, Box<dyn Error>> {
     let stale = committed::stale()?;
-    for path in &stale {
-        eprintln!("not current: {}; `cargo write-report --figures` draws it anew", path.display());
+    if let Some(path) = &stale {
+        eprintln!("not current: {}; `cargo write-report --figures` draws it again", path.display());
     }
-    Ok(stale.is_empty())
+    Ok(stale.is_none())
 }
 
-/// Runs the sections and writes the page; whether all of them succeeded.
+/// Runs the sections, writes the page, and returns whether all of them succeeded.
 fn write(options: &Options) -> Result<bool, Box<dyn Error>> {
     let run = Run { quick: options.quick };
     let begin = Instant::now();
