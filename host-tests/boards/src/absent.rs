@@ -63,7 +63,7 @@ const OF_THE_RIGID_BODY: [Term; 4] = [
 /// What no simulation of the proof uses.
 const OF_THE_SIMULATION: [Term; 8] = [
     Term { name: "laws chosen at run time", modules: &["chosen"], types: &["AnyLaw"], ..TERM },
-    Term { name: "peeling", modules: &["peeling"], types: &["Peeling"], methods: &["with_peeling"], ..TERM },
+    Term { name: "peeling", modules: &["peeling"], types: &["Peeling"], methods: &["with_peeling"] },
     Term { name: "external force", types: &["ConstantForce"], methods: &["with_external_force"], ..TERM },
     Term { name: "recording", modules: &["trajectory"], types: &["Recording"], ..TERM },
     Term { name: "motion to rest", modules: &["rest"], methods: &["solve_to_rest"], ..TERM },

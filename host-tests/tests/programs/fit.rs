@@ -1,8 +1,8 @@
 //! The joint fit on synthetic clouds: it finds the truth within the intervals that it states.
 
 use joint_fit::{COUNT, FitError, Impact, JointFit, Known, NAMES, Parameters, restitution};
-use microimpact_cli::fit::figures;
 use microimpact::Parameter;
+use microimpact_cli::fit::figures;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rand_distr::{Distribution, Normal, StandardNormal};

@@ -71,16 +71,16 @@ impl<T: Real, B: Oblique<T>> Surface<T, B> for Coulomb<T> {
         let captured = path.end == End::Capture;
         let SurfaceImpulse { friction, gyration_ratio, velocity: v, peripheral: u, elastic } = *observer;
         let impulses = Friction::against(v - u, friction * elastic, sphere.contact_inertia());
-        let sliding = !impulses.rolls && !(captured && friction > T::ZERO);
-        let (velocity, peripheral) = if sliding {
-            (v + impulses.total, u - impulses.total / gyration_ratio)
-        } else {
+        let ends = impulses.rolls || (captured && friction > T::ZERO);
+        let (velocity, peripheral) = if ends {
             let rolling = rolling(v, u, gyration_ratio);
             (rolling, rolling)
+        } else {
+            (v + impulses.total, u - impulses.total / gyration_ratio)
         };
         let rests = captured && velocity.abs() <= rounding(v, u, gyration_ratio);
         TangentialVelocities {
-            motion: surface_motion(sliding, rests),
+            motion: surface_motion(!ends, rests),
             velocity: velocity * units.speed,
             spin: peripheral * units.speed / sphere.radius(),
             sliding_friction: impulses.sliding,

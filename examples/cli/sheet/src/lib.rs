@@ -59,6 +59,9 @@ pub struct Sheet<R> {
 
 impl<'a> Sheet<Box<dyn BufRead + 'a>> {
     /// Opens a table and reads its header.
+    ///
+    /// # Errors
+    /// What is wrong with the table or the cell, in words.
     pub fn open(mut source: impl BufRead + 'a) -> Result<Self, String> {
         let mut header_line = Vec::new();
         source.read_until(b'\n', &mut header_line).map_err(|error| error.to_string())?;
@@ -85,6 +88,9 @@ fn column_name(cell: &[u8]) -> String {
 
 impl<R: Read> Sheet<R> {
     /// The next row, or `None` after the last.
+    ///
+    /// # Errors
+    /// What is wrong with the table or the cell, in words.
     pub fn next_row(&mut self) -> Result<Option<Row<'_>>, String> {
         let mut cells = ByteRecord::new();
         let more = self.rows.read_byte_record(&mut cells).map_err(|error| error.to_string())?;
@@ -95,6 +101,9 @@ impl<R: Read> Sheet<R> {
 
     /// A writer for this table with computed columns after its own. If a column of the table has the name of a computed
     /// column, its copy is named `input_...`.
+    ///
+    /// # Errors
+    /// What is wrong with the table or the cell, in words.
     pub fn writer<W: Write>(&self, mut sink: W, computed: &[String]) -> Result<SheetWriter<W>, String> {
         if self.dialect.byte_order_mark {
             sink.write_all(BYTE_ORDER_MARK).map_err(|error| error.to_string())?;
@@ -139,6 +148,9 @@ impl Row<'_> {
     }
 
     /// The number in a cell; `None` if there is no such column or the cell is empty.
+    ///
+    /// # Errors
+    /// What is wrong with the table or the cell, in words.
     pub fn number<T: Scalar>(&self, column: &str) -> Result<Option<T>, String> {
         let Some(text) = self.text(column) else {
             return Ok(None);
@@ -153,16 +165,25 @@ impl Row<'_> {
     }
 
     /// The number in a cell that must not be empty.
+    ///
+    /// # Errors
+    /// What is wrong with the table or the cell, in words.
     pub fn required<T: Scalar>(&self, column: &str) -> Result<T, String> {
         self.number(column)?.ok_or_else(|| format!("{column}: missing; enter a number"))
     }
 
     /// The number in a cell, zero if it is empty.
+    ///
+    /// # Errors
+    /// What is wrong with the table or the cell, in words.
     pub fn or_zero<T: Scalar>(&self, column: &str) -> Result<T, String> {
         Ok(self.number(column)?.unwrap_or(T::ZERO))
     }
 
     /// Checks that the row has no more cells than the header.
+    ///
+    /// # Errors
+    /// What is wrong with the table or the cell, in words.
     pub fn check(&self) -> Result<(), String> {
         let surplus: Vec<_> = self.cells.iter().skip(self.names.len()).map(String::from_utf8_lossy).collect();
         if surplus.is_empty() {
@@ -200,6 +221,9 @@ pub struct SheetWriter<W: Write> {
 
 impl<W: Write> SheetWriter<W> {
     /// Writes a row with its computed cells.
+    ///
+    /// # Errors
+    /// What is wrong with the table or the cell, in words.
     pub fn write(&mut self, row: &Row<'_>, computed: &[String]) -> Result<(), csv::Error> {
         let empty: &[u8] = b"";
         let given = row.cells.iter().chain(std::iter::repeat(empty)).take(self.width);
@@ -207,6 +231,9 @@ impl<W: Write> SheetWriter<W> {
     }
 
     /// Writes the rows that are still buffered.
+    ///
+    /// # Errors
+    /// What is wrong with the table or the cell, in words.
     pub fn finish(mut self) -> Result<(), csv::Error> {
         Ok(self.rows.flush()?)
     }
