@@ -267,6 +267,9 @@ impl Parameter {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
+// As wide as the value of an error, which then takes no slot of two numbers in a result: the compiler would keep the code of
+// errors that nobody looks at.
+#[repr(u32)]
 pub enum Fault {
     /// The value is NaN or infinite.
     NotFinite,

@@ -161,8 +161,7 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         let mild =
             -phase.loss[0] <= T::constant(STRONGEST) * phase.speed[0] && left <= T::constant(LARGEST_GAIN) * energy;
         // Of a capture only the sign counts.
-        let converged = changed <= T::constant(CONVERGED) * energy
-            || (left < T::ZERO && changed < T::constant(-CLEAR_CAPTURE) * left);
+        let converged = changed <= (T::constant(CONVERGED) * energy).max(T::constant(-CLEAR_CAPTURE) * left);
         // A sphere that comes slower than a barrier is high never meets the peak computed here.
         let (_, escape) = barrier(law);
         let end = match mild && converged && energy > escape {

@@ -123,7 +123,8 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     }
 
     /// Takes the reciprocals of the present speeds.
-    #[inline]
+    // Four places call it; unrolled in each, it would take more flash than it saves instructions.
+    #[inline(never)]
     pub(crate) fn renew(&mut self) {
         for j in 0..N {
             self.half_inverse[j] = T::constant(0.5) / self.speed[j];
