@@ -123,8 +123,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     }
 
     /// Takes the reciprocals of the present speeds.
-    // Four places call it; unrolled in each, it would take more flash than it saves instructions.
-    #[inline(never)]
+    #[inline]
     pub(crate) fn renew(&mut self) {
         for j in 0..N {
             self.half_inverse[j] = T::constant(0.5) / self.speed[j];
