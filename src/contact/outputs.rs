@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use super::along::{SlipStart, TangentialMotion};
-use super::law::Units;
+use super::law::{ContactLaw, Units};
 use super::solve::integrals;
 use super::solve::observer::Observer;
 use super::solve::path::{End, NormalPath};
@@ -40,12 +40,13 @@ pub trait Output<T: Real, S> {
     fn begin(&self, start: &S) -> Self::Observer;
 
     /// The output in SI units.
-    fn finish(&self, observer: Self::Observer, end: &Ended<'_, T>) -> Self::Result;
+    fn finish<L: ContactLaw<T>>(&self, observer: Self::Observer, end: &Ended<'_, T, L>) -> Self::Result;
 }
 
 /// A motion that has come to its end, and its units.
 #[derive(Clone, Copy, Debug)]
-pub struct Ended<'a, T> {
+pub struct Ended<'a, T, L> {
+    pub(super) law: &'a L,
     pub(super) path: &'a NormalPath<T>,
     pub(super) sphere: &'a Sphere<T>,
     pub(super) units: &'a Units<T>,
@@ -60,7 +61,7 @@ impl<T: Real, S> Output<T, S> for () {
     fn begin(&self, _start: &S) {}
 
     #[inline]
-    fn finish(&self, (): (), _end: &Ended<'_, T>) {}
+    fn finish<L: ContactLaw<T>>(&self, (): (), _end: &Ended<'_, T, L>) {}
 }
 
 /// Outputs side by side. Observers come in pairs, so that those of a longer tuple are nested.
@@ -78,7 +79,7 @@ macro_rules! side_by_side {
 
             #[inline]
             #[allow(non_snake_case)] // an observer is called as its output
-            fn finish(&self, $nested: Self::Observer, end: &Ended<'_, T>) -> Self::Result {
+            fn finish<L: ContactLaw<T>>(&self, $nested: Self::Observer, end: &Ended<'_, T, L>) -> Self::Result {
                 ($(self.$index.finish($output, end),)*)
             }
         }
@@ -106,6 +107,8 @@ side_by_side!(
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Times;
 
 /// Times of a simulated impact, s, from first contact.
@@ -139,7 +142,7 @@ impl<T: Real, S> Output<T, S> for Times {
         quantities::Times::new()
     }
 
-    fn finish(&self, times: Self::Observer, end: &Ended<'_, T>) -> ContactTimes<T> {
+    fn finish<L: ContactLaw<T>>(&self, times: Self::Observer, end: &Ended<'_, T, L>) -> ContactTimes<T> {
         let unit = end.units.time();
         ContactTimes {
             peak: (end.path.peak > T::ZERO).then(|| times.peak * unit),
@@ -164,6 +167,8 @@ impl<T: Real, S> Output<T, S> for Times {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Impulses;
 
 /// Normal impulses of a simulated impact, N s.
@@ -197,7 +202,7 @@ impl<T: Real, S> Output<T, S> for Impulses {
         integrals::Impulses::new()
     }
 
-    fn finish(&self, impulses: Self::Observer, end: &Ended<'_, T>) -> ContactImpulses<T> {
+    fn finish<L: ContactLaw<T>>(&self, impulses: Self::Observer, end: &Ended<'_, T, L>) -> ContactImpulses<T> {
         let unit = end.sphere.mass() * end.units.speed;
         ContactImpulses { elastic: impulses.elastic * unit, adhesion_rebound: impulses.adhesion_rebound * unit }
     }
@@ -218,6 +223,8 @@ impl<T: Real, S> Output<T, S> for Impulses {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Works;
 
 /// Energies that the two kinds of damping take from the normal motion, J.
@@ -243,7 +250,7 @@ pub struct ContactWorks<T> {
 }
 
 impl<T: Real> ContactWorks<T> {
-    fn new(works: &integrals::Works<T>, end: &Ended<'_, T>) -> Self {
+    fn new<L>(works: &integrals::Works<T>, end: &Ended<'_, T, L>) -> Self {
         // In this order no factor leaves the range of single precision.
         let energy = |work: T| end.sphere.mass() * end.units.speed * (end.units.speed * work);
         Self { material: energy(works.material), adhesion: energy(works.adhesion) }
@@ -259,7 +266,7 @@ impl<T: Real, S> Output<T, S> for Works {
         integrals::Works::new()
     }
 
-    fn finish(&self, works: Self::Observer, end: &Ended<'_, T>) -> ContactWorks<T> {
+    fn finish<L: ContactLaw<T>>(&self, works: Self::Observer, end: &Ended<'_, T, L>) -> ContactWorks<T> {
         ContactWorks::new(&works, end)
     }
 }
@@ -287,14 +294,16 @@ impl<T: Real, S> Output<T, S> for Works {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Energy;
 
 impl Energy {
     /// The ledger, from the energies along the surface over m U^2: kinetic after, and taken by friction and peeling.
-    fn ledger<T: Real>(
+    fn ledger<T: Real, L: ContactLaw<T>>(
         works: &integrals::Works<T>,
         [after, friction, peeling]: [T; 3],
-        end: &Ended<'_, T>,
+        end: &Ended<'_, T, L>,
     ) -> Option<EnergyLedger<T>> {
         if end.path.end != End::Separation {
             return None;
@@ -305,7 +314,8 @@ impl Energy {
             before: joules(end.units.energy + after + friction + peeling),
             after: joules(end.path.energy.max(T::ZERO) + after),
             material: works.material,
-            adhesion: works.adhesion,
+            // Adhesion that pulls farther out than it caught the sphere keeps what lies between.
+            adhesion: works.adhesion - joules(end.law.potential(end.law.start())),
             friction: joules(friction),
             rolling: joules(peeling),
             external: T::ZERO,
@@ -322,7 +332,7 @@ impl<T: Real> Output<T, ()> for Energy {
         integrals::Works::new()
     }
 
-    fn finish(&self, works: Self::Observer, end: &Ended<'_, T>) -> Self::Result {
+    fn finish<L: ContactLaw<T>>(&self, works: Self::Observer, end: &Ended<'_, T, L>) -> Self::Result {
         Self::ledger(&works, [T::ZERO; 3], end)
     }
 }
@@ -336,7 +346,7 @@ impl<T: Real, const PEELS: bool> Output<T, SlipStart<T, PEELS>> for Energy {
         (integrals::Works::new(), TangentialMotion::new(start))
     }
 
-    fn finish(&self, (works, motion): Self::Observer, end: &Ended<'_, T>) -> Self::Result {
+    fn finish<L: ContactLaw<T>>(&self, (works, motion): Self::Observer, end: &Ended<'_, T, L>) -> Self::Result {
         Self::ledger(&works, [motion.energy(), motion.friction_loss, motion.peeling_loss], end)
     }
 }
@@ -354,6 +364,8 @@ impl<T: Real, const PEELS: bool> Output<T, SlipStart<T, PEELS>> for Energy {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Slip;
 
 /// The motion along the surface during contact, to separation or, for a captured sphere, to where it was followed.
@@ -418,7 +430,7 @@ impl<T: Real, const PEELS: bool> Output<T, SlipStart<T, PEELS>> for Slip {
         TangentialMotion::new(start)
     }
 
-    fn finish(&self, motion: Self::Observer, end: &Ended<'_, T>) -> SlipHistory<T> {
+    fn finish<L: ContactLaw<T>>(&self, motion: Self::Observer, end: &Ended<'_, T, L>) -> SlipHistory<T> {
         let (units, radius) = (end.units, end.sphere.radius());
         SlipHistory {
             slides: motion.slides(),

@@ -305,7 +305,7 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
             tangential: S::after(&surface, &path, &self.sphere, &units),
             run: RunReport::new(&path),
         };
-        let end = Ended { path: &path, sphere: &self.sphere, units: &units };
+        let end = Ended { law: &law, path: &path, sphere: &self.sphere, units: &units };
         Ok((impact, outputs.finish(observed, &end)))
     }
 
@@ -389,7 +389,7 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
             tangential: S::after(&surface, &path, &self.sphere, &units),
             run,
         };
-        let end = Ended { path: &path, sphere: &self.sphere, units: &units };
+        let end = Ended { law: &law, path: &path, sphere: &self.sphere, units: &units };
         let outputs = outputs.finish(observed, &end);
         let motion = settling.map(|settling| settling.in_units(times.now, &units));
         Ok(SettledImpact { impact, motion, outputs })

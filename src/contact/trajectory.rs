@@ -2,7 +2,7 @@
 //!
 //! The samples are nodes of the intervals, which come in the order of time. When the room is spent, the gap that has to lie
 //! between a sample and the one before it is doubled, and what comes sooner is dropped: the largest gap stays below twice
-//! that gap, plus the largest one between nodes. First touch, peak, beginning of rolling and end are always kept.
+//! that gap, plus the largest one between nodes. First contact, peak, beginning of rolling and end are always kept.
 
 use heapless::{Vec, VecView};
 
@@ -33,7 +33,7 @@ use crate::Real;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sample<T> {
-    /// Time from first touch, s.
+    /// Time from first contact, s.
     pub time: T,
     /// Indentation delta, m.
     pub indentation: T,
@@ -69,7 +69,7 @@ impl<T: Real> Sample<T> {
 
 /// The course of an impact in at most `N` samples, four or more, however many steps the motion takes.
 ///
-/// First touch, peak, the moment at which the sphere begins to roll, and the end are among them; of so many nodes that they
+/// First contact, peak, the moment at which the sphere begins to roll, and the end are among them; of so many nodes that they
 /// have to be thinned, the others are spread evenly over time.
 ///
 /// ```
@@ -194,7 +194,7 @@ impl<T: Real, const N: usize> Trajectory<T, N> {
         self.marked(self.peak)
     }
 
-    /// The moment at which a sliding sphere begins to roll; `None` where it does not, or rolls from first touch.
+    /// The moment at which a sliding sphere begins to roll; `None` where it does not, or rolls from first contact.
     ///
     /// ```
     /// use microimpact::contact::{Collocation, Contact, Recording, Slip};
@@ -227,6 +227,8 @@ impl<T: Real, const N: usize> Trajectory<T, N> {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Recording<const N: usize>;
 
 impl<T: Real, S, const N: usize> Output<T, S> for Recording<N> {
@@ -237,18 +239,18 @@ impl<T: Real, S, const N: usize> Output<T, S> for Recording<N> {
         const { assert!(N >= 4, "first contact, peak, beginning of rolling and end make four samples") };
         let mut recorder = Recorder { samples: Vec::new(), thinning: Thinning::new(T::constant(2.0 / N as f64)) };
         let zero = T::ZERO;
-        // The speed of arrival follows in the end: it is known to the units.
+        // What it is follows in the end, from the law and the units.
         let first = Sample { time: zero, indentation: zero, velocity: zero, force: zero, elastic: zero };
         recorder.thinning.add(&mut recorder.samples, first);
         recorder
     }
 
-    fn finish(&self, recorder: Recorder<T, N>, end: &Ended<'_, T>) -> Trajectory<T, N> {
+    fn finish<L: ContactLaw<T>>(&self, recorder: Recorder<T, N>, end: &Ended<'_, T, L>) -> Trajectory<T, N> {
         let Recorder { mut samples, thinning } = recorder;
         let units = end.units;
         thinning.end(&mut samples);
         if let Some(first) = samples.first_mut() {
-            first.velocity = (units.energy + units.energy).sqrt();
+            *first = Sample::of(end.law, T::ZERO, end.law.start(), (units.energy + units.energy).sqrt(), false);
         }
         let force = end.sphere.mass() * (units.speed / units.time());
         let unit =
@@ -341,7 +343,7 @@ struct Thinning<T> {
     /// Time at the end of what has been recorded.
     now: T,
     /// Twice the reciprocal of the room for samples.
-    share: T,
+    fraction: T,
     /// Least time between a sample and the one before it, unless it is marked.
     gap: T,
     /// The latest sample where it is not kept: the last one, if none follows.
@@ -351,8 +353,8 @@ struct Thinning<T> {
 }
 
 impl<T: Real> Thinning<T> {
-    fn new(share: T) -> Self {
-        Self { now: T::ZERO, share, gap: T::ZERO, waiting: None, peak: None, roll: None }
+    fn new(fraction: T) -> Self {
+        Self { now: T::ZERO, fraction, gap: T::ZERO, waiting: None, peak: None, roll: None }
     }
 
     /// Whether no place is free but the one for the last sample.
@@ -387,7 +389,7 @@ impl<T: Real> Thinning<T> {
 
     /// Makes the gap at least twice as large and drops what comes sooner.
     fn thin(&mut self, samples: &mut VecView<Sample<T>>, now: T) {
-        self.gap = (self.gap + self.gap).max(self.share * now);
+        self.gap = (self.gap + self.gap).max(self.fraction * now);
         let (mut kept, mut before) = (0, None);
         for index in 0..samples.len() {
             let Some(&sample) = samples.get(index) else {

@@ -4,11 +4,11 @@ use std::thread;
 
 use embedded_hal_mock::eh1::MockError;
 use embedded_hal_mock::eh1::digital::{Mock, State, Transaction};
+use microimpact::contact::{Collocation, Contact, FixedCost, Impulses, RingScene};
 use microimpact::instrument::{
     ClassLines, ClassSet, Classifier, Instrument, NoLines, NormalReading, ObliqueReading, PlanarReading, Queue,
     Reading, Rejection, Simulated, SpeedBins, Statistics, Tabulated, TabulatedClass, Tally, Verdict,
 };
-use microimpact::contact::{Collocation, Contact, FixedCost, Impulses, RingScene};
 use microimpact::table::{BoundaryTable, RestitutionTable, TableOutcome, TableRebound};
 use microimpact::{
     Class, Coulomb, Dual, Fault, FixedPoint, InputError, NoFriction, NormalMotion, Outcome, Parameter, RigidBody,

@@ -1,7 +1,7 @@
 //! What a scene does not use takes no room in it.
 
-use microimpact::rigid::NoMicroforce;
 use microimpact::contact::{Contact, FixedCost, Times, Works};
+use microimpact::rigid::NoMicroforce;
 use microimpact::{
     Classification, ConstantRestitution, ContactClass, Impact, NoAdhesion, NoFriction, NormalImpact, NormalMotion,
     ObliqueMotion, PlanarMotion, RigidBody, Sphere, Stiffness,

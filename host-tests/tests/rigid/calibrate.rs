@@ -1,11 +1,11 @@
 //! From measurements back to parameters: the paper's values, there and back again, reasons, outliers and coverage.
 
+use microimpact::contact::{Collocation, Contact, FixedCost, HertzLaw, RingScene};
 use microimpact::measure::{
     CalibrationError, Estimate, ImpulseRatios, Location, MeasuredRebound, RestitutionFit, adhesion_damping, estimate,
     friction, material_damping, parameter, ring_strength, rolling_motion,
 };
 use microimpact::rigid::{Departure, infer_assuming_rolling};
-use microimpact::contact::{Collocation, Contact, FixedCost, HertzLaw, RingScene};
 use microimpact::{
     CriticalSpeed, Dual, Fault, InputError, NormalMotion, Oblique, Parameter, Real, RestitutionLaw, RigidBody,
     SpeedRestitution, Sphere, Stiffness,

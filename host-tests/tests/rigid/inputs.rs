@@ -1,9 +1,9 @@
 //! Every input has a range, and every value outside it is an error that names the input.
 
+use microimpact::contact::{Collocation, Contact, DimensionlessImpact, FixedCost, RestCriterion};
 use microimpact::measure::ring_strength;
 use microimpact::measure::{NormalDistribution, rebound_probability};
 use microimpact::rigid::{AdhesionCoefficient, Departure, WorkOfAdhesion, infer, infer_with_spins};
-use microimpact::contact::{Collocation, DimensionlessImpact, FixedCost, RestCriterion, Contact};
 use microimpact::table::{BoundaryTable, RestitutionTable, Single, TableRebound};
 use microimpact::{
     ConstantRestitution, Coulomb, CriticalSpeed, Dual, Fault, ImpactError, InFixedPoint, InputError, Material,

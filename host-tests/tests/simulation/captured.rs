@@ -3,8 +3,8 @@
 use core::f64::consts::PI;
 
 use microimpact::contact::{
-    Collocation, Contact, Impulses, MotionToRest, Nodes, Output, Recording, RestCriterion, SettledImpact,
-    Slip, Status, Times, Works,
+    Collocation, Contact, Impulses, MotionToRest, Nodes, Output, Recording, RestCriterion, SettledImpact, Slip, Status,
+    Times, Works,
 };
 use microimpact::{NormalMotion, Outcome, Real, Sphere, Stiffness};
 
@@ -281,7 +281,8 @@ fn a_turning_point_next_to_the_equilibrium_spends_no_budget() {
     for step in 0..100 {
         let stiffness = Stiffness::new(4e9 * 1.008_f64.powi(step)).unwrap();
         let scene = Contact::hertz(sphere, stiffness).with_damping(10.5).unwrap().with_ring(250.0, 6.25).unwrap();
-        let (motion, method) = (NormalMotion::new(0.329_034_456_231).unwrap(), Collocation::<14, f64>::new(1e-13).unwrap());
+        let (motion, method) =
+            (NormalMotion::new(0.329_034_456_231).unwrap(), Collocation::<14, f64>::new(1e-13).unwrap());
         let (found, _) = scene.solve_for(&motion, &method, (Times, Impulses, Works)).unwrap();
         assert_eq!(found.run.status, Status::Solved, "{stiffness:?}: {:?}", found.run);
         assert_eq!(found.normal.outcome(), Some(Outcome::Capture));

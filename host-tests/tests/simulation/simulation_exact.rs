@@ -111,10 +111,9 @@ fn rolling_is_independent_of_the_force_law() {
         .unwrap();
     let motion = planar(2.8, 1.0, -0.5);
     let expected = (5.0 * 1.0 + 2.0 * -0.5) / 7.0;
-    for (impact, slip) in [
-        free.solve_for(&motion, &method(), Slip).unwrap(),
-        held.solve_for(&motion, &method(), Slip).unwrap(),
-    ] {
+    for (impact, slip) in
+        [free.solve_for(&motion, &method(), Slip).unwrap(), held.solve_for(&motion, &method(), Slip).unwrap()]
+    {
         let contact = impact.tangential;
         assert_eq!((contact.motion(), slip.slides), (SurfaceMotion::Rolling, false));
         for (velocity, spin) in [(contact.velocity(), contact.spin()), (slip.velocity, slip.spin)] {
@@ -311,13 +310,8 @@ impl Inputs {
 /// Values of an impact that have to be finite whatever the scene.
 fn values<T: Real>((impact, (times, impulses, works, slip)): &Impact<T>) -> Vec<T> {
     let (normal, tangential) = (&impact.normal, &impact.tangential);
-    let optional = [
-        normal.peak_indentation(),
-        normal.turning_indentation(),
-        times.peak,
-        times.contact,
-        slip.rolls_from,
-    ];
+    let optional =
+        [normal.peak_indentation(), normal.turning_indentation(), times.peak, times.contact, slip.rolls_from];
     let always = [
         normal.overall_restitution(),
         normal.rebound_speed(),
@@ -336,11 +330,7 @@ fn values<T: Real>((impact, (times, impulses, works, slip)): &Impact<T>) -> Vec<
 }
 
 /// The restitution of a result that was solved. A named error was not; what is neither ends the test.
-fn solved<T: Real>(
-    inputs: &Inputs,
-    result: Result<Impact<T>, InputError>,
-    counts: &mut Counts,
-) -> Option<T> {
+fn solved<T: Real>(inputs: &Inputs, result: Result<Impact<T>, InputError>, counts: &mut Counts) -> Option<T> {
     counts.ended += 1;
     let Ok(solved) = result else {
         return None;

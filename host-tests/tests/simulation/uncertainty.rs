@@ -1,9 +1,9 @@
 //! Probabilities of classes against Monte Carlo, and the two normal distributions against quadrature.
 
-use microimpact::measure::{ClassProbabilities, NormalDistribution, rebound_probability, stopped_slip};
 use microimpact::contact::{
     Collocation, Contact, ContactImpulses, Impulses, Nodes, RingScene, SimulatedImpact, TangentialVelocities,
 };
+use microimpact::measure::{ClassProbabilities, NormalDistribution, rebound_probability, stopped_slip};
 use microimpact::{
     Approach, Class, Coulomb, CriticalSpeed, Dual, InputError, NormalMotion, ObliqueMotion, Outcome, PlanarMotion,
     Real, RigidBody, SpeedRestitution, Sphere, Stiffness,

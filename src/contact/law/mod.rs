@@ -202,10 +202,13 @@ pub trait ContactLaw<T: Real>: Copy {
         T::constant(hertz::HERTZ_DURATION) / (energy + energy).sqrt()
     }
 
-    /// Force of the potential, -dV/dx. A law whose indentation has no slope where contact begins gives it there.
+    /// Force of the potential, -dV/dx. A law whose [`indentation`](Self::indentation) is given, and has no slope somewhere,
+    /// gives it there.
     #[inline]
     fn conservative_force(&self, s: T) -> T {
-        -(self.slope(s) / self.indentation_slope(s))
+        let slope = self.indentation_slope(s);
+        // The limit where x = s^2 at s = 0.
+        if slope == T::ZERO { -(self.curvature(s) / T::constant(2.0)) } else { -(self.slope(s) / slope) }
     }
 
     /// Damping force of both kinds for each unit of speed, on the way in or out.

@@ -76,16 +76,19 @@ pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(toleranc
     let (half, two) = (T::constant(0.5), T::constant(2.0));
     let converged = (T::constant(CONVERGED) * tolerance).max(T::constant(LEAST_CHANGE) * T::EPSILON);
     let mut control = Control { converged, error: tolerance, times: T::ZERO };
-    let Some((barrier, bottom)) = well(law).filter(|(_, bottom)| law.damping(*bottom, true) > T::ZERO) else {
+    // Adhesion that catches a sphere nearer to the surface than it lets go takes energy even without damping.
+    let first = law.start();
+    let caught = |barrier: T| first > barrier && law.potential(first) < law.potential(barrier);
+    let takes = |(barrier, bottom): &(T, T)| law.damping(*bottom, true) > T::ZERO || caught(*barrier);
+    let Some((barrier, bottom)) = well(law).filter(takes) else {
         return Trial::Free;
     };
-
     let rest = law.potential(barrier);
     let depth = rest - law.potential(bottom);
     // Losses count in proportion to themselves, which at the critical speed make up all of the energy of the impact;
     // the error of an interval is in proportion to what moves in the well, and a square.
-    let share = (energy / (energy + depth)).max(T::constant(LEAST_DEPTH_FRACTION));
-    control.error = (control.error * share * share).max(unattainable());
+    let fraction = (energy / (energy + depth)).max(T::constant(LEAST_DEPTH_FRACTION));
+    control.error = (control.error * fraction * fraction).max(unattainable());
     // Where the well is shallow, speeds are small in it.
     let scale = (two * depth).sqrt().min(T::ONE);
     let finer = Control { converged: control.converged * scale, ..control };
@@ -102,17 +105,17 @@ pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(toleranc
     let Some(impact) = Follower::from(law, control, &mut (), arrival).descend::<N>(bottom) else {
         return captured;
     };
-    // Of what is left of the motion, the speed knows more where that is little, and the energy where it is much.
+    // If little of the energy remains, the speed is known better, else the energy.
     let surplus = if kinetic < T::constant(END_FROM_SPEED) * energy {
         half * (impact.speed_squared - departure.speed_squared)
     } else {
         impact.energy - departure.energy
     };
     // Over the energy of the impact; what the two paths lose is the rest of it.
-    let share = surplus / energy;
+    let fraction = surplus / energy;
     // Far above the critical speed the loss may be less than can be told from none.
-    let root = (T::ONE - share).max(T::EPSILON).sqrt();
-    let excess = Some(share / (root * (T::ONE + root)) + surplus / (two * kinetic));
+    let root = (T::ONE - fraction).max(T::EPSILON).sqrt();
+    let excess = Some(fraction / (root * (T::ONE + root)) + surplus / (two * kinetic));
     Trial::Tried { rebounds: surplus > T::ZERO, excess }
 }
 
@@ -232,7 +235,7 @@ impl<T: Real> Search<T> {
 }
 
 impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
-    /// From first touch over the peak down to the contact radius `to`; `None` where the sphere does not get there.
+    /// From first contact over the peak down to the contact radius `to`; `None` where the sphere does not get there.
     fn descend<const N: usize>(mut self, to: T) -> Option<Point<T>>
     where
         T: Nodes<N>,
@@ -249,11 +252,11 @@ impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
             // Strong damping leaves a speed that is small against what the potential drives; it counts by itself.
             let square = self.at.speed_squared;
             let driven = (self.law.potential(self.at.s) - self.law.potential(to)).max(T::ZERO);
-            let share = square / (square + driven);
+            let fraction = square / (square + driven);
             self.control.converged = converged * square.sqrt().min(T::ONE);
             // There errors are no longer squares.
-            let stiff = if share < T::constant(STIFF_FRACTION) { T::constant(STIFF_ERROR) } else { T::ONE };
-            let strict = error * stiff * (share * share).max(T::constant(LEAST_SQUARED_FRACTION));
+            let stiff = if fraction < T::constant(STIFF_FRACTION) { T::constant(STIFF_ERROR) } else { T::ONE };
+            let strict = error * stiff * (fraction * fraction).max(T::constant(LEAST_SQUARED_FRACTION));
             self.control.error = strict.max(unattainable());
             (_, length) = self.step::<N>(-length.min(self.at.s - to), false, Course::REBOUND)?;
         }

@@ -2,8 +2,8 @@
 //!
 //! Along an interval s is a polynomial of z on 0..1 and y^2 = free(z) - integral of loss(z) y dz, where `free` is the square of
 //! the speed without losses. Away from turning points y itself is smooth in z. Towards a turning point z = 0 it vanishes
-//! like z, so that s = peak - depth z^2 and y = z u with u smooth. Iterations over all nodes at once converge superlinearly while
-//! the loss is a small part of the energy; Newton's method takes over where it is not.
+//! like z, so that s = peak - depth z^2 and y = z u with u smooth. Iterations over all nodes at once converge superlinearly if
+//! the loss is a small part of the energy. Newton's method takes over if it is not.
 
 // Indices run over arrays of the length that their loops count to.
 #![allow(clippy::indexing_slicing, clippy::needless_range_loop)]
@@ -19,8 +19,8 @@ pub(crate) struct Control<T> {
     pub(crate) converged: T,
     /// Largest error that an interval may have.
     pub(crate) error: T,
-    /// How much of the error of the time that the interval takes counts: one where times are asked for, a tenth where only the
-    /// end of the motion is, as energies feel little of the slow end of it that makes times inexact.
+    /// Weight of the error of the time of an interval: one if times are asked for, less if only the end of the motion is,
+    /// because energies depend little on its slow end, which makes times inexact.
     pub(crate) times: T,
 }
 
@@ -199,7 +199,7 @@ const SECOND_COEFFICIENT: f64 = 0.3;
 struct Iterations<T, const N: usize> {
     /// Speeds, or speeds over z.
     speed: [T; N],
-    /// Half their reciprocals, which follow by multiplication alone, and an iteration late.
+    /// Half their reciprocals, renewed by multiplication alone: those of the speeds before the last iteration.
     half_inverse: [T; N],
     /// Loss times speed.
     power: [T; N],
@@ -215,7 +215,7 @@ const SUPERLINEAR_MARGIN: f64 = 100.0;
 const MOST_ITERATIONS: u32 = 20;
 
 impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
-    /// Speeds without losses, less an estimate of what those take from them.
+    /// Speeds without losses, less an estimate of their decrease by losses.
     #[inline]
     fn from(free: &[T; N], loss: &[T; N], taken: &[T; N]) -> Self {
         let (mut speed, mut half_inverse, mut power) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
@@ -228,8 +228,8 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
         Self { speed, half_inverse, power, change: T::constant(NO_CHANGE_YET), iterations: 0 }
     }
 
-    /// One iteration: Heron's step for the root at every node. `lost` makes the square of a speed from the free one and the
-    /// integral of the losses.
+    /// One iteration, with Heron's step for the root at every node. `lost` gives the square of a speed from the square without
+    /// losses and the integral of the losses.
     #[inline]
     fn iterate(&mut self, free: &[T; N], loss: &[T; N], lost: impl Fn(T, T) -> T, table: &[[T; N]; N]) -> T {
         let two = T::constant(2.0);
@@ -251,12 +251,12 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
         dot(&step, &step)
     }
 
-    /// Changes all speeds by a share of themselves, unless it is so large that an iteration does better; the square of what they
-    /// are to change by, over their own.
+    /// Changes all speeds by a fraction of themselves, unless the fraction is so large that an iteration does better. Returns the
+    /// square of the relative change.
     #[inline]
-    fn scale(&mut self, share: T) -> T {
-        if share.abs() < T::constant(LARGEST_RESCALING) {
-            let (more, less) = (T::ONE + share, T::ONE - share);
+    fn scale(&mut self, fraction: T) -> T {
+        if fraction.abs() < T::constant(LARGEST_RESCALING) {
+            let (more, less) = (T::ONE + fraction, T::ONE - fraction);
             for j in 0..N {
                 self.speed[j] = self.speed[j] * more;
             }
@@ -264,10 +264,10 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
                 self.half_inverse[j] = self.half_inverse[j] * less;
             }
         }
-        T::constant(N as f64) * (share * share).min(T::ONE)
+        T::constant(N as f64) * (fraction * fraction).min(T::ONE)
     }
 
-    /// Losses that have changed, at the speeds as they are.
+    /// Takes in changed losses at the present speeds.
     #[inline]
     fn take_losses(&mut self, loss: &[T; N]) {
         for j in 0..N {
@@ -275,9 +275,9 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
         }
     }
 
-    /// Whether the iterations have converged after a change of this square, of speeds of which the square is `scale`. They converge
-    /// superlinearly: the next change is at most this one squared over the one before, or the share of this one by which the
-    /// reciprocals were late.
+    /// Whether the iterations have converged, from the square of the last change and the square `scale` of the speeds. They
+    /// converge superlinearly: the next change is at most this one squared over the one before, or the fraction of this one by
+    /// which the reciprocals were wrong.
     #[inline]
     fn has_converged(&mut self, change: T, scale: T, control: &Control<T>) -> Progress {
         let relative = control.converged * control.converged * scale.min(T::ONE);
@@ -287,7 +287,7 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
         let enough = if self.iterations > 1 { relative.max(rounding) } else { relative };
         let superlinear =
             self.iterations > 1 && T::constant(SUPERLINEAR_MARGIN) * change * change <= enough * self.change;
-        if change <= enough || (superlinear && change * self.lateness() <= enough) {
+        if change <= enough || (superlinear && change * self.residual() <= enough) {
             return Progress::Converged;
         }
         if change < T::constant(DIVERGENCE) * self.change && self.iterations < MOST_ITERATIONS {
@@ -297,9 +297,9 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
         Progress::Diverging
     }
 
-    /// Square of the largest share by which a reciprocal was wrong in the last iteration, which is what is left of it.
+    /// Square of the largest relative error of a reciprocal in the last iteration.
     #[inline]
-    fn lateness(&self) -> T {
+    fn residual(&self) -> T {
         let mut largest = T::ZERO;
         for j in 0..N {
             let product = self.speed[j] * self.half_inverse[j];
@@ -325,16 +325,16 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
     #[inline]
     fn error(&self, scale: T, rate: &[T; N], control: &Control<T>) -> T {
         let tail = |f: &[T; N]| dot(&T::HIGHEST_COEFFICIENT, f).abs();
-        let share = tail(&self.power) / (dot(&T::WEIGHTS, &self.power).abs() + scale + T::SMALLEST);
-        let share = if control.times > T::ZERO { share.max(control.times * tail_of_times(rate)) } else { share };
-        T::constant(TAIL_ERROR) * share * share
+        let fraction = tail(&self.power) / (dot(&T::WEIGHTS, &self.power).abs() + scale + T::SMALLEST);
+        let fraction =
+            if control.times > T::ZERO { fraction.max(control.times * tail_of_times(rate)) } else { fraction };
+        T::constant(TAIL_ERROR) * fraction * fraction
     }
 }
 
-/// What the nodes cannot represent of the times for each dz, as a share of them.
+/// The part of the times that the nodes do not resolve, as a fraction of them.
 #[inline]
 pub(crate) fn tail_of_times<T: Nodes<N>, const N: usize>(rate: &[T; N]) -> T {
-    // The highest share alone may vanish by chance.
     let before = T::constant(SECOND_COEFFICIENT) * dot(&T::LEGENDRE[N - 2], rate).abs();
     dot(&T::HIGHEST_COEFFICIENT, rate).abs().max(before) / (dot(&T::WEIGHTS, rate).abs() + T::SMALLEST)
 }
@@ -371,7 +371,7 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
         };
         loss[j] = two * length[j] * law.loss(s[j], course.rebound);
         possible &= free[j] > T::ZERO;
-        // Half of what the losses have taken so far, over the speed, is what an iteration leaves of an error.
+        // Half of the losses so far, over the speed, is the factor by which an iteration reduces an error.
         let here = T::WEIGHTS[j] * loss[j];
         taken[j] = half * (reach + half * here);
         reach = reach + here;
@@ -470,7 +470,7 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
         error: T::ONE,
         forward: false,
     };
-    if (depth > T::ZERO) != inwards || turning <= T::ZERO {
+    if (depth > T::ZERO) != inwards || turning <= law.end() {
         return refused(turning, false);
     }
     // The error that an iteration leaves is known beforehand, so that a strongly damped arrival costs nothing.
@@ -522,12 +522,12 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
             T::constant(LOSS_POWER_OF_DEPTH) + T::constant(law.energy_power() - 1.0) * depth.max(T::ZERO) / turning;
         let step = excess / (slope + power * lost / depth);
         // As the speed at the far end changes with the turning point, so do those on the way.
-        let share = -(step * slope / from.speed_squared);
+        let fraction = -(step * slope / from.speed_squared);
         let scale = free[0].max(free[N - 1]);
-        let change = change + step * step + state.scale(share) * scale;
+        let change = change + step * step + state.scale(fraction) * scale;
         depth = depth - step;
         turning = from.s + depth;
-        if (depth > T::ZERO) != inwards || turning <= T::ZERO {
+        if (depth > T::ZERO) != inwards || turning <= law.end() {
             break;
         }
 
@@ -629,16 +629,16 @@ fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
         if !eliminate(&mut jacobian, &mut residual) {
             break;
         }
-        let (mut share, mut largest) = (T::ONE, T::ZERO);
+        let (mut fraction, mut largest) = (T::ONE, T::ZERO);
         for j in 0..N {
             let bound = T::constant(-NEWTON_LARGEST_STEP) * speed[j];
             if residual[j] < bound {
-                share = share.min(bound / residual[j]);
+                fraction = fraction.min(bound / residual[j]);
             }
             largest = largest.max(residual[j].abs() / speed[j]);
         }
         for j in 0..N {
-            speed[j] = speed[j] + share * residual[j];
+            speed[j] = speed[j] + fraction * residual[j];
         }
         state.iterations += 1;
         if largest * largest <= enough {

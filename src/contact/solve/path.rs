@@ -31,7 +31,7 @@ pub struct NormalPath<T> {
     /// Contact radius where a captured sphere first turns back; zero where it has not been followed so far, or creeps, or comes
     /// to its equilibrium within the error allowed before it turns.
     pub(crate) turning: T,
-    pub(crate) effort: Effort<T>,
+    pub(crate) statistics: Statistics<T>,
 }
 
 /// A method that follows the normal motion to its end.
@@ -53,9 +53,9 @@ pub trait Method<T: Real> {
     fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T>;
 }
 
-/// What a motion took.
+/// Statistics of a solution.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Effort<T> {
+pub(crate) struct Statistics<T> {
     pub(crate) intervals: u32,
     pub(crate) refused: u32,
     pub(crate) iterations: u32,
@@ -84,11 +84,11 @@ impl<T: Real> NormalPath<T> {
 
     /// That of a law that the method cannot represent.
     pub(crate) fn unsupported(energy: T) -> Self {
-        Self { end: End::Unsupported, energy, peak: T::ZERO, turning: T::ZERO, effort: Effort::NONE }
+        Self { end: End::Unsupported, energy, peak: T::ZERO, turning: T::ZERO, statistics: Statistics::NONE }
     }
 }
 
-impl<T: Real> Effort<T> {
+impl<T: Real> Statistics<T> {
     pub(crate) const NONE: Self = Self { intervals: 0, refused: 0, iterations: 0, nodes: 0, error: T::ZERO };
 
     pub(crate) fn add(&mut self, other: &Self) {
@@ -109,7 +109,7 @@ pub(crate) const MOST_INTERVALS: u32 = 160;
 /// applied to first order, so that an error of its square remains.
 const CLOSE_TO_END_OF_SLIP: f64 = 0.03;
 
-/// First length of an interval: half of the undamped peak.
+/// First length of an interval: half the way from first contact to the undamped peak.
 const FIRST_LENGTH: f64 = 0.5;
 
 /// Fraction of the first interval at which the potential is compared with the energy, and of the potential that the energy
@@ -218,20 +218,20 @@ pub(crate) struct Follower<'a, T, L, O> {
     pub(crate) at: Point<T>,
     /// Where the barrier stands that holds the sphere, and the energy to pass it; zero without an external force.
     pub(crate) barrier: (T, T),
-    pub(crate) effort: Effort<T>,
+    pub(crate) statistics: Statistics<T>,
 }
 
-/// Fraction of an interval at which the sphere begins to roll, the part up to there, and what is left of the error, as a share of
-/// the interval; from a first value of the share.
+/// Fraction of an interval at which the sphere begins to roll, the part up to there, and the remaining error as a fraction of the
+/// interval; from a first value of the fraction.
 pub(crate) fn find_end_of_slip<T: Nodes<N>, const N: usize>(
     law: &impl ContactLaw<T>,
     observer: &impl Observer<T>,
-    share: T,
+    fraction: T,
     tolerance: T,
     mut part: impl FnMut(T) -> Interval<T, N>,
 ) -> (T, Interval<T, N>, T) {
     let close = T::constant(CLOSE_TO_END_OF_SLIP) * tolerance.sqrt();
-    let (mut z, mut before, mut after) = (share, T::ZERO, T::ONE);
+    let (mut z, mut before, mut after) = (fraction, T::ZERO, T::ONE);
     let mut tries = 0;
     loop {
         let first = part(z);
@@ -263,10 +263,10 @@ pub(crate) fn find_end_of_slip<T: Nodes<N>, const N: usize>(
 
 impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     pub(crate) fn from(law: &'a L, control: Control<T>, observer: &'a mut O, at: Point<T>) -> Self {
-        Self { law, control, observer, at, barrier: (law.end(), T::ZERO), effort: Effort::NONE }
+        Self { law, control, observer, at, barrier: (law.end(), T::ZERO), statistics: Statistics::NONE }
     }
 
-    /// At first touch, with a kinetic energy.
+    /// At first contact, with a kinetic energy.
     pub(crate) fn arriving(law: &'a L, energy: T, control: Control<T>, observer: &'a mut O) -> Self {
         let at = Point::arriving(law, energy);
         let mut follower = Self::from(law, control, observer, at);
@@ -278,14 +278,14 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         follower
     }
 
-    /// From first touch to separation or capture.
+    /// From first contact to separation or capture.
     pub(crate) fn contact<const N: usize>(&mut self, to_turning_point: bool) -> NormalPath<T>
     where
         T: Nodes<N>,
     {
-        self.effort.nodes = N as u32;
-        let (energy, effort) = (self.at.energy, self.effort);
-        let mut path = NormalPath { end: End::Budget, energy, peak: T::ZERO, turning: T::ZERO, effort };
+        self.statistics.nodes = N as u32;
+        let (energy, statistics) = (self.at.energy, self.statistics);
+        let mut path = NormalPath { end: End::Budget, energy, peak: T::ZERO, turning: T::ZERO, statistics };
         path.end = match self.approach::<N>() {
             Err(end) => end,
             Ok(()) => {
@@ -300,7 +300,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             }
         };
         path.energy = self.at.energy;
-        path.effort = self.effort;
+        path.statistics = self.statistics;
         path
     }
 
@@ -310,7 +310,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         self.at.energy < self.barrier.1 && self.at.s >= self.barrier.0
     }
 
-    /// From first touch to the peak; `Err` where the motion ends without one.
+    /// From first contact to the peak; `Err` where the motion ends without one.
     pub(crate) fn approach<const N: usize>(&mut self) -> Result<(), End>
     where
         T: Nodes<N>,
@@ -322,8 +322,14 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let mut length = T::constant(FIRST_LENGTH);
         loop {
             if self.at.s > self.law.start() {
-                let arrival: Interval<T, N> =
-                    arrive(self.law, &self.at, beyond, Course::APPROACH, &self.control, &mut self.effort.iterations);
+                let arrival: Interval<T, N> = arrive(
+                    self.law,
+                    &self.at,
+                    beyond,
+                    Course::APPROACH,
+                    &self.control,
+                    &mut self.statistics.iterations,
+                );
                 if self.take(&arrival, Course::APPROACH, Some(arrival.end.s))? {
                     return Ok(());
                 }
@@ -341,7 +347,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                     (length, T::ZERO),
                     Course::APPROACH,
                     &self.control,
-                    &mut self.effort.iterations,
+                    &mut self.statistics.iterations,
                 );
                 let factor = self.length_factor(N, &interval);
                 if self.take(&interval, Course::APPROACH, None)? {
@@ -372,7 +378,8 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     fn first_length(&self) -> T {
         let half = T::constant(0.5);
         let (start, energy, speed) = (self.at.s, half * self.at.speed_squared, self.at.speed_squared.sqrt());
-        let (mut length, fraction) = (T::constant(FIRST_LENGTH), T::constant(PULL_FRACTION));
+        let way = T::ONE - start;
+        let (mut length, fraction) = (T::constant(FIRST_LENGTH) * way, T::constant(PULL_FRACTION));
         for _ in 0..MOST_SHRINKS {
             let rise = self.law.potential(start + fraction * length) - self.law.potential(start);
             if energy >= fraction * rise.abs() {
@@ -427,7 +434,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 }
                 let guess = self.outer_turning_point();
                 let arrival: Interval<T, N> =
-                    arrive(self.law, &self.at, guess, Course::REBOUND, &self.control, &mut self.effort.iterations);
+                    arrive(self.law, &self.at, guess, Course::REBOUND, &self.control, &mut self.statistics.iterations);
                 if self.take(&arrival, Course::REBOUND, Some(arrival.end.s))? {
                     return Ok(self.at.s);
                 }
@@ -452,7 +459,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                     (step, T::ZERO),
                     Course::REBOUND,
                     &self.control,
-                    &mut self.effort.iterations,
+                    &mut self.statistics.iterations,
                 );
                 let factor = self.length_factor(N, &interval);
                 if self.take(&interval, Course::REBOUND, None)? {
@@ -501,7 +508,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             depth = stiffness / (reach * reach);
         }
         loop {
-            let (energy, iterations) = (self.at.energy, &mut self.effort.iterations);
+            let (energy, iterations) = (self.at.energy, &mut self.statistics.iterations);
             let interval: Interval<T, N> =
                 leave(self.law, from, signed(depth), energy, course, &self.control, iterations);
             let factor = self.length_factor(N, &interval);
@@ -585,10 +592,10 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         if !interval.accepted {
             // An arrival that is refused beforehand costs nothing; there is one at most for each interval taken.
             let tried = interval.forward || interval.error < T::ONE;
-            self.effort.refused += u32::from(tried);
+            self.statistics.refused += u32::from(tried);
         } else {
-            self.effort.intervals += 1;
-            self.effort.error = self.effort.error.max(interval.error);
+            self.statistics.intervals += 1;
+            self.statistics.error = self.statistics.error.max(interval.error);
             let roll = if O::EVENTS { self.observer.rolls_at(self.law, interval) } else { None };
             match roll {
                 Some(z) => self.split(interval, course, turning_point, z),
@@ -596,7 +603,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             }
             self.at = interval.end;
         }
-        if self.effort.intervals + self.effort.refused >= MOST_INTERVALS {
+        if self.statistics.intervals + self.statistics.refused >= MOST_INTERVALS {
             return Err(if self.is_held() { End::Capture } else { End::Budget });
         }
         Ok(interval.accepted)
@@ -612,7 +619,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let (from, to) = (self.at, whole.end.s);
         let two = T::constant(2.0);
         let control = Control { error: T::ONE / T::EPSILON, times: T::ZERO, ..self.control };
-        let (law, iterations) = (self.law, &mut self.effort.iterations);
+        let (law, iterations) = (self.law, &mut self.statistics.iterations);
         // The square of the speed has an error of the tolerance. Nearer to a turning point than the root of that, it is nothing
         // but error, and so is the time of a part that ends there. The end of slip is then a step away that is no longer than
         // the root of the tolerance; the error that remains is its square.
@@ -686,7 +693,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     #[inline(never)]
     pub(crate) fn creeps(&self, s: T, y: T, course: Course) -> bool {
         let law = self.law;
-        // On the way out the equilibrium lies nearer than first touch, so the secant below is at least this steep.
+        // On the way out the equilibrium lies nearer than first contact, so the secant below is at least this steep.
         let strength = law.damping(s, course.rebound);
         let steepest = T::constant(4.0) * law.slope(s);
         let farthest = law.indentation(s) - law.indentation(law.end());
