@@ -62,13 +62,18 @@ const OF_THE_RIGID_BODY: [Term; 4] = [
 
 /// What no simulation of the proof uses.
 const OF_THE_SIMULATION: [Term; 8] = [
-    Term { name: "laws chosen at run time", modules: &["chosen"], types: &["AnyLaw"], ..TERM },
+    Term {
+        name: "laws chosen at run time",
+        modules: &["chosen"],
+        types: &["AnyLaw", "AnyDamping", "AnyForce"],
+        ..TERM
+    },
     Term { name: "peeling", modules: &["peeling"], types: &["Peeling"], methods: &["with_peeling"] },
     Term { name: "external force", types: &["ConstantForce"], methods: &["with_external_force"], ..TERM },
-    Term { name: "recording", modules: &["trajectory"], types: &["Recording"], ..TERM },
-    Term { name: "motion to rest", modules: &["rest"], methods: &["solve_to_rest"], ..TERM },
+    Term { name: "recording", modules: &["trajectory"], types: &["Recording", "Sample", "Trajectory"], ..TERM },
+    Term { name: "motion to rest", modules: &["rest"], types: &["RestCriterion", "MotionToRest"], ..TERM },
     Term { name: "the search for the critical speed", modules: &["critical"], ..TERM },
-    Term { name: "the choice of a method", types: &["Adaptive"], ..TERM },
+    Term { name: "the choice of a method", types: &["Adaptive", "AdaptiveNodes"], ..TERM },
     Term { name: "the paper's method", modules: &["gill"], types: &["RungeKuttaGill"], ..TERM },
 ];
 

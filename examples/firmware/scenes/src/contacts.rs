@@ -4,8 +4,8 @@
 use core::hint::black_box;
 
 use microimpact::contact::{
-    Collocation, Contact, ContactLaw, FixedCost, HertzLaw, Method, NormalContact, Output, PaperScene, RingScene,
-    SimulatedImpact, Slip, Surface, TangentialVelocities,
+    Collocation, Contact, ContactLaw, FixedCost, HertzLaw, Method, NormalContact, Output, RingScene, SimulatedImpact,
+    Slip, Surface, TangentialVelocities,
 };
 use microimpact::{Class, Coulomb, InputError, NormalMotion, Outcome, PlanarMotion, Sphere, Stiffness};
 
@@ -70,7 +70,7 @@ pub struct NormalContacts<T, M> {
 
 /// Friction and spin, with an output `O`.
 pub struct ObliqueContacts<T, M, O> {
-    scene: PaperScene<T>,
+    scene: RingScene<T, Coulomb<T>>,
     method: Oblique<M>,
     output: O,
 }

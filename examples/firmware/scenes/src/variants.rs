@@ -6,8 +6,7 @@ use core::hint::black_box;
 
 use microimpact::contact::{
     Collocation, ConstantForce, Contact, FixedCost, HertzLaw, HertzScene, HystereticDamping, Method, NormalContact,
-    PaperScene, Peeling, PhaseSamples, Recording, Ring, RingScene, SimulatedImpact, Slip, SlipHistory,
-    TangentialVelocities, Trajectory,
+    PaperScene, Peeling, PhaseSamples, Recording, Ring, RingScene, SimulatedImpact, TangentialVelocities, Trajectory,
 };
 use microimpact::rigid::{RollingDissipation, WorkOfAdhesion};
 use microimpact::{
@@ -254,9 +253,8 @@ variant! {
         .and_then(|scene| scene.with_friction(given(FRICTION)))
         .and_then(|scene| scene.with_peeling(given(PEELING_N_M))),
     by method: T::Method = T::method(),
-    for Slip,
     impacts: CONTACTS as PlanarMotion<T>,
-    solve_for -> Result<(SimulatedImpact<T, TangentialVelocities<T>>, SlipHistory<T>), InputError>,
+    solve -> Result<SimulatedImpact<T, TangentialVelocities<T>>, InputError>,
     exact: surface(),
     where T: Tolerated
 }
