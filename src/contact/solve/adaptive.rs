@@ -5,7 +5,7 @@ use super::critical::Trial;
 use super::interval::{Interval, tail_of_times};
 use super::nodes::{Nodes, PhaseSamples, WEIGHT_POWER};
 use super::observer::Observer;
-use super::path::{Effort, End, Method, NormalPath, find_end_of_slip};
+use super::path::{End, Method, NormalPath, Statistics, find_end_of_slip};
 use super::phase::Phase;
 use super::rest::{RestCriterion, Settling};
 use crate::contact::law::ContactLaw;
@@ -269,8 +269,8 @@ where
         show(law, &phase, rebound, true, tolerance, observer);
     }
     let end = if left > T::ZERO { End::Separation } else { End::Capture };
-    let effort = Effort { intervals: 2, refused: 0, iterations, nodes: N as u32, error };
-    Ok(NormalPath { end, energy: left, peak, turning: T::ZERO, effort })
+    let statistics = Statistics { intervals: 2, refused: 0, iterations, nodes: N as u32, error };
+    Ok(NormalPath { end, energy: left, peak, turning: T::ZERO, statistics })
 }
 
 /// Shows a phase to an observer, in two parts if the sphere begins to roll in it.

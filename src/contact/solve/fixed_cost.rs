@@ -5,7 +5,7 @@ use super::Collocation;
 use super::adaptive::show;
 use super::nodes::{PhaseNodes, PhaseSamples, WEIGHT_POWER};
 use super::observer::Observer;
-use super::path::{Effort, End, Method, NormalPath};
+use super::path::{End, Method, NormalPath, Statistics};
 use super::phase::Phase;
 use super::well::barrier;
 use crate::contact::law::ContactLaw;
@@ -170,7 +170,8 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             true => End::Capture,
         };
         let error = changed.saturating_div(energy);
-        let effort = Effort { intervals: 2, refused: 0, iterations: 2 * self.iterations, nodes: N as u32, error };
-        NormalPath { end, energy: left, peak: phase.peak, turning: T::ZERO, effort }
+        let statistics =
+            Statistics { intervals: 2, refused: 0, iterations: 2 * self.iterations, nodes: N as u32, error };
+        NormalPath { end, energy: left, peak: phase.peak, turning: T::ZERO, statistics }
     }
 }

@@ -6,7 +6,7 @@
 //! the power 3/2 of the step with adhesion and 5/2 without, not 4.
 
 use super::observer::Observer;
-use super::path::{Effort, End, Method, NormalPath};
+use super::path::{End, Method, NormalPath, Statistics};
 use super::quantities::{Quantities, Times};
 use super::well::barrier;
 use crate::Real;
@@ -83,16 +83,16 @@ where
     law.coordinate(first)?;
     let mut state: State<T, O::State> = ([first, (energy + energy).sqrt()], observer.state());
     let mut times = Times::new();
-    let effort = Effort { nodes: 4, ..Effort::NONE };
-    let mut path = NormalPath { end: End::Budget, energy, peak: T::ZERO, turning: T::ZERO, effort };
+    let statistics = Statistics { nodes: 4, ..Statistics::NONE };
+    let mut path = NormalPath { end: End::Budget, energy, peak: T::ZERO, turning: T::ZERO, statistics };
     // A sphere that comes slower than a barrier is high turns back in front of it and has none to pass on its way out.
     let total = energy + law.potential(law.start());
     let (place, escape) = Some(barrier(law)).filter(|(_, height)| total > *height).unwrap_or((law.end(), T::ZERO));
     let held = |depth: T, speed: T| {
         law.coordinate(depth).is_some_and(|s| s >= place && half * speed * speed + law.potential(s) < escape)
     };
-    while path.effort.intervals < most {
-        path.effort.intervals += 1;
+    while path.statistics.intervals < most {
+        path.statistics.intervals += 1;
         let [x, y] = state.0;
         let mut duration = step;
         let mut next = gill(law, observer, &state, duration);
@@ -108,7 +108,7 @@ where
             rolls = true;
         }
         if separates || rolls {
-            path.effort.refused += 1;
+            path.statistics.refused += 1;
             duration = step * fraction;
             next = gill(law, observer, &state, duration);
         }
@@ -141,7 +141,7 @@ where
     if path.end == End::Budget && held(depth, speed) {
         path.end = End::Capture;
     }
-    path.effort.iterations = path.effort.intervals + path.effort.refused;
+    path.statistics.iterations = path.statistics.intervals + path.statistics.refused;
     observer.ended(&state.1, &times);
     Some(path)
 }

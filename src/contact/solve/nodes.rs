@@ -397,7 +397,7 @@ const fn phase_weight(z: f64) -> f64 {
     z * z * square(z)
 }
 
-/// Square m^2 of the contact radius at z, as a share of the peak's.
+/// Square m^2 of the contact radius at z, as a fraction of the peak's.
 const fn square(z: f64) -> f64 {
     let m = 1.0 - z * z;
     m * m

@@ -6,7 +6,7 @@
 use super::interval::{Course, Interval, arrive, pass};
 use super::nodes::Nodes;
 use super::observer::Observer;
-use super::path::{Effort, End, Follower, NormalPath, REFUSED_SHRINK, UNDAMPED_FRACTION};
+use super::path::{End, Follower, NormalPath, REFUSED_SHRINK, Statistics, UNDAMPED_FRACTION};
 use crate::contact::law::{ContactLaw, Units};
 use crate::{InputError, Parameter, Real};
 
@@ -36,8 +36,8 @@ const LEAST_REST_ENERGY: f64 = 1e6;
 ///     .with_damping(10.5)?
 ///     .with_ring(250.0, 6.25)?;
 /// let (method, motion) = (Adaptive::new(1e-9)?, NormalMotion::new(1.0)?);
-/// let time = |share| {
-///     let settled = scene.solve_to_rest(&motion, &method, &RestCriterion::new(share, 1000)?, ())?;
+/// let time = |fraction| {
+///     let settled = scene.solve_to_rest(&motion, &method, &RestCriterion::new(fraction, 1000)?, ())?;
 ///     Ok::<f64, microimpact::InputError>(settled.motion.unwrap().time)
 /// };
 /// assert!(time(1e-6)? > time(1e-3)?);
@@ -171,9 +171,9 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
                 course = if course.rebound { Course::APPROACH } else { Course::REBOUND };
                 (ahead, behind) = (behind, self.at.s);
             }
-            self.effort = Effort { intervals: 0, refused: 0, iterations: 0, nodes: N as u32, error: T::ZERO };
+            self.statistics = Statistics { intervals: 0, refused: 0, iterations: 0, nodes: N as u32, error: T::ZERO };
             let swing = self.swing::<N>(&well, ahead, course, &mut settling.creeps);
-            path.effort.add(&self.effort);
+            path.statistics.add(&self.statistics);
             turned = swing == Ok(true);
             if turned && path.peak == T::ZERO {
                 path.peak = self.at.s;
@@ -224,7 +224,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
         loop {
             if !*creeps {
                 let arrival: Interval<T, N> =
-                    arrive(self.law, &self.at, beyond, course, &self.control, &mut self.effort.iterations);
+                    arrive(self.law, &self.at, beyond, course, &self.control, &mut self.statistics.iterations);
                 if self.take(&arrival, course, Some(arrival.end.s))? {
                     return Ok(true);
                 }
@@ -237,7 +237,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
                 let step = if *creeps { length.min(self.creeping_length(well)) } else { length };
                 let polynomial = (along(step), T::ZERO);
                 let interval: Interval<T, N> =
-                    pass(self.law, &self.at, polynomial, course, &self.control, &mut self.effort.iterations);
+                    pass(self.law, &self.at, polynomial, course, &self.control, &mut self.statistics.iterations);
                 let factor = self.length_factor(N, &interval);
                 if self.take(&interval, course, None)? {
                     length = step * factor.max(T::ONE);
@@ -259,8 +259,8 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
     /// has a singularity there.
     fn creeping_length(&self, well: &Well<T>) -> T {
         // Close to the bottom the energy goes with the square of the distance.
-        let share = (well.rest / self.excess(well)).sqrt().max(T::constant(CREEPING_FRACTION));
-        let length = (self.at.s - well.bottom).abs() * (T::ONE - share);
+        let fraction = (well.rest / self.excess(well)).sqrt().max(T::constant(CREEPING_FRACTION));
+        let length = (self.at.s - well.bottom).abs() * (T::ONE - fraction);
         length.max(T::constant(CREEPING_ROUNDING) * T::EPSILON * self.at.s)
     }
 }
@@ -280,7 +280,7 @@ mod tests {
         for turning in [0.05_f64, 0.3, 0.5, 0.547] {
             let energy = law.potential(turning);
             let at = Point { s: turning, energy, speed_squared: 0.0 };
-            let mut path = NormalPath { end: End::Capture, energy, peak: 1.0, turning, effort: Effort::NONE };
+            let mut path = NormalPath { end: End::Capture, energy, peak: 1.0, turning, statistics: Statistics::NONE };
             let mut observer = ();
             let mut follower = Follower::from(&law, control, &mut observer, at);
             let settling = follower.settle::<12>(&mut path, &RestCriterion::new(1e-12, 1001)?);

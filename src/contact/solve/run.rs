@@ -1,4 +1,4 @@
-//! What a run took, and whether it came to its end.
+//! Statistics of a solution, and whether it came to its end.
 
 use super::path::{End, NormalPath};
 use crate::Real;
@@ -36,7 +36,7 @@ impl Status {
     }
 }
 
-/// What a run took.
+/// Statistics of the solver.
 ///
 /// ```
 /// use microimpact::contact::{Collocation, Contact, RunReport};
@@ -67,13 +67,13 @@ pub struct RunReport<T> {
 
 impl<T: Real> RunReport<T> {
     pub(crate) fn new(path: &NormalPath<T>) -> Self {
-        let effort = &path.effort;
+        let statistics = &path.statistics;
         Self {
             status: Status::of(path),
-            steps: effort.intervals,
-            refused: effort.refused,
-            evaluations: effort.iterations.saturating_mul(effort.nodes),
-            estimated_error: effort.error,
+            steps: statistics.intervals,
+            refused: statistics.refused,
+            evaluations: statistics.iterations.saturating_mul(statistics.nodes),
+            estimated_error: statistics.error,
         }
     }
 }
