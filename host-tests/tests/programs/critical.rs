@@ -7,7 +7,8 @@ const REFERENCE: &str = include_str!("../../data/critical.csv");
 /// The critical speeds of the reference, the last of its columns.
 fn reference() -> impl Iterator<Item = f64> {
     let mut reader = csv::Reader::from_reader(REFERENCE.as_bytes());
-    let speeds: Vec<f64> = reader.records().map(|row| row.unwrap().iter().next_back().unwrap().parse().unwrap()).collect();
+    let speeds: Vec<f64> =
+        reader.records().map(|row| row.unwrap().iter().next_back().unwrap().parse().unwrap()).collect();
     speeds.into_iter()
 }
 
