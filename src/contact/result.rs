@@ -107,14 +107,16 @@ pub struct NormalContact<T> {
     outcome: Option<Outcome>,
     approach: T,
     restitution_squared: T,
-    peak_indentation: Option<T>,
-    turning_indentation: Option<T>,
+    /// Zero where there is none.
+    peak_indentation: T,
+    /// Zero where there is none.
+    turning_indentation: T,
 }
 
 impl<T: Real> NormalContact<T> {
     #[inline]
     pub(super) fn new<L: ContactLaw<T>>(path: &NormalPath<T>, approach: T, law: &L, units: &Units<T>) -> Self {
-        let indentation = |s: T| (s > T::ZERO).then(|| units.length * law.indentation(s));
+        let indentation = |s: T| if s > T::ZERO { units.length * law.indentation(s) } else { T::ZERO };
         Self {
             status: Status::of(path),
             outcome: path.outcome(),
@@ -204,7 +206,7 @@ impl<T: Real> NormalContact<T> {
     /// ```
     #[inline]
     pub fn peak_indentation(&self) -> Option<T> {
-        self.peak_indentation
+        (self.peak_indentation > T::ZERO).then_some(self.peak_indentation)
     }
 
     /// Indentation at which a captured sphere first turns back, m; `None` for a rebound, a sphere that creeps to rest, or
@@ -224,6 +226,6 @@ impl<T: Real> NormalContact<T> {
     /// ```
     #[inline]
     pub fn turning_indentation(&self) -> Option<T> {
-        self.turning_indentation
+        (self.turning_indentation > T::ZERO).then_some(self.turning_indentation)
     }
 }

@@ -209,6 +209,7 @@ where
     let mut iterations = 0;
     let mut iterate = |phase: &mut Phase<T, N>, after: &mut dyn FnMut(&mut Phase<T, N>, T)| {
         let (enough, mut before) = (T::constant(CONVERGED) * tolerance * tolerance, T::ZERO);
+        phase.renew();
         for _ in 0..MOST_PHASE_ITERATIONS {
             let (gained, change) = phase.iterate::<true>();
             iterations += 1;

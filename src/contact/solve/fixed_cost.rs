@@ -126,8 +126,8 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         let moves = |by: T| by.abs() > T::constant(UNSTEADY) * energy;
         let mut phase = Phase::<T, N>::approach(law, energy);
         let mut lost = phase.estimate;
-        // Change of the energy lost by the last iteration.
-        let (mut moved, mut at_peak) = (T::ZERO, energy);
+        // Change of the energy lost by the last iteration; before the first as large as takes the reciprocals.
+        let (mut moved, mut at_peak) = (energy, energy);
         for iteration in 0..self.iterations {
             if iteration > 0 {
                 phase.describe(law, false);
@@ -144,7 +144,7 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         observe(&phase, false);
         phase.turn(law);
         let mut gained = T::ZERO;
-        moved = T::ZERO;
+        moved = energy;
         for _ in 0..self.iterations {
             if moves(moved) {
                 phase.renew();
@@ -169,7 +169,7 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             true if left > escape => End::Separation,
             true => End::Capture,
         };
-        let error = changed.saturating_div(energy);
+        let error = changed / energy;
         let statistics =
             Statistics { intervals: 2, refused: 0, iterations: 2 * self.iterations, nodes: N as u32, error };
         NormalPath { end, energy: left, peak: phase.peak, turning: T::ZERO, statistics }

@@ -28,7 +28,7 @@ const ENERGY_ERROR: f64 = 0.5;
 const SLOWNESS_ERROR: f64 = 0.03;
 
 /// Estimated relative error of times over the parts of the losses and, to the fourth power, of the reciprocal speed that the
-/// nodes do not resolve. The same tests hold them.
+/// nodes do not resolve. The same tests hold them, and those of impulses under Hunt and Crossley's damping.
 const TIME_ERROR_OF_LOSSES: f64 = 6e-3;
 const TIME_ERROR_OF_SLOWNESS: f64 = 0.06;
 
@@ -73,7 +73,8 @@ impl<T: Real> Tails<T> {
 }
 
 impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
-    /// The approach to the peak that an energy reaches, with an estimate of the energy that damping takes.
+    /// The approach to the peak that an energy reaches, with an estimate of the energy that damping takes; without the
+    /// reciprocals of the speeds.
     pub(crate) fn approach<L: ContactLaw<T>>(law: &L, energy: T) -> Self {
         let zeros = [T::ZERO; N];
         let mut phase =
@@ -98,11 +99,11 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         let factor = T::ONE + growth * (T::constant(power) + T::constant(power * (power - 1.0) / 2.0) * growth);
         phase.describe(law, false);
         phase.speed = phase.speed.map(|speed| speed * factor);
-        phase.renew();
         phase
     }
 
-    /// From the approach to the rebound from the same peak, with an estimate of the losses.
+    /// From the approach to the rebound from the same peak, with an estimate of the losses; without the reciprocals of the
+    /// speeds.
     pub(crate) fn turn(&mut self, law: &impl ContactLaw<T>) {
         let before = self.ends();
         self.describe(law, true);
@@ -113,7 +114,6 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
             let speed = self.free[j] / self.speed[j] + Self::gain(change, j);
             self.speed[j] = speed.max(T::SLOWEST);
         }
-        self.renew();
     }
 
     /// Takes the reciprocal at the slow end, where the speed changes most.
