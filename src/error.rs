@@ -327,8 +327,8 @@ impl fmt::Display for InputError {
         let unit = Unit(parameter.unit());
         // Rounding to f32 may move a value onto the bound that it misses.
         let value = match fault {
-            Fault::TooSmall if f64::from(value) >= smallest => value.next_down(),
-            Fault::TooLarge if f64::from(value) <= largest => value.next_up(),
+            Fault::TooSmall if value == smallest as f32 && f64::from(value) >= smallest => value.next_down(),
+            Fault::TooLarge if value == largest as f32 && f64::from(value) <= largest => value.next_up(),
             _ => value,
         };
         write!(f, "{} is {}", parameter.name(), Number(value))?;
@@ -359,7 +359,9 @@ impl InputError {
             {
                 write!(f, "; enter {value}{unit} as {}", Number(-self.value))
             }
-            Parameter::Radius | Parameter::Thickness if self.fault == Fault::TooLarge && self.value < 1e4 => {
+            Parameter::Radius | Parameter::Thickness
+                if self.fault == Fault::TooLarge && (0.0..1e4).contains(&self.value) =>
+            {
                 write!(f, "; enter {value} um as {value}e-6")
             }
             _ => Ok(()),

@@ -109,7 +109,7 @@ pub struct NormalContact<T> {
     restitution_squared: T,
     /// Zero where there is none.
     peak_indentation: T,
-    /// Zero where there is none.
+    /// Zero where there is none; less where adhesion has stretched the contact.
     turning_indentation: T,
 }
 
@@ -210,7 +210,7 @@ impl<T: Real> NormalContact<T> {
     }
 
     /// Indentation at which a captured sphere first turns back, m; `None` for a rebound, a sphere that creeps to rest, or
-    /// one that was not followed so far because no output asks for it.
+    /// one that was not followed so far because no output asks for it. It is negative where adhesion stretches the contact.
     ///
     /// ```
     /// use microimpact::contact::{Collocation, Contact, Times};
@@ -226,6 +226,6 @@ impl<T: Real> NormalContact<T> {
     /// ```
     #[inline]
     pub fn turning_indentation(&self) -> Option<T> {
-        (self.turning_indentation > T::ZERO).then_some(self.turning_indentation)
+        (self.turning_indentation != T::ZERO).then_some(self.turning_indentation)
     }
 }

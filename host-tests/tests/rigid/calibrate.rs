@@ -317,7 +317,7 @@ fn friction_needs_impacts_that_slide() {
     let rolling = [0.05, 0.1, 0.15, 0.2].map(|ratio| ImpulseRatios { measured: ratio, rolling: ratio });
     assert_eq!(friction(&rolling), Err(CalibrationError::TooFew));
     let wild = [ImpulseRatios { measured: f64::INFINITY, rolling: 1.0 }];
-    let error = InputError { parameter: Parameter::ImpulseRatio, fault: Fault::NotFinite, value: f32::NAN };
+    let error = InputError { parameter: Parameter::ImpulseRatio, fault: Fault::NotFinite, value: f32::INFINITY };
     assert_eq!(friction(&wild), Err(CalibrationError::Input(error)));
 }
 
