@@ -80,7 +80,7 @@ fn hertz() {
     // (5 m v^2/(4 sqrt(r) K))^(2/5), and 2 sqrt(pi) Gamma(7/5)/Gamma(9/10) times that over v.
     let energy = 1.25 * sphere().mass() * SPEED * SPEED;
     let indentation = (energy / (sphere().radius().sqrt() * stiffness().pascals())).powf(0.4);
-    let duration = 2.943_275_184_324_704_66 * indentation / SPEED;
+    let duration = 2.943_275_184_324_704_7 * indentation / SPEED;
     let exact =
         Exact { e: 1.0, peak: Some(indentation), peak_time: Some(0.5 * duration), contact_time: Some(duration) };
     check_all(&scene, &exact);

@@ -53,11 +53,11 @@ where
     }
     for degree in 0..N {
         let values = power(&z, degree);
-        for j in 0..N {
+        for (j, z) in z.iter().enumerate() {
             let numbers = [N, degree, j];
-            let exact = z[j].powi(degree as i32 + 1) / (degree + 1) as f64;
+            let exact = z.powi(degree as i32 + 1) / (degree + 1) as f64;
             assert_close(column(&<f64 as Nodes<N>>::INTEGRATION, &values, j), exact, "integral", numbers);
-            let exact = z[j].powi(degree as i32 + 1) / (degree + 3) as f64;
+            let exact = z.powi(degree as i32 + 1) / (degree + 3) as f64;
             assert_close(column(&<f64 as Nodes<N>>::TURNING_INTEGRATION, &values, j), exact, "turning", numbers);
         }
         let polynomial = z.map(|z| legendre(degree, z));
