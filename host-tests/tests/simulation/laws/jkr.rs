@@ -249,7 +249,7 @@ fn methods_that_cannot_carry_it_refuse() {
 
 #[test]
 fn slow_spheres_are_captured() {
-    let method = Adaptive::new(1e-9).unwrap();
+    let method = Collocation::<9, f64>::new(1e-9).unwrap();
     for ratio in [1e-3, 0.03, 0.3, 0.9, 0.99, 0.999_999] {
         let motion = NormalMotion::new(ratio * critical()).unwrap();
         let (impact, times) = scene().solve_for(&motion, &method, Times).unwrap();
@@ -285,7 +285,8 @@ fn critical_speed() {
 /// Nothing takes energy from a captured sphere without damping: it swings for ever, between the same places.
 #[test]
 fn a_captured_sphere_swings() {
-    let (method, motion) = (Adaptive::new(1e-12).unwrap(), NormalMotion::new(0.5 * critical()).unwrap());
+    let method = Collocation::<12, f64>::new(1e-12).unwrap();
+    let motion = NormalMotion::new(0.5 * critical()).unwrap();
     let settle =
         |most| scene().solve_to_rest(&motion, &method, &RestCriterion::new(1e-6, most).unwrap(), Times).unwrap();
     let [first, second, late, later] = [1, 2, 101, 102].map(settle);
@@ -315,7 +316,7 @@ fn unit_scene(hysteretic: f64, viscous: f64) -> Contact<f64, Jkr> {
 
 #[test]
 fn damped_impacts() {
-    let method = Adaptive::new(1e-11).unwrap();
+    let method = Collocation::<12, f64>::new(1e-11).unwrap();
     for [speed, hysteretic, viscous, e, depth, peak, contact] in DAMPED {
         let motion = NormalMotion::new(speed).unwrap();
         let scene = unit_scene(hysteretic, viscous);
@@ -337,7 +338,8 @@ fn damped_impacts() {
 /// With damping the sphere comes to rest, and the critical speed lies where its neighbours part.
 #[test]
 fn damped_captures_and_critical_speeds() {
-    let (method, criterion) = (Adaptive::new(1e-10).unwrap(), RestCriterion::new(1e-6, 1000).unwrap());
+    let method = Collocation::<12, f64>::new(1e-10).unwrap();
+    let criterion = RestCriterion::new(1e-6, 1000).unwrap();
     for (hysteretic, viscous) in [(0.1, 0.0), (0.0, 0.05), (0.3, 0.3), (1.0, 0.0), (3.0, 1.0)] {
         let scene = unit_scene(hysteretic, viscous);
         let motion = NormalMotion::new(1.0).unwrap();

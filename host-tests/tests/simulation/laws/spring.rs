@@ -151,7 +151,6 @@ fn closed_forms_are_met_by_methods_that_control_their_error() {
         check(zeta, &Collocation::<7, f64>::new(1e-6).unwrap(), scale * 1e-6);
         check(zeta, &Collocation::<9, f64>::new(1e-9).unwrap(), scale * 1e-9);
         check(zeta, &Collocation::<12, f64>::new(1e-12).unwrap(), scale * 1e-12);
-        check(zeta, &Adaptive::<f32>::new(1e-6).unwrap(), scale * 2e-6);
         check(zeta, &Collocation::<8, f32>::new(1e-6).unwrap(), scale * 2e-6);
     }
 }
@@ -176,10 +175,11 @@ fn fixed_cost_carries_a_spring_but_no_dashpot() {
 #[test]
 fn a_spring_always_rebounds() {
     let (scene, motion) = (scene::<f64>(0.3), NormalMotion::new(SPEED).unwrap());
-    let (adaptive, criterion) = (Adaptive::new(1e-9).unwrap(), RestCriterion::new(1e-6, 100).unwrap());
-    assert_eq!(scene.critical_speed(&adaptive).unwrap(), CriticalSpeed::AlwaysRebounds);
-    assert_eq!(scene.classify(&motion, &adaptive).unwrap().unwrap().outcome, Outcome::Rebound);
-    let settled = scene.solve_to_rest(&motion, &adaptive, &criterion, Times).unwrap();
+    let method = Collocation::<9, f64>::new(1e-9).unwrap();
+    let criterion = RestCriterion::new(1e-6, 100).unwrap();
+    assert_eq!(scene.critical_speed(&method).unwrap(), CriticalSpeed::AlwaysRebounds);
+    assert_eq!(scene.classify(&motion, &method).unwrap().unwrap().outcome, Outcome::Rebound);
+    let settled = scene.solve_to_rest(&motion, &method, &criterion, Times).unwrap();
     assert_eq!(settled.motion, None);
     assert!((settled.outputs.contact.unwrap() / exact(0.3).3 - 1.0).abs() < 1e-9);
 }
@@ -192,7 +192,7 @@ fn the_end_of_slip_is_found() {
     let motion = NormalMotion::new(SPEED).unwrap().with_tangential(tangential).unwrap();
     let frequency = (STIFFNESS / sphere::<f64>().mass()).sqrt();
     // The impulse is m v (1 - cos wt), and what is needed 2/7 of the slip over f: that at the peak.
-    let (_, slip) = scene.solve_for(&motion, &Adaptive::new(1e-9).unwrap(), Slip).unwrap();
+    let (_, slip) = scene.solve_for(&motion, &Collocation::<9, f64>::new(1e-9).unwrap(), Slip).unwrap();
     assert!((slip.rolls_from.unwrap() * frequency / (0.5 * PI) - 1.0).abs() < 1e-7);
     assert!((slip.velocity / (5.0 / 7.0 * tangential) - 1.0).abs() < 1e-12);
 }
