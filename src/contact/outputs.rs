@@ -27,7 +27,7 @@ use crate::{Real, Sphere};
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no output of this scene",
-    label = "outputs are `Times`, `Impulses`, `Works`, `Energy`, `Recording` and, with friction, `Slip`"
+    label = "outputs are `Times`, `Impulses`, `Works`, `Energy`, `Recording` and `Slip`"
 )]
 pub trait Output<T: Real, S> {
     /// What is integrated along the motion.
@@ -351,7 +351,7 @@ impl<T: Real, const PEELS: bool> Output<T, SlipStart<T, PEELS>> for Energy {
     }
 }
 
-/// Asks for [`SlipHistory`], of scenes with friction.
+/// Asks for [`SlipHistory`]. A scene without friction has none, and gives `()`.
 ///
 /// ```
 /// use microimpact::contact::{Collocation, Contact, Slip};
@@ -419,6 +419,17 @@ impl<T: Real> SlipHistory<T> {
     pub fn rotation_degrees(&self) -> T {
         self.rotation * T::constant(180.0 / PI)
     }
+}
+
+impl<T: Real> Output<T, ()> for Slip {
+    type Observer = ();
+    type Result = ();
+
+    #[inline]
+    fn begin(&self, (): &()) {}
+
+    #[inline]
+    fn finish<L: ContactLaw<T>>(&self, (): (), _end: &Ended<'_, T, L>) {}
 }
 
 impl<T: Real, const PEELS: bool> Output<T, SlipStart<T, PEELS>> for Slip {

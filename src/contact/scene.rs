@@ -282,17 +282,14 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     #[inline]
-    pub fn solve_for<B, M, O>(
+    pub fn solve_for<B: Approach<T>, O: Output<T, S::Start>>(
         &self,
         before: &B,
-        method: &M,
+        method: &impl Method<T>,
         outputs: O,
     ) -> Result<(SimulatedImpact<T, S::After>, O::Result), InputError>
     where
-        B: Approach<T>,
         S: Surface<T, B>,
-        M: Method<T>,
-        O: Output<T, S::Start>,
     {
         let approach = before.normal().speed();
         let (law, units) = self.law.in_units(&self.sphere, approach)?;

@@ -8,6 +8,7 @@ mod critical;
 mod documentation;
 mod fit;
 mod formats;
+mod mistakes;
 mod report;
 mod report_cost;
 mod without;

@@ -39,6 +39,7 @@ impl<T: Real> Integrals<T> for SurfaceImpulse<T> {
 // A captured sphere goes on until it rolls, wherever it turns.
 observe_by_integrals!(SurfaceImpulse, timed: true, to_turning_point: false);
 
+#[diagnostic::do_not_recommend] // so that a message speaks of the motion, not of this bound
 impl<T: Real, B: Oblique<T>> Surface<T, B> for Coulomb<T> {
     type Start = SlipStart<T, false>;
     type Observer = SurfaceImpulse<T>;

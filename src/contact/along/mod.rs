@@ -70,6 +70,7 @@ pub struct SlipStart<T, const PEELS: bool> {
     peeling: T,
 }
 
+#[diagnostic::do_not_recommend]
 impl<T: Real, B> Surface<T, B> for NoFriction {
     type Start = ();
     type Observer = ();

@@ -44,6 +44,7 @@ impl<T: Real> Peeling<T> {
     }
 }
 
+#[diagnostic::do_not_recommend]
 impl<T: Real, B: Oblique<T>> Surface<T, B> for Peeling<T> {
     type Start = SlipStart<T, true>;
     type Observer = TangentialMotion<T, true>;

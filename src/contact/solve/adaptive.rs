@@ -112,6 +112,7 @@ macro_rules! by_intervals {
     }};
 }
 
+#[diagnostic::do_not_recommend] // the message names the methods already
 impl<T: AdaptiveNodes> ErrorControl<T> for Adaptive<T> {
     fn tolerance(&self) -> T {
         self.tolerance

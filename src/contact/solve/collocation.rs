@@ -112,6 +112,7 @@ pub trait ErrorControl<T: Real>: Method<T> {
     fn try_energy<L: ContactLaw<T>>(&self, law: &L, energy: T) -> Trial<T>;
 }
 
+#[diagnostic::do_not_recommend] // the message names the methods already
 impl<T: Nodes<N>, const N: usize> ErrorControl<T> for Collocation<N, T> {
     fn tolerance(&self) -> T {
         self.tolerance
