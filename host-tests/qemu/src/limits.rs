@@ -118,8 +118,8 @@ fn exceeding(figures: &[Figure], limit: impl Fn(&Subject) -> Option<f64>) -> Vec
     figures.iter().filter_map(exceeds).collect()
 }
 
-/// By how many bytes the code and constants of a scene may differ from a firmware for it alone, where the compiler joins and
-/// shares other functions: so many, and this share.
+/// The code and constants of a scene may differ from those of a firmware for it alone by this number of bytes and this
+/// fraction together, since the compiler inlines and merges other functions there.
 const JOINED: (f64, f64) = (400.0, 0.05);
 
 /// Every scene whose two numbers of bytes do not go together: a reference that was overlooked would make code and constants

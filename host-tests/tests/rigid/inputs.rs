@@ -213,8 +213,8 @@ fn ratios_of_forces() {
         );
     }
     assert!(scene.with_damping(1e3).unwrap().solve_normal(&motion(1.0), &method).is_ok());
-    for (sweeps, expected) in [(0, Fault::TooSmall), (41, Fault::TooLarge)] {
-        assert_eq!(FixedCost::<5>::new(sweeps).err().map(kind), fault(Parameter::Iterations, expected));
+    for (iterations, expected) in [(0, Fault::TooSmall), (41, Fault::TooLarge)] {
+        assert_eq!(FixedCost::<5>::new(iterations).err().map(kind), fault(Parameter::Iterations, expected));
     }
     for (turning_points, expected) in [(0, Fault::TooSmall), (100_001, Fault::TooLarge)] {
         assert_eq!(RestCriterion::new(0.1, turning_points).err().map(kind), fault(Parameter::TurningPoints, expected));

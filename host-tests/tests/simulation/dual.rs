@@ -80,8 +80,8 @@ fn collocation<const N: usize>(tolerance: f64) -> Collocation<N, Dual<f64, 7>> {
     Collocation::new(Dual::fixed(tolerance)).unwrap()
 }
 
-/// The derivatives follow the values: where the last sweep settles these, a larger error may be left in those. The bounds are
-/// those of the worst scene, just above its critical speed; of most the derivatives are as exact as the values.
+/// Derivatives converge one iteration later than values, so a larger error can remain in them. The bounds are those of the worst
+/// scene, just above its critical speed. In most scenes the derivatives are as exact as the values.
 #[test]
 fn derivatives_of_restitution() {
     let families = &["paper", "figure6", "random", "extreme", "peeling"];
@@ -96,7 +96,7 @@ fn derivatives_of_restitution() {
     }
 }
 
-/// A fixed number of sweeps leaves more of the derivatives than of the values.
+/// After a fixed number of iterations the error of the derivatives is larger than that of the values.
 #[test]
 fn derivatives_at_fixed_cost() {
     let error = worst_restitution(&["paper", "figure6"], &FixedCost::<7>::new(4).unwrap());

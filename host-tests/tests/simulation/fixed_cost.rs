@@ -4,7 +4,7 @@ use microimpact::contact::{Collocation, Contact, FixedCost, Impulses, Method, Ph
 use microimpact::{NormalMotion, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
 use reference::{Case, cases};
 
-/// A captured sphere of the random family, too strongly damped for so few sweeps.
+/// A captured sphere of the random family, too strongly damped for so few iterations.
 const TOO_DAMPED: &str = "r002";
 
 /// Largest error of e in some families, all of whose outcomes have to be right.
@@ -27,13 +27,13 @@ fn largest_error<T: Real>(families: &[&str], method: &impl Method<T>, double: im
 const SCENES: [&str; 3] = ["paper", "figure6", "random"];
 
 #[test]
-fn five_nodes_and_three_sweeps() {
+fn five_nodes_and_three_iterations() {
     let error = largest_error(&SCENES, &FixedCost::<5>::new(3).unwrap(), f64::from as fn(f32) -> f64);
     assert!(error < 1e-5, "{error:.1e}");
 }
 
 #[test]
-fn seven_nodes_and_three_sweeps() {
+fn seven_nodes_and_three_iterations() {
     let error = largest_error(&SCENES, &FixedCost::<7>::new(3).unwrap(), f64::from as fn(f32) -> f64);
     assert!(error < 1e-6, "{error:.1e}");
 }
@@ -74,7 +74,7 @@ fn velocities_along_the_surface_are_as_exact() {
 }
 
 #[test]
-fn more_nodes_and_sweeps_converge() {
+fn more_nodes_and_iterations_converge() {
     let error = |method: &dyn Fn() -> f64| method();
     let errors = [
         error(&|| largest_error(&["paper"], &FixedCost::<4>::new(8).unwrap(), |e: f64| e)),

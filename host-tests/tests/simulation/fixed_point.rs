@@ -11,7 +11,7 @@ fn in_fixed_point(case: &Case) -> Result<DimensionlessImpact<FixedPoint>, InputE
 }
 
 #[test]
-fn four_nodes_and_two_sweeps() {
+fn four_nodes_and_two_iterations() {
     let method = FixedCost::<4>::new(2).unwrap();
     let (mut largest, mut solved) = (0.0_f64, 0);
     for case in cases().iter().filter(|case| ["paper", "figure6", "random"].contains(&case.text("family"))) {

@@ -45,7 +45,7 @@ pub static IMPACTS: [Impact; 9] = [
 ];
 
 /// Impacts for the contact simulation, few because each takes long where numbers are computed in software: every
-/// way in which a simulated impact can end, some of them by the way of a refused stretch.
+/// way in which a simulated impact can end, in some of them after an interval that did not converge.
 pub static CONTACTS: [Impact; 6] = [
     Impact::new("straight", 2.8, 0.0, 0.0),
     Impact::new("just-rebounds", 1.5, 0.0, 0.0),

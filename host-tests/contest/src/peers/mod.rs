@@ -9,13 +9,13 @@ mod ode_solvers;
 
 use crate::contestant::Contestant;
 use crate::problem::Problem;
-use microimpact_scenes::methods::peers::SHARES;
+use microimpact_scenes::methods::peers::FRACTIONS;
 
 /// The settings of all peers.
 pub fn all(problem: Problem) -> Vec<Contestant> {
     let events = differential_equations::events(problem);
     let mut all = differential_equations::with_interpolation(problem);
-    for fraction in SHARES {
+    for fraction in FRACTIONS {
         let places = events.map(|event| fraction * event);
         all.extend(differential_equations::with_last_step(problem, places));
         all.extend(ode_solvers::contestants(problem, places));

@@ -78,8 +78,8 @@ impl Task {
 /// What sets the error of a method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Amount {
-    /// Sweeps of each phase.
-    Sweeps(u32),
+    /// Iterations of each phase.
+    Iterations(u32),
     /// Steps in the duration of an undamped impact.
     Steps(u32),
     /// The error asked for.
@@ -116,10 +116,10 @@ impl Display for Contestant {
         match self.variant {
             Variant::Only => {}
             Variant::Nodes(nodes) => write!(f, "{nodes} nodes, ")?,
-            Variant::Algorithm(name, share) => write!(f, "{name} to {share} of an event, ")?,
+            Variant::Algorithm(name, fraction) => write!(f, "{name} to {fraction} of an event, ")?,
         }
         match self.amount {
-            Amount::Sweeps(sweeps) => write!(f, "{sweeps} sweeps"),
+            Amount::Iterations(iterations) => write!(f, "{iterations} iterations"),
             Amount::Steps(steps) => write!(f, "{steps} steps"),
             Amount::Tolerance(tolerance) => write!(f, "{tolerance:.0e}"),
         }

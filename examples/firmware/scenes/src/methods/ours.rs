@@ -48,21 +48,21 @@ impl<T> Tables for T where
 {
 }
 
-/// Numbers of sweeps that are worth their cost.
-fn sweeps(extent: Extent) -> impl Iterator<Item = u32> {
+/// Numbers of iterations that are worth their cost.
+fn iterations(extent: Extent) -> impl Iterator<Item = u32> {
     (2..=8).step_by(if extent.sparse { 2 } else { 1 })
 }
 
 /// The motion along the normal.
 pub fn normal<T: Tables>(inputs: &Inputs, extent: Extent, visitor: &mut impl Visitor) {
     let double = T::ROUNDING < 1e-10;
-    for sweeps in sweeps(extent) {
-        fixed_cost::<T, 4>(inputs, sweeps, visitor);
-        fixed_cost::<T, 5>(inputs, sweeps, visitor);
-        fixed_cost::<T, 7>(inputs, sweeps, visitor);
-        fixed_cost::<T, 9>(inputs, sweeps, visitor);
+    for iterations in iterations(extent) {
+        fixed_cost::<T, 4>(inputs, iterations, visitor);
+        fixed_cost::<T, 5>(inputs, iterations, visitor);
+        fixed_cost::<T, 7>(inputs, iterations, visitor);
+        fixed_cost::<T, 9>(inputs, iterations, visitor);
         if double {
-            fixed_cost::<T, 13>(inputs, sweeps, visitor);
+            fixed_cost::<T, 13>(inputs, iterations, visitor);
         }
     }
     for tolerance in extent.tolerances::<T>() {
@@ -84,11 +84,11 @@ pub fn normal<T: Tables>(inputs: &Inputs, extent: Extent, visitor: &mut impl Vis
 /// The same with friction and spin, for velocities along the surface.
 pub fn oblique<T: Tables>(inputs: &Inputs, extent: Extent, visitor: &mut impl Visitor) {
     let double = T::ROUNDING < 1e-10;
-    for sweeps in sweeps(extent) {
-        oblique_fixed_cost::<T, 5, 7>(inputs, sweeps, visitor);
-        oblique_fixed_cost::<T, 7, 9>(inputs, sweeps, visitor);
+    for iterations in iterations(extent) {
+        oblique_fixed_cost::<T, 5, 7>(inputs, iterations, visitor);
+        oblique_fixed_cost::<T, 7, 9>(inputs, iterations, visitor);
         if double {
-            oblique_fixed_cost::<T, 9, 11>(inputs, sweeps, visitor);
+            oblique_fixed_cost::<T, 9, 11>(inputs, iterations, visitor);
         }
     }
     for tolerance in extent.tolerances::<T>() {
@@ -115,24 +115,24 @@ pub fn oblique<T: Tables>(inputs: &Inputs, extent: Extent, visitor: &mut impl Vi
 
 /// Motion along the normal in fixed point, from dimensionless numbers.
 pub fn fixed_point(inputs: &Inputs, extent: Extent, visitor: &mut impl Visitor) {
-    for sweeps in sweeps(extent).take(4) {
-        in_fixed_point::<4>(inputs, sweeps, visitor);
-        in_fixed_point::<5>(inputs, sweeps, visitor);
-        in_fixed_point::<7>(inputs, sweeps, visitor);
+    for iterations in iterations(extent).take(4) {
+        in_fixed_point::<4>(inputs, iterations, visitor);
+        in_fixed_point::<5>(inputs, iterations, visitor);
+        in_fixed_point::<7>(inputs, iterations, visitor);
     }
 }
 
-fn in_fixed_point<const N: usize>(inputs: &Inputs, sweeps: u32, visitor: &mut impl Visitor)
+fn in_fixed_point<const N: usize>(inputs: &Inputs, iterations: u32, visitor: &mut impl Visitor)
 where
     FixedPoint: PhaseSamples<N, 9>,
 {
     let impact = inputs.normal::<f32>().and_then(|(scene, motion)| scene.dimensionless(&motion)?.in_fixed_point());
-    let (Ok(impact), Ok(method)) = (impact, FixedCost::<N>::new(sweeps)) else { return };
+    let (Ok(impact), Ok(method)) = (impact, FixedCost::<N>::new(iterations)) else { return };
     let contestant = Contestant {
         task: Task::Normal,
         method: FIXED_COST,
         variant: Variant::Nodes(N),
-        amount: Amount::Sweeps(sweeps),
+        amount: Amount::Iterations(iterations),
     };
     visitor.visit::<FixedPoint>(contestant, move || {
         let contact = black_box(&impact).solve(black_box(&method));
@@ -142,11 +142,11 @@ where
 
 fn fixed_cost<T: Number + PhaseSamples<N, 9>, const N: usize>(
     inputs: &Inputs,
-    sweeps: u32,
+    iterations: u32,
     visitor: &mut impl Visitor,
 ) {
-    let Ok(method) = FixedCost::<N>::new(sweeps) else { return };
-    visit_normal::<T, _>(inputs, FIXED_COST, Variant::Nodes(N), Amount::Sweeps(sweeps), method, visitor);
+    let Ok(method) = FixedCost::<N>::new(iterations) else { return };
+    visit_normal::<T, _>(inputs, FIXED_COST, Variant::Nodes(N), Amount::Iterations(iterations), method, visitor);
 }
 
 fn collocation<T: Number + Nodes<N>, const N: usize>(inputs: &Inputs, tolerance: f64, visitor: &mut impl Visitor) {
@@ -154,13 +154,13 @@ fn collocation<T: Number + Nodes<N>, const N: usize>(inputs: &Inputs, tolerance:
     visit_normal(inputs, COLLOCATION, Variant::Nodes(N), Amount::Tolerance(tolerance), method, visitor);
 }
 
-fn oblique_fixed_cost<T, const N: usize, const M: usize>(inputs: &Inputs, sweeps: u32, visitor: &mut impl Visitor)
+fn oblique_fixed_cost<T, const N: usize, const M: usize>(inputs: &Inputs, iterations: u32, visitor: &mut impl Visitor)
 where
     T: Number + PhaseSamples<N, M>,
 {
-    let Ok(method) = FixedCost::<N>::new(sweeps) else { return };
+    let Ok(method) = FixedCost::<N>::new(iterations) else { return };
     let method = method.with_outputs::<M>();
-    visit_oblique::<T, _>(inputs, FIXED_COST, Variant::Nodes(N), Amount::Sweeps(sweeps), visitor, method);
+    visit_oblique::<T, _>(inputs, FIXED_COST, Variant::Nodes(N), Amount::Iterations(iterations), visitor, method);
 }
 
 fn oblique_collocation<T: Number + Nodes<N>, const N: usize>(

@@ -34,7 +34,7 @@ impl PeerNumber for f64 {
 }
 
 /// How far towards an event a solver goes that has none, before it changes the variable.
-pub const SHARES: [f64; 3] = [0.97, 0.85, 0.7];
+pub const FRACTIONS: [f64; 3] = [0.97, 0.85, 0.7];
 
 /// Steps after which a solver gives up.
 const MOST_STEPS: usize = 10_000;
@@ -46,13 +46,13 @@ pub fn visit<T: PeerNumber>(inputs: &Inputs, extent: Extent, visitor: &mut impl 
     let steps = 256;
     let step = <T as Real>::constant(UNDAMPED_LENGTH / f64::from(steps));
     let Some((_, events, _)) = equations.solve::<2>(step, steps * LONGEST) else { return };
-    for share in SHARES {
-        let places = events.map(|event| <T as Real>::constant(share) * event);
+    for fraction in FRACTIONS {
+        let places = events.map(|event| <T as Real>::constant(fraction) * event);
         for tolerance in extent.tolerances::<T>() {
             let contestant = |method, algorithm| Contestant {
                 task: Task::Normal,
                 method,
-                variant: Variant::Algorithm(algorithm, share),
+                variant: Variant::Algorithm(algorithm, fraction),
                 amount: Amount::Tolerance(tolerance),
             };
             let tolerance = <T as Real>::constant(tolerance);

@@ -96,12 +96,12 @@ impl<T: Real> Regularised<T> {
             *time = s + s;
             *impulse = twice * elastic;
         }
-        let share = match self.against {
+        let per_variable = match self.against {
             Variable::Stretched => return rates,
             Variable::Speed => T::ONE / rates[1],
             Variable::Radius => T::ONE / rates[0],
         };
-        rates.map(|rate| rate * share)
+        rates.map(|rate| rate * per_variable)
     }
 
     /// e of the state at separation.
