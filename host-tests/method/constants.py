@@ -60,6 +60,7 @@ C = [
     ("TURNING_HALVINGS, TURNING_STEPS", "12, 3", "path: `outer_turning_point`", "only a first value for an arrival"),
     ("EQUILIBRIUM_START, EQUILIBRIUM_STEPS", "2, 100", "path: `equilibrium`", "beyond the bottom of every well without external force ($s_q^2=\\frac35p$)"),
     ("WELL_STEPS, WELL_ACCURACY, BARRIER_HALVINGS", "250, 1e-5, 60", "well", "Newton's method removes a fixed fraction each time if the force is a power of $s$"),
+    ("MOST_DOUBLINGS", "32", "well", "its start is 1, doubled while the potential falls there"),
     ("**Whole phases**",),
     ("FIRST_LOSS_WEIGHT, LAST_LOSS_WEIGHT", "0.56, 0.36", "phase: `approach`", "$u$ over its middle value near the peak and near $s=0$, halved"),
     ("`energy_power`", "5", "phase: `approach`, `correct_peak`", "power of the coordinate in the elastic energy, `energy_power` of the law; 5/2 and 15/8 follow from it"),
@@ -90,7 +91,7 @@ C = [
     ("LEAST_DEPTH_FRACTION", "1e-12", "critical: `try_energy`", "keeps the tolerance positive"),
     ("LEAST_SQUARED_FRACTION", "1e-4", "critical: `try_energy`, `descend`", "stricter tolerances are out of reach of rounding"),
     ("STIFF_FRACTION, STIFF_ERROR", "0.2, 1e-4", "critical: `descend`", "if the speed is small against the potential, an error is not the square of the tail any more"),
-    ("MOST_SQUARED_SPEED", "4", "critical: `ascend`", "no impact is faster than 1 in its units"),
+    ("MOST_SQUARED_SPEED", "4", "critical: `ascend`", "factor on $2(E-V(s_q))$ of the arrival, the largest $y^2$ of an undamped impact"),
     ("LEAST_EXCESS", "-0.99", "critical: `note`", "the step $v/(1+X)$ would be too long"),
     ("SECANT_ACCURACY", "0.1", "critical: `note`", "estimated error over the tolerance"),
     ("BRACKET_ROUNDING", "4 ε", "critical: `note`", "the bracket cannot be halved any more"),
@@ -114,4 +115,5 @@ C = [
     ("PEAK_STEPS, PEAK_ACCURACY", "4, 0.06 ε", "law/hertz: `inverse_peak_contact_radius`", "the remaining error is below twice the square of the step"),
     ("HERTZ_DURATION", "2.9432752", "law/hertz", "duration of Hertz's impact in $\\delta_H/v$"),
     ("LEAST_STEPS, LONGEST_RUN", "4, 64", "gill", "slow departures take several times Hertz's duration"),
+    ("INVERSE_ACCURACY", "1e-3", "gill", "refuses a law whose coordinate is not the inverse of its indentation"),
 ]

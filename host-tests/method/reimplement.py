@@ -568,6 +568,10 @@ def converged_phases(law, E, n):
 # ---------------------------------------------------------------- 6. critical speed
 def well(law):
     s = 1.0
+    for _ in range(32):
+        if law.V1(s) >= 0:
+            break
+        s *= 2
     for _ in range(250):
         if law.V2(s) <= 0:
             return None
@@ -605,7 +609,7 @@ def trial(scene, v, n, tol):
     while up.at.s < bottom:
         ok, length = one_step(up, min(length, bottom - up.at.s), resting, True, True)
         resting = resting and not ok
-        if up.at.y2 > 4:
+        if up.at.y2 > 4 * 2 * (E + depth):
             return None
     kinetic = 0.5 * up.at.y2
     left = min(kinetic / E, 1.0)

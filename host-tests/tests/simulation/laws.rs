@@ -1,5 +1,6 @@
 //! Laws of contact that are defined outside the library, solved by every method that can carry them.
 
+mod attraction;
 mod jkr;
 mod spring;
 

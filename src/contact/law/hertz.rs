@@ -408,12 +408,6 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> ContactLaw<T> f
         let rate = T::constant(4.0 * PI / 3.0) * sphere.density() / self.stiffness;
         depth * depth.sqrt().sqrt() / rate.sqrt()
     }
-
-    #[inline]
-    fn duration(&self, energy: T) -> T {
-        let square = energy + energy;
-        T::constant(HERTZ_DURATION) * square.two_fifths_power() / square.sqrt()
-    }
 }
 
 /// Peak under an external force, in units of the peak without it, from which it becomes the unit. A force that leaves less

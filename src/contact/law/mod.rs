@@ -17,18 +17,25 @@ pub use ring::Ring;
 pub use crate::contact::units::Units;
 use crate::{InputError, Real, Sphere};
 
-/// A law of contact: the forces between sphere and surface along the normal, and what they take from the motion.
+/// A law of contact: the forces between sphere and surface along the normal, and the energy that damping dissipates.
 ///
 /// A scene holds a law in SI units. For each impact, [`in_units`](Self::in_units) gives the same law with its numbers in
-/// units of that impact, and the solver calls all other functions on the result. In those units the mass is one, the
-/// undamped motion turns at or near s = 1, and speeds are at most about one: no product leaves the range of `f32`.
+/// units of that impact, and the solver calls all other functions on the result. In those units the mass is one and the
+/// undamped motion, adhesion and other forces included, turns at s = 1. Speeds are then about one at most, and no product
+/// leaves the range of `f32`. [`FixedCost`](crate::contact::FixedCost) starts from s = 1 and relies on it. The other methods
+/// search for the turning point; with units that are several times too small or too large they only take longer.
 ///
 /// The *coordinate* s is the contact radius or a root of it. It is chosen such that indentation, potential and losses are
 /// smooth functions of it, polynomials in most cases, even where contact begins and ends. The normal motion is then the
 /// path y^2/2 = E - V(s), along which only the losses change the energy E (y is the size of the normal velocity).
 ///
-/// To write a law of your own, implement the functions without a default. If its indentation is not x = s^2, give
-/// [`indentation`](Self::indentation) and [`indentation_slope`](Self::indentation_slope) too.
+/// To write a law of your own, implement the functions without a default. Forces of adhesion and damping are positive
+/// numbers. The potential contains the elastic force and adhesion, but no damping. Where the indentation is not x = s^2,
+/// implement [`indentation`](Self::indentation), [`indentation_slope`](Self::indentation_slope),
+/// [`coordinate`](Self::coordinate), [`conservative_force`](Self::conservative_force),
+/// [`contact_radius`](Self::contact_radius) and [`energy_power`](Self::energy_power) too. The solver cannot check that
+/// these functions agree: test yours by comparing [`slope`](Self::slope) and [`mean_slope`](Self::mean_slope) with
+/// differences of [`potential`](Self::potential), or the results of two methods with each other.
 ///
 /// ```
 /// use microimpact::contact::{Adaptive, Contact, ContactLaw, Times, Units};
@@ -94,11 +101,14 @@ pub trait ContactLaw<T: Real>: Copy {
 
     /// The lowest power of s in the losses c(s) dx/ds, over all that damps on the way in or out.
     ///
-    /// Methods that solve a whole phase as one polynomial take losses from the power two on, of contacts that begin and end
-    /// at s = 0. They refuse others with a status, so a law whose contact begins or ends elsewhere returns zero.
+    /// [`FixedCost`](crate::contact::FixedCost), which solves a whole phase as one polynomial, needs losses of power two or
+    /// higher, and contacts that begin and end at s = 0. For other laws it returns
+    /// [`Status::Unsupported`](crate::contact::Status::Unsupported). A law without damping returns any power from two on; a
+    /// law whose contact begins or ends elsewhere returns zero.
     fn loss_power(&self) -> u32;
 
-    /// Potential energy V, zero where contact ends.
+    /// Potential energy V, zero where contact ends. The sphere arrives at [`start`](Self::start) with the kinetic energy
+    /// [`Units::energy`], whatever V is there.
     fn potential(&self, s: T) -> T;
 
     /// dV/ds.
@@ -119,7 +129,7 @@ pub trait ContactLaw<T: Real>: Copy {
         T::ZERO
     }
 
-    /// Force of adhesion without its damping; none unless given.
+    /// Force of adhesion without its damping, of which the adhesive impulse is the integral; none unless given.
     #[inline]
     fn adhesion_force(&self, _s: T) -> T {
         T::ZERO
@@ -177,33 +187,34 @@ pub trait ContactLaw<T: Real>: Copy {
     }
 
     /// Whether a maximum of the potential may lie between the end of contact and the peak, as under a force out of the
-    /// surface.
+    /// surface. A law that returns `false` saves the search for it.
     #[inline]
     fn may_have_barrier(&self) -> bool {
         true
     }
 
-    /// The power of s with which the elastic energy grows: the solver's first estimates use it.
+    /// The power of s to which the elastic energy is proportional: 5 for Hertz's with x = s^2. Adaptive and FixedCost estimate
+    /// the peak with it and may need more iterations if it is wrong.
     #[inline]
     fn energy_power(&self) -> f64 {
         5.0
     }
 
-    /// A speed (m/s) at which adhesion matters, from which the search for the critical speed starts; of the law in SI units.
+    /// A speed (m/s) of the order of the critical speed, from which the search for it starts. Called on the law in SI units.
     #[inline]
     fn speed_of_adhesion(&self, _sphere: &Sphere<T>) -> T {
         T::ONE
     }
 
-    /// Duration of a contact without damping and adhesion for a kinetic energy before the impact, about; the step of
-    /// [`RungeKuttaGill`](crate::contact::RungeKuttaGill) is a fraction of it.
+    /// Approximate duration of a contact without damping and adhesion, for a kinetic energy before the impact; Hertz's unless
+    /// given. The step of [`RungeKuttaGill`](crate::contact::RungeKuttaGill) is a fraction of it.
     #[inline]
     fn duration(&self, energy: T) -> T {
-        T::constant(hertz::HERTZ_DURATION) / (energy + energy).sqrt()
+        let square = energy + energy;
+        T::constant(hertz::HERTZ_DURATION) * square.two_fifths_power() / square.sqrt()
     }
 
-    /// Force of the potential, -dV/dx. A law whose [`indentation`](Self::indentation) is given, and has no slope somewhere,
-    /// gives it there.
+    /// Force of the potential, -dV/dx. A law with another indentation than s^2 has to give the limit where its slope is zero.
     #[inline]
     fn conservative_force(&self, s: T) -> T {
         let slope = self.indentation_slope(s);
@@ -217,7 +228,7 @@ pub trait ContactLaw<T: Real>: Copy {
         if rebound { self.material_damping(s) + self.adhesion_damping(s) } else { self.material_damping(s) }
     }
 
-    /// Energy that damping takes for each ds and unit of speed.
+    /// Energy that damping dissipates, per unit of s and per unit of speed.
     #[inline]
     fn loss(&self, s: T, rebound: bool) -> T {
         self.indentation_slope(s) * self.damping(s, rebound)

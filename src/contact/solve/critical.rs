@@ -41,7 +41,8 @@ const STIFF_FRACTION: f64 = 0.2;
 /// and the factor on its tolerance then.
 const STIFF_ERROR: f64 = 1e-4;
 
-/// Square of a speed that no impact has in its units.
+/// Square of a speed over the largest that the undamped impact has, from which the path from rest is followed no further: no
+/// damped impact comes near it.
 const MOST_SQUARED_SPEED: f64 = 4.0;
 
 /// Excess below which the step v/(1 + excess) would be too long.
@@ -94,14 +95,16 @@ pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(toleranc
     let finer = Control { converged: control.converged * scale, ..control };
     let at_rest = Point { s: barrier, energy: rest, speed_squared: T::ZERO };
     let captured = Trial::Tried { rebounds: false, excess: None };
-    let Some(departure) = Follower::from(law, finer, &mut (), at_rest).ascend::<N>(bottom) else {
+    let arrival = Point::arriving(law, energy);
+    let fastest = two * (arrival.energy - law.potential(bottom));
+    let most = T::constant(MOST_SQUARED_SPEED) * fastest;
+    let Some(departure) = Follower::from(law, finer, &mut (), at_rest).ascend::<N>(bottom, most) else {
         return captured;
     };
     let kinetic = half * departure.speed_squared;
     // Where damping leaves little of the energy of the impact, errors count in proportion to what is left.
     let left = (kinetic / energy).min(T::ONE);
     control.error = (control.error * (left * left).max(T::constant(LEAST_SQUARED_FRACTION))).max(unattainable());
-    let arrival = Point::arriving(law, energy);
     let Some(impact) = Follower::from(law, control, &mut (), arrival).descend::<N>(bottom) else {
         return captured;
     };
@@ -263,8 +266,8 @@ impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
         Some(self.at)
     }
 
-    /// From rest up to the contact radius `to`, against time; `None` where it gains more energy than any impact has.
-    fn ascend<const N: usize>(mut self, to: T) -> Option<Point<T>>
+    /// From rest up to the coordinate `to`, against time; `None` where the square of its speed exceeds `most`.
+    fn ascend<const N: usize>(mut self, to: T, most: T) -> Option<Point<T>>
     where
         T: Nodes<N>,
     {
@@ -274,7 +277,7 @@ impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
             let taken;
             (taken, length) = self.step::<N>(length.min(to - self.at.s), resting, course)?;
             resting &= !taken;
-            if self.at.speed_squared > T::constant(MOST_SQUARED_SPEED) {
+            if self.at.speed_squared > most {
                 return None;
             }
         }

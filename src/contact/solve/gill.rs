@@ -68,6 +68,9 @@ impl<T: Real> Method<T> for RungeKuttaGill {
     }
 }
 
+/// Difference between a coordinate and the inverse of its indentation, above which the two functions do not belong together.
+const INVERSE_ACCURACY: f64 = 1e-3;
+
 /// Indentation and speed, and the observer's state.
 type State<T, O> = ([T; 2], O);
 
@@ -80,7 +83,12 @@ where
 {
     let half = T::constant(0.5);
     let (first, last) = (law.indentation(law.start()), law.indentation(law.end()));
-    law.coordinate(first)?;
+    // A law of one's own can have an indentation that its coordinate does not invert.
+    let middle = half * (law.start() + T::ONE);
+    let inverse = law.coordinate(law.indentation(middle))? - middle;
+    if inverse.abs() > T::constant(INVERSE_ACCURACY) {
+        return None;
+    }
     let mut state: State<T, O::State> = ([first, (energy + energy).sqrt()], observer.state());
     let mut times = Times::new();
     let statistics = Statistics { nodes: 4, ..Statistics::NONE };

@@ -6,6 +6,9 @@ use crate::contact::law::ContactLaw;
 /// Steps of Newton's method for the bottom. If the force is a power of the coordinate, each takes a fixed fraction off.
 const WELL_STEPS: u32 = 250;
 
+/// Doublings of its start, which is the turning point of the undamped motion only where a law's units make it so.
+const MOST_DOUBLINGS: u32 = 32;
+
 /// Relative step at which it ends: the potential is flat there.
 const WELL_ACCURACY: f64 = 1e-5;
 
@@ -18,6 +21,12 @@ pub(crate) fn well<T: Real>(law: &impl ContactLaw<T>) -> Option<(T, T)> {
     let end = law.end();
     // Newton's method from above.
     let mut bottom = T::ONE;
+    for _ in 0..MOST_DOUBLINGS {
+        if law.slope(bottom) >= T::ZERO {
+            break;
+        }
+        bottom = bottom + bottom;
+    }
     for _ in 0..WELL_STEPS {
         let curvature = law.curvature(bottom);
         if curvature <= T::ZERO {
