@@ -2,9 +2,9 @@
 //!
 //! A scene has a law of contact along the normal (Hertz's force with hysteretic damping, ring adhesion and a constant
 //! external force, B6, or a law of your own) and, if it needs one, a law along the surface (Coulomb friction with spin,
-//! and a peeling moment, B7 to B10). Each term is a type that a scene includes or not. The normal motion is solved as kinetic
-//! energy against a coordinate in which it is smooth from first contact to separation, and all else follows from integrals
-//! over it. [The chapter on the method](method) has the mathematics.
+//! and a peeling moment, B7 to B10). Each term is a type, and a scene contains only the terms that you add. The solver follows
+//! the kinetic energy against a coordinate in which the normal motion is smooth from first contact to separation. All other
+//! results are integrals along this path. [The chapter on the method](method) has the mathematics.
 //!
 //! Figures 6 and 7 of the paper, by this simulation:
 //!

@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// A sphere and the physics of its contact: `L` the law of contact along the normal, `S` what happens along the surface.
-/// A term that is not named has size zero and costs nothing.
+/// A term that is not added takes no memory and no time.
 ///
 /// Names for common scenes are [`HertzScene`](super::HertzScene), [`RingScene`](super::RingScene),
 /// [`PaperScene`](super::PaperScene) and [`AnyScene`].
@@ -24,7 +24,7 @@ use crate::{
 /// use microimpact::contact::{Adaptive, Contact, Slip};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
-/// // Table 1 of the paper. Its program halves the damping of adhesion: 6.25 stands for the printed 12.5.
+/// // Table 1 of the paper. Its program halves the damping of adhesion, so the printed 12.5 is 6.25 here.
 /// let sphere = Sphere::solid(5.06e-6, 2600.0)?;
 /// let scene = Contact::hertz(sphere, Stiffness::new(7.5e10)?)
 ///     .with_damping(10.5)?
@@ -118,7 +118,8 @@ impl<T: Real, D, A, X, S> Contact<T, HertzLaw<T, D, A, X>, S> {
 }
 
 impl<T: Real, D, X, S> Contact<T, HertzLaw<T, D, NoAdhesion, X>, S> {
-    /// The same scene with a ring force of strength f0 >= 0 (N/m) and its damping zeta_A >= 0 on rebound.
+    /// The same scene with adhesion as a force 2 pi a f0 along the edge of the contact (the ring force), of strength f0 >= 0
+    /// (N/m), and with its damping zeta_A >= 0 on rebound.
     ///
     /// # Errors
     /// A value outside its range.
@@ -207,7 +208,7 @@ impl<T: Real> AnyScene<T> {
     /// The same scene with a peeling moment of strength lambda >= 0 (N m).
     ///
     /// # Errors
-    /// A strength outside its range; any but zero where the law has no ring.
+    /// A strength outside its range, or not zero where the law has no ring.
     ///
     /// ```
     /// use microimpact::contact::{AnyLaw, Contact};
@@ -234,10 +235,11 @@ impl<T: Real> AnyScene<T> {
 }
 
 impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
-    /// The impact of a sphere that arrives with the motion `before`: how it ends, and the velocities after.
+    /// The impact of a sphere that arrives with the motion `before`: whether it rebounds, and the velocities
+    /// after it.
     ///
     /// # Errors
-    /// A ratio of the scene's forces outside its range, so that the motion cannot be represented.
+    /// Forces so different in size that the motion cannot be represented.
     ///
     /// ```
     /// use microimpact::contact::{Adaptive, Contact};
@@ -306,7 +308,7 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
         Ok((impact, outputs.finish(observed, &end)))
     }
 
-    /// The normal motion alone: how it ends and how fast, whatever happens along the surface.
+    /// The normal motion alone: outcome and rebound speed, without what happens along the surface.
     ///
     /// # Errors
     /// As [`solve`](Self::solve).
@@ -335,8 +337,8 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
         Ok(NormalContact::new(&path, approach, &law, &units))
     }
 
-    /// The impact as by [`solve_for`](Self::solve_for). A captured sphere is followed until it rests, as the `criterion`
-    /// defines it, with all that is asked for.
+    /// The impact as by [`solve_for`](Self::solve_for). A captured sphere is followed, with its outputs, until
+    /// it rests by the `criterion`.
     ///
     /// # Errors
     /// As [`solve`](Self::solve).
@@ -392,8 +394,8 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
         Ok(SettledImpact { impact, motion, outputs })
     }
 
-    /// Trial speeds that [`critical_speed`](Self::critical_speed) takes at most; each follows two paths of at most 160
-    /// intervals. Most scenes take four to eight, of some four intervals.
+    /// The largest number of trial speeds of [`critical_speed`](Self::critical_speed). Each trial follows two paths of at
+    /// most 160 intervals. Most scenes need four to eight trials, with about four intervals for each path.
     ///
     /// ```
     /// use microimpact::contact::{Contact, HertzLaw};
@@ -402,16 +404,17 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
     /// ```
     pub const MOST_TRIALS: u32 = critical::MOST_TRIALS;
 
-    /// The approach speed, m/s, that separates capture from rebound (B6), with a relative error of the tolerance of
-    /// `method`, unless damping is so strong that the speed is more than ten times that with which adhesion alone pulls.
+    /// The approach speed, m/s, that separates capture from rebound (B6), to the relative tolerance of
+    /// `method`, unless strong damping puts it above ten times the speed that adhesion alone would give the sphere.
     ///
-    /// A sphere that separates at rest must have arrived with what damping took; that grows with the damping, and the
-    /// damping falls with the speed (B4), so there is one such speed at most. A force out of the surface is a barrier to
+    /// A sphere that just separates arrived with exactly the energy that damping dissipates. That energy grows with the
+    /// damping, and the damping falls with the speed (B4), so there is at most one such speed. A law of your own must have
+    /// only one, too. A force out of the surface is a barrier to
     /// slow spheres, which then turn back before adhesion holds them: the critical speed is the largest that attaches.
     ///
     /// Where nothing holds a sphere, or nothing takes energy from it, or every speed of the range of
-    /// [`Parameter::ApproachSpeed`] rebounds, the answer is [`CriticalSpeed::AlwaysRebounds`]; where the largest of them
-    /// is captured, [`CriticalSpeed::NeverRebounds`].
+    /// [`Parameter::ApproachSpeed`] rebounds, the answer is [`CriticalSpeed::AlwaysRebounds`]; if a sphere is captured
+    /// even at the largest of them, [`CriticalSpeed::NeverRebounds`].
     ///
     /// # Errors
     /// A ratio of the scene's forces outside its range at the critical speed.
@@ -437,8 +440,8 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
     }
 
     /// The class of the impact of a sphere that arrives with the motion `before`, with its margins as in the rigid-body
-    /// model: approach over [`critical_speed`](Self::critical_speed) and, with friction, what it can change of the slip over
-    /// the slip. `None` where the method found no solution.
+    /// model: approach over [`critical_speed`](Self::critical_speed) and, with friction, the change of
+    /// slip that friction can produce, divided by the slip. `None` where the method found no solution.
     ///
     /// # Errors
     /// As [`solve`](Self::solve).

@@ -11,7 +11,8 @@ use super::well::barrier;
 use crate::contact::law::ContactLaw;
 use crate::{InputError, Parameter};
 
-/// `N` nodes in a fixed number of iterations for each phase, and `M` nodes for what is integrated over the motion.
+/// A method that costs about the same for every impact: `N` nodes and a fixed number of iterations for each phase, and `M`
+/// nodes for outputs.
 ///
 /// The error of e over the scenes of the paper and others as mildly damped is 1e-5 with five nodes and 1e-6 with seven, both
 /// in three iterations. Stronger damping needs more iterations; where they do not converge to some thousandths of the
@@ -50,8 +51,8 @@ impl<const N: usize> FixedCost<N> {
         Ok(Self { iterations })
     }
 
-    /// The same method, with velocities along the surface and outputs from `M` nodes of each phase. What is neither has no
-    /// code for them.
+    /// The same method, with velocities along the surface and outputs from `M` nodes of each phase. Where neither is
+    /// asked for, no code for them is generated.
     ///
     /// With two nodes more than `N` velocities along the surface are as exact as e, relative to the slip; impulses take three
     /// more, and times near the critical speed twice as many. Outputs that look for the end of sliding

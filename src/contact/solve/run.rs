@@ -18,9 +18,9 @@ use crate::Real;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Status {
-    /// The motion was followed to its end within the tolerance.
+    /// The motion was followed to its end, within the tolerance if the method has one.
     Solved,
-    /// The number of intervals was spent; the result is not to be relied on.
+    /// The iterations did not converge, or the intervals ran out; the result is not to be relied on.
     BudgetSpent,
     /// The method cannot represent the law of contact; there is no result.
     Unsupported,
