@@ -118,7 +118,7 @@ fn stated_accuracy_is_the_tested_one() {
     for (file, tolerance, statement) in [
         (include_str!("../rigid/rigid_properties.rs"), "<= 1e-11 * scale", "1e-11 of the size of its terms in `f64`"),
         (include_str!("../rigid/scalars.rs"), "<= 2e-6 * scale", "`f32` agrees with `f64` to 2e-6"),
-        (include_str!("../rigid/scalars.rs"), "> 1e-5", "wherever a margin is farther than 1e-5 from one"),
+        (include_str!("../rigid/scalars.rs"), "> 1e-5", "unless a margin is within 1e-5 of one"),
     ] {
         assert!(file.contains(tolerance), "{tolerance}");
         assert!(words().contains(statement), "{statement}");
@@ -167,7 +167,7 @@ fn numbers_in_prose_are_the_tested_ones() {
             "assert!(spent < all / 2500,",
             "fewer than one in ten thousand",
         ),
-        (include_str!("../rigid/table1.rs"), "(spin / 4.16e4 - 1.0).abs() < 0.004", "but for the final spin (0.4 %)"),
+        (include_str!("../rigid/table1.rs"), "(spin / 4.16e4 - 1.0).abs() < 0.004", "except the final spin (0.4 %)"),
     ] {
         assert!(file.contains(bound) && words.contains(statement), "{bound}: {statement}");
     }
