@@ -18,15 +18,26 @@ const BARRIER_HALVINGS: u32 = 60;
 /// Coordinates of the barrier that holds a sphere, the end of contact without an external force, and of the minimum of the
 /// potential; `None` where nothing holds a sphere.
 pub(crate) fn well<T: Real>(law: &impl ContactLaw<T>) -> Option<(T, T)> {
-    let end = law.end();
-    // Newton's method from above.
-    let mut bottom = T::ONE;
+    well_below(law, T::ONE)
+}
+
+/// The same in units that may be too small for the turning point.
+pub(crate) fn well_in_any_units<T: Real>(law: &impl ContactLaw<T>) -> Option<(T, T)> {
+    let mut start = T::ONE;
     for _ in 0..MOST_DOUBLINGS {
-        if law.slope(bottom) >= T::ZERO {
+        if law.slope(start) >= T::ZERO {
             break;
         }
-        bottom = bottom + bottom;
+        start = start + start;
     }
+    well_below(law, start)
+}
+
+#[inline]
+fn well_below<T: Real>(law: &impl ContactLaw<T>, start: T) -> Option<(T, T)> {
+    let end = law.end();
+    // Newton's method from above.
+    let mut bottom = start;
     for _ in 0..WELL_STEPS {
         let curvature = law.curvature(bottom);
         if curvature <= T::ZERO {
