@@ -568,11 +568,12 @@ def converged_phases(law, E, n):
 # ---------------------------------------------------------------- 6. critical speed
 def well(law):
     s = 1.0
-    for _ in range(32):
-        if law.V1(s) >= 0:
-            break
-        s *= 2
+    above = False
     for _ in range(250):
+        above = above or law.V1(s) >= 0
+        if not above:
+            s *= 2
+            continue
         if law.V2(s) <= 0:
             return None
         step = law.V1(s) / law.V2(s)

@@ -210,7 +210,7 @@ impl<T: Real> NormalContact<T> {
     }
 
     /// Indentation at which a captured sphere first turns back, m; `None` for a rebound, a sphere that creeps to rest, or
-    /// one that was not followed so far because no output asks for it. It is negative where adhesion stretches the contact.
+    /// one that was not followed so far because no output asks for it. It is negative where adhesion pulls the surface outwards.
     ///
     /// ```
     /// use microimpact::contact::{Collocation, Contact, Times};

@@ -9,7 +9,7 @@
 use super::interval::{Control, Course, END_FROM_SPEED, Interval, Point, pass};
 use super::nodes::Nodes;
 use super::path::{Follower, REFUSED_SHRINK};
-use super::well::well_in_any_units;
+use super::well::well;
 use crate::contact::law::ContactLaw;
 use crate::{CriticalSpeed, InputError, Parameter, Real};
 
@@ -81,7 +81,7 @@ pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(toleranc
     let first = law.start();
     let caught = |barrier: T| first > barrier && law.potential(first) < law.potential(barrier);
     let takes = |(barrier, bottom): &(T, T)| law.damping(*bottom, true) > T::ZERO || caught(*barrier);
-    let Some((barrier, bottom)) = well_in_any_units(law).filter(takes) else {
+    let Some((barrier, bottom)) = well(law).filter(takes) else {
         return Trial::Free;
     };
     let rest = law.potential(barrier);

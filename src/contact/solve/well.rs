@@ -3,11 +3,9 @@
 use crate::Real;
 use crate::contact::law::ContactLaw;
 
-/// Steps of Newton's method for the bottom. If the force is a power of the coordinate, each takes a fixed fraction off.
+/// Steps towards the bottom: doublings where the units of a law are too small, then those of Newton's method. If the force is a
+/// power of the coordinate, each of these takes a fixed fraction off.
 const WELL_STEPS: u32 = 250;
-
-/// Doublings of its start, which is the turning point of the undamped motion only where a law's units make it so.
-const MOST_DOUBLINGS: u32 = 32;
 
 /// Relative step at which it ends: the potential is flat there.
 const WELL_ACCURACY: f64 = 1e-5;
@@ -18,32 +16,20 @@ const BARRIER_HALVINGS: u32 = 60;
 /// Coordinates of the barrier that holds a sphere, the end of contact without an external force, and of the minimum of the
 /// potential; `None` where nothing holds a sphere.
 pub(crate) fn well<T: Real>(law: &impl ContactLaw<T>) -> Option<(T, T)> {
-    well_below(law, T::ONE)
-}
-
-/// The same in units that may be too small for the turning point.
-pub(crate) fn well_in_any_units<T: Real>(law: &impl ContactLaw<T>) -> Option<(T, T)> {
-    let mut start = T::ONE;
-    for _ in 0..MOST_DOUBLINGS {
-        if law.slope(start) >= T::ZERO {
-            break;
-        }
-        start = start + start;
-    }
-    well_below(law, start)
-}
-
-#[inline]
-fn well_below<T: Real>(law: &impl ContactLaw<T>, start: T) -> Option<(T, T)> {
     let end = law.end();
     // Newton's method from above.
-    let mut bottom = start;
+    let (mut bottom, mut above) = (T::ONE, false);
     for _ in 0..WELL_STEPS {
-        let curvature = law.curvature(bottom);
+        let (slope, curvature) = (law.slope(bottom), law.curvature(bottom));
+        above |= slope >= T::ZERO;
+        if !above {
+            bottom = bottom + bottom;
+            continue;
+        }
         if curvature <= T::ZERO {
             return None;
         }
-        let step = law.slope(bottom) / curvature;
+        let step = slope / curvature;
         bottom = bottom - step;
         if bottom - end <= T::EPSILON * T::EPSILON {
             return None;

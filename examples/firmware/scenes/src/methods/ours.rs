@@ -12,7 +12,7 @@ use super::{Amount, Contestant, Extent, Number, Reply, Task, Variant, Visitor};
 
 /// Name of the method that chooses by itself.
 pub const ADAPTIVE: &str = "Adaptive";
-/// Name of collocation in stretches.
+/// Name of collocation in intervals.
 pub const COLLOCATION: &str = "Collocation";
 /// Name of the method of fixed cost.
 pub const FIXED_COST: &str = "FixedCost";
