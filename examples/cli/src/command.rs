@@ -107,8 +107,10 @@ pub trait Work {
     /// Column heads of the summary.
     fn heads(&self) -> Vec<&'static str>;
 
-    /// How many columns of the summary, from the left, hold words.
-    fn words(&self) -> usize;
+    /// How many columns of the summary, from the left, hold words: name and class unless given.
+    fn words(&self) -> usize {
+        2
+    }
 
     /// A line of the summary.
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String>;

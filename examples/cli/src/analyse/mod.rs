@@ -161,10 +161,6 @@ impl<T: Number> Work for Analysis<T> {
         ]
     }
 
-    fn words(&self) -> usize {
-        2
-    }
-
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
         let measured = self.compute(row)?;
         let ledger = measured.energy();

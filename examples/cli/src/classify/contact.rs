@@ -132,10 +132,6 @@ impl<T: Number> Work for SimulationModel<T> {
         ]
     }
 
-    fn words(&self) -> usize {
-        2
-    }
-
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
         let Simulated { outcome, class, normal, tangential, times, slip, energy, .. } = self.compute(row)?;
         let nano = |value: Option<T>| value.map_or("-".into(), |value| format!("{:.2}", value * T::constant(1e9)));

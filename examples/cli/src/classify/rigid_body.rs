@@ -128,10 +128,6 @@ impl<T: Scalar> Work for RigidBodyModel<T> {
         ]
     }
 
-    fn words(&self) -> usize {
-        2
-    }
-
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
         let Classified { sphere, impact, classification } = self.compute(row)?;
         let Impact { normal, tangential } = &impact;
