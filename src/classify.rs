@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// Outcome of an impact: rebound or capture.
+/// Outcome of an impact: rebound, capture, or too close to the critical speed to decide.
 ///
 /// ```
 /// use microimpact::{ConstantRestitution, NormalMotion, Outcome, RigidBody, Sphere};
@@ -19,6 +19,9 @@ pub enum Outcome {
     Rebound,
     /// The surface holds the sphere.
     Capture,
+    /// The remaining energy is smaller than its error bound, so that a simulation knows neither. The rigid-body model always
+    /// decides.
+    Undecided,
 }
 
 /// Motion of the contact point when the impact is over.
@@ -70,6 +73,8 @@ pub enum Class {
     CapturedRolling,
     /// The sphere is captured and at rest.
     CapturedResting,
+    /// Rebound and capture are too close to each other to decide.
+    Undecided,
 }
 
 impl Class {
@@ -81,6 +86,7 @@ impl Class {
             (Outcome::Capture, SurfaceMotion::Sliding) => Self::CapturedSliding,
             (Outcome::Capture, SurfaceMotion::Rolling) => Self::CapturedRolling,
             (Outcome::Capture, SurfaceMotion::Resting) => Self::CapturedResting,
+            (Outcome::Undecided, _) => Self::Undecided,
         }
     }
 }
@@ -93,6 +99,7 @@ impl fmt::Display for Class {
             Self::CapturedSliding => "captured sliding",
             Self::CapturedRolling => "captured rolling",
             Self::CapturedResting => "captured resting",
+            Self::Undecided => "undecided",
         })
     }
 }

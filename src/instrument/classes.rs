@@ -11,7 +11,7 @@ use crate::{Class, Outcome};
 /// use microimpact::instrument::ClassSet;
 /// use microimpact::{Class, Outcome};
 ///
-/// assert_eq!((Outcome::COUNT, Class::COUNT), (2, 5));
+/// assert_eq!((Outcome::COUNT, Class::COUNT), (3, 6));
 /// assert!(Class::ALL.iter().enumerate().all(|(index, class)| class.index() == index));
 /// ```
 pub trait ClassSet: Copy + Eq + 'static {
@@ -26,13 +26,14 @@ pub trait ClassSet: Copy + Eq + 'static {
 
 impl ClassSet for Outcome {
     const COUNT: usize = Self::ALL.len();
-    const ALL: &'static [Self] = &[Self::Rebound, Self::Capture];
+    const ALL: &'static [Self] = &[Self::Rebound, Self::Capture, Self::Undecided];
 
     #[inline]
     fn index(self) -> usize {
         match self {
             Self::Rebound => 0,
             Self::Capture => 1,
+            Self::Undecided => 2,
         }
     }
 }
@@ -45,6 +46,7 @@ impl ClassSet for Class {
         Self::CapturedSliding,
         Self::CapturedRolling,
         Self::CapturedResting,
+        Self::Undecided,
     ];
 
     #[inline]
@@ -55,6 +57,7 @@ impl ClassSet for Class {
             Self::CapturedSliding => 2,
             Self::CapturedRolling => 3,
             Self::CapturedResting => 4,
+            Self::Undecided => 5,
         }
     }
 }

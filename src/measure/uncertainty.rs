@@ -231,6 +231,7 @@ impl<T: NormalDistribution> ClassProbabilities<T> {
             Class::ReboundRolling => self.rebound - self.both,
             Class::CapturedSliding => self.sliding - self.both,
             Class::CapturedRolling | Class::CapturedResting => T::ONE - self.rebound - self.sliding + self.both,
+            Class::Undecided => T::ZERO,
         };
         // Rounding must not make it negative.
         probability.max(T::ZERO)

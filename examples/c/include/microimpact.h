@@ -83,6 +83,8 @@ enum MicroimpactClass
   MICROIMPACT_CLASS_CAPTURED_ROLLING,
   // Captured and at rest.
   MICROIMPACT_CLASS_CAPTURED_RESTING,
+  // Too close to the critical speed to decide.
+  MICROIMPACT_CLASS_UNDECIDED,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

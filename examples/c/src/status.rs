@@ -138,6 +138,8 @@ pub enum Class {
     CapturedRolling,
     /// Captured and at rest.
     CapturedResting,
+    /// Too close to the critical speed to decide.
+    Undecided,
 }
 
 impl From<microimpact::Class> for Class {
@@ -148,6 +150,7 @@ impl From<microimpact::Class> for Class {
             microimpact::Class::CapturedSliding => Self::CapturedSliding,
             microimpact::Class::CapturedRolling => Self::CapturedRolling,
             microimpact::Class::CapturedResting => Self::CapturedResting,
+            microimpact::Class::Undecided => Self::Undecided,
         }
     }
 }

@@ -7,6 +7,7 @@ pub fn outcome_name(outcome: Outcome) -> &'static str {
     match outcome {
         Outcome::Rebound => "rebound",
         Outcome::Capture => "capture",
+        Outcome::Undecided => "undecided",
     }
 }
 

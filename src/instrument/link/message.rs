@@ -8,9 +8,9 @@ use crate::instrument::{Rejection, Rejections, Verdict};
 /// Version of the messages. Both ends must have the same version.
 ///
 /// ```
-/// assert_eq!(microimpact::instrument::link::PROTOCOL, 1);
+/// assert_eq!(microimpact::instrument::link::PROTOCOL, 2);
 /// ```
-pub const PROTOCOL: u16 = 1;
+pub const PROTOCOL: u16 = 2;
 
 /// Message from the host to the instrument. `R` is a [`Reading`](crate::instrument::Reading).
 ///

@@ -177,7 +177,7 @@ impl<T: Number> From<Result<NormalContact<T>, InputError>> for Answer<T> {
         let class = verdict.map_or(REFUSED, |contact| match contact.outcome() {
             Some(Outcome::Rebound) => "rebound",
             Some(Outcome::Capture) => "captured",
-            None => UNDECIDED,
+            Some(Outcome::Undecided) | None => UNDECIDED,
         });
         answer(class, verdict.ok())
     }
@@ -191,7 +191,7 @@ impl<T: Number> From<Result<SimulatedImpact<T, TangentialVelocities<T>>, InputEr
             Some(Class::CapturedSliding) => "captured-sliding",
             Some(Class::CapturedRolling) => "captured-rolling",
             Some(Class::CapturedResting) => "captured-resting",
-            None => UNDECIDED,
+            Some(Class::Undecided) | None => UNDECIDED,
         });
         answer(class, verdict.ok().map(|impact| impact.normal))
     }

@@ -109,7 +109,7 @@ impl From<DimensionlessContact<FixedPoint>> for Answer<f32> {
         let class = match contact.outcome {
             Some(Outcome::Rebound) => "rebound",
             Some(Outcome::Capture) => "captured",
-            None => UNDECIDED,
+            Some(Outcome::Undecided) | None => UNDECIDED,
         };
         let restitution = Some(contact.overall_restitution().to_f64() as f32);
         Self { class, speed_margin: None, friction_margin: None, restitution }

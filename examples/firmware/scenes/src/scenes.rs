@@ -12,7 +12,7 @@ use microimpact::{
 };
 
 use super::approximate::Approximate;
-use super::contacts::NormalContacts;
+use super::contacts::{NormalContacts, UNDECIDED};
 use super::fixed_contacts::visit_fixed_contacts;
 use super::impacts::{IMPACTS, Impact};
 use super::table_1::{
@@ -203,6 +203,7 @@ impl<T> From<Classification<T, ()>> for Answer<T> {
             class: match verdict.outcome {
                 Outcome::Rebound => "rebound",
                 Outcome::Capture => "captured",
+                Outcome::Undecided => UNDECIDED,
             },
             speed_margin: verdict.speed_over_critical,
             friction_margin: None,
@@ -220,6 +221,7 @@ impl<T> From<Classification<T, ContactClass<T>>> for Answer<T> {
                 Class::CapturedSliding => "captured-sliding",
                 Class::CapturedRolling => "captured-rolling",
                 Class::CapturedResting => "captured-resting",
+                Class::Undecided => UNDECIDED,
             },
             speed_margin: verdict.speed_over_critical,
             friction_margin: verdict.contact.friction_over_limit,
