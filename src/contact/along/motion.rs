@@ -23,6 +23,15 @@ use crate::rolling::{direction, rolling, rounding};
 /// Slip at the root over the slip before, and least distance of the root from the ends of an interval: only a first value.
 const SLIP_ROOT_ACCURACY: f64 = 1e-6;
 
+/// Decay over an interval beyond which the nodes may miss it,
+const FAST: f64 = 6.0;
+
+/// estimated error over the unresolved part where the decay is not slow,
+const FAST_ERROR: f64 = 1e-3;
+
+/// and over its square where it is.
+const SLOW_ERROR: f64 = 0.1;
+
 /// Steps of Newton's method on the cubic between two nodes,
 const CUBIC_STEPS: u32 = 4;
 
@@ -44,6 +53,8 @@ pub struct TangentialMotion<T, const PEELS: bool> {
     /// Energies that friction and the peeling moment have taken, over the mass.
     pub(crate) friction_loss: T,
     pub(crate) peeling_loss: T,
+    /// Largest velocity before contact.
+    scale: T,
     /// Sign of the slip, zero when rolling.
     pub(crate) direction: T,
     now: T,
@@ -74,6 +85,7 @@ impl<T: Real, const PEELS: bool> TangentialMotion<T, PEELS> {
             rotation: T::ZERO,
             friction_loss: T::ZERO,
             peeling_loss: T::ZERO,
+            scale: velocity.abs().max(peripheral.abs()),
             direction,
             now: T::ZERO,
             rolls_from: (direction == T::ZERO).then_some(T::ZERO),
@@ -194,6 +206,21 @@ impl<T: Real, const PEELS: bool> TangentialMotion<T, PEELS> {
         Slide { velocity, peripheral, velocity_after, peripheral_after }
     }
 
+    /// Velocities over an interval, and after it, of a rolling sphere that the peeling moment slows.
+    fn slowed<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>) -> ([T; N], T)
+    where
+        T: Nodes<N>,
+    {
+        let fraction = self.gyration_ratio / (T::ONE + self.gyration_ratio);
+        let (decay, whole_decay) = self.decay(law, interval, fraction);
+        if whole_decay > T::constant(SLOW) {
+            let rates = self.decay_rates(law, interval, fraction);
+            return relaxed(self.velocity, &[T::ZERO; N], &rates, interval.forward);
+        }
+        let left = |decay: T| self.velocity * (-decay).exp();
+        (decay.map(left), left(whole_decay))
+    }
+
     /// A fraction of the peeling rate, along the interval.
     fn decay_rates<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, fraction: T) -> [T; N] {
         let rate = fraction * self.peeling;
@@ -216,6 +243,8 @@ impl<T: Real, const PEELS: bool> TangentialMotion<T, PEELS> {
 impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
     const EVENTS: bool = true;
     const TIMED: bool = true;
+    // A moment can slow the spin faster than the normal motion changes.
+    const DEMANDS: bool = PEELS;
 
     #[inline]
     fn observe<const N: usize>(&mut self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, _rebound: bool)
@@ -242,15 +271,7 @@ impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
             self.friction_loss = self.friction_loss + (energy - self.energy() - peeled);
             return;
         }
-        let fraction = self.gyration_ratio / (T::ONE + self.gyration_ratio);
-        let (decay, whole_decay) = self.decay(law, interval, fraction);
-        let (velocity, after) = if whole_decay > T::constant(SLOW) {
-            let rates = self.decay_rates(law, interval, fraction);
-            relaxed(self.velocity, &[T::ZERO; N], &rates, interval.forward)
-        } else {
-            let left = |decay: T| self.velocity * (-decay).exp();
-            (decay.map(left), left(whole_decay))
-        };
+        let (velocity, after) = self.slowed(law, interval);
         let mut distance = T::ZERO;
         for j in 0..N {
             distance = distance + T::WEIGHTS[j] * interval.rate[j] * velocity[j];
@@ -262,6 +283,33 @@ impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
         self.peeling_loss = self.peeling_loss + (energy - self.energy());
         self.displacement = self.displacement + distance;
         self.rotation = self.rotation + distance;
+    }
+
+    fn error<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>) -> T
+    where
+        T: Nodes<N>,
+    {
+        if !PEELS {
+            return T::ZERO;
+        }
+        let peripheral =
+            if self.slides() { self.slide(law, interval).peripheral } else { self.slowed(law, interval).0 };
+        let fraction = if self.slides() { T::ONE } else { self.gyration_ratio / (T::ONE + self.gyration_ratio) };
+        let decay = self.decay(law, interval, fraction).1;
+        let (mut tail, mut largest) = (T::ZERO, self.peripheral.abs());
+        for j in 0..N {
+            tail = tail + T::HIGHEST_COEFFICIENT[j] * interval.rate[j] * peripheral[j];
+            largest = largest.max(peripheral[j].abs());
+        }
+        let tail = tail.abs() / (self.scale * dot(&T::WEIGHTS, &interval.rate) + T::SMALLEST);
+        if decay > T::constant(FAST) {
+            // What decays between two nodes does not show in the tail.
+            T::constant(FAST_ERROR) * tail.max(largest / (self.scale + T::SMALLEST))
+        } else if decay > T::constant(SLOW) {
+            T::constant(FAST_ERROR) * tail
+        } else {
+            T::constant(SLOW_ERROR) * tail * tail
+        }
     }
 
     fn rolls_at<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>) -> Option<T>
@@ -292,13 +340,13 @@ impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
     where
         T: Nodes<N>,
     {
-        let (s, rate) = (interval.s[N - 1], interval.rate[N - 1]);
-        let closing = -(self.closing() * law.elastic_force(s) * rate);
+        let s = interval.end.s;
+        let closing = -(self.closing() * law.elastic_force(s));
         if !PEELS {
             return self.slip_after(law, interval) / closing;
         }
         let slide = self.slide(law, interval);
-        let slope = self.direction * closing + self.peeling * law.contact_radius(s) * rate * slide.peripheral_after;
+        let slope = self.direction * closing + self.peeling * law.contact_radius(s) * slide.peripheral_after;
         let late = (slide.velocity_after - slide.peripheral_after) / slope;
         // Where nothing but the moment ends the slip, slip and slope end together.
         if late.is_finite() { late } else { T::ZERO }

@@ -5,9 +5,10 @@ use super::critical::Trial;
 use super::interval::{Interval, tail_of_times};
 use super::nodes::{Nodes, PhaseSamples, WEIGHT_POWER};
 use super::observer::Observer;
-use super::path::{End, Method, NormalPath, Statistics, find_end_of_slip};
+use super::path::{End, Method, NormalPath, Statistics};
 use super::phase::Phase;
 use super::rest::{RestCriterion, Settling};
+use super::split::{FirstPart, find_end_of_slip};
 use crate::contact::law::ContactLaw;
 use crate::{InputError, Parameter, Real};
 
@@ -136,7 +137,7 @@ impl<T: AdaptiveNodes> ErrorControl<T> for Adaptive<T> {
 impl<T: AdaptiveNodes> Method<T> for Adaptive<T> {
     fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
         let tolerance = self.tolerance;
-        let whole_phases = law.loss_power() >= WEIGHT_POWER && !law.may_have_barrier();
+        let whole_phases = law.loss_power() >= WEIGHT_POWER && !law.may_have_barrier() && !O::DEMANDS;
         let mut attempts = Attempts { tolerance, allowed: if whole_phases { ATTEMPTS } else { 0 } };
         // Nodes of a phase and of its outputs, and the range of tolerances for which they are tried. It begins where most
         // mildly damped scenes reach the tolerance, with times and without, and ends where fewer nodes always do.
@@ -151,8 +152,8 @@ impl<T: AdaptiveNodes> Method<T> for Adaptive<T> {
                 }
             };
         }
-        try_phases!(5, 10, timed 3e-5, untimed 1e-5, to 1.0);
-        try_phases!(7, 13, timed 5e-7, untimed 3e-7, to 1e-4);
+        try_phases!(5, 10, timed 3e-4, untimed 1e-5, to 1.0);
+        try_phases!(7, 13, timed 5e-7, untimed 3e-7, to 3e-4);
         try_phases!(9, 16, timed 2e-8, untimed 1e-8, to 1e-5);
         try_phases!(10, 18, timed 7e-9, untimed 2e-9, to 2e-7);
         // Dividing a phase of so many nodes where the sphere begins to roll costs more than intervals do.
@@ -186,6 +187,9 @@ const STRONGEST: f64 = 5.0;
 
 /// Estimated error of times over the square of the part of them that the nodes for outputs do not resolve.
 const TIME_TAIL_ERROR: f64 = 0.1;
+
+/// Error of an impulse over the momentum before the impact, over the relative error of the time.
+const IMPULSE_WEIGHT: f64 = 5.0;
 
 /// Remaining energy over its estimated error, up to which the outcome is left to intervals.
 const UNDECIDED: f64 = 4.0;
@@ -243,7 +247,7 @@ where
     let timed = |interval: &Option<Interval<T, M>>, least: T| {
         let Some(interval) = interval else { return least };
         let unresolved = tail_of_times::<T, M>(&interval.rate);
-        least.max(T::constant(TIME_TAIL_ERROR) * unresolved * unresolved)
+        T::constant(IMPULSE_WEIGHT) * least.max(T::constant(TIME_TAIL_ERROR) * unresolved * unresolved)
     };
     if O::TIMED {
         error = error.max(timed(&approach, tails.error_of_times()));
@@ -293,9 +297,11 @@ pub(super) fn show<T, O, const N: usize, const M: usize>(
     };
     let gains = phase.gains::<M>();
     let place = |fraction: T| if rebound { fraction } else { T::ONE - fraction };
-    let first = |fraction: T| phase.part(law, &gains, place(T::ZERO), place(fraction));
+    let first = |fraction: T| {
+        let interval = phase.part(law, &gains, place(T::ZERO), place(fraction));
+        FirstPart { rate: interval.rate.last().copied().unwrap_or(T::ZERO) / fraction, interval }
+    };
     let (fraction, part, late) = find_end_of_slip(law, observer, fraction, tolerance, first);
-    let late = late / fraction * part.rate.last().copied().unwrap_or(T::ZERO);
     let mut rest = || phase.part(law, &gains, place(fraction), place(T::ONE));
     observer.observe_rolling(law, whole, &part, late, &mut rest, rebound);
 }

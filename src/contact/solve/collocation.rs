@@ -29,6 +29,10 @@ pub struct Collocation<const N: usize, T> {
 /// Change at which iterations have converged, over the tolerance: errors of the iteration are small beside the others.
 const CONVERGED: f64 = 0.1;
 
+/// Weight of the error of times where times or impulses are asked for. The estimated error contains its square: an impulse counts
+/// against the momentum before the impact, of which the largest force makes up five times its part of the time.
+const TIMED: f64 = 2.24;
+
 /// Weight of the error of times where only the end of the motion is asked for.
 const UNTIMED: f64 = 0.1;
 
@@ -59,7 +63,7 @@ impl<const N: usize, T: Real> Collocation<N, T> {
     pub const MOST_INTERVALS: u32 = MOST_INTERVALS;
 
     pub(super) fn control(&self, timed: bool) -> Control<T> {
-        let times = if timed { T::ONE } else { T::constant(UNTIMED) };
+        let times = if timed { T::constant(TIMED) } else { T::constant(UNTIMED) };
         let converged = (T::constant(CONVERGED) * self.tolerance).max(T::constant(LEAST_CHANGE) * T::EPSILON);
         Control { converged, error: self.tolerance, times }
     }

@@ -19,7 +19,7 @@ pub(crate) struct Control<T> {
     pub(crate) converged: T,
     /// Largest error that an interval may have.
     pub(crate) error: T,
-    /// Weight of the error of the time of an interval: one if times are asked for, less if only the end of the motion is,
+    /// Weight of the error of the time of an interval: more than one if times are asked for, less if only the end of the motion is,
     /// because energies depend little on its slow end, which makes times inexact.
     pub(crate) times: T,
 }
@@ -176,6 +176,10 @@ const UNDAMPED_ACCURACY: f64 = 0.02;
 
 /// Losses so far over the loss at a node, in the first value of Newton's method: between those at early and late nodes.
 const NEWTON_START: f64 = 0.3;
+
+/// Factor on the estimated error where times are asked for and Newton's method was needed: there errors of times are no longer
+/// squares.
+const STRONG_DAMPING_TIMES: f64 = 30.0;
 
 /// Steps of Newton's method. It converges quadratically: more steps mean that the interval is too long.
 const NEWTON_STEPS: u32 = 10;
@@ -396,6 +400,8 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
         rate[j] = length[j] * law.indentation_slope(s[j]) / state.speed[j];
     }
     let error = if possible { state.error(free[0].max(free[N - 1]), &rate, control) } else { T::ONE };
+    // Strong damping makes the forces near the nodes almost balance. What remains is less exact than its quadrature.
+    let error = if newton && control.times >= T::ONE { T::constant(STRONG_DAMPING_TIMES) * error } else { error };
     let last = state.speed[N - 1];
     // Newton's method knows the speed at the end, iterations know the energy lost; where almost all is lost the one counts,
     // elsewhere the other.

@@ -14,6 +14,7 @@ mod phase;
 pub(super) mod quantities;
 mod rest;
 mod run;
+mod split;
 mod well;
 
 pub use adaptive::{Adaptive, AdaptiveNodes};

@@ -20,6 +20,9 @@ pub trait Observer<T: Real> {
     /// Whether the time that an interval takes has to meet the tolerance too.
     const TIMED: bool = false;
 
+    /// Whether it can need shorter intervals than the motion does.
+    const DEMANDS: bool = false;
+
     /// Whether a captured sphere is to be followed until it first turns back, and not only until it cannot escape.
     const TO_TURNING_POINT: bool = true;
 
@@ -27,6 +30,15 @@ pub trait Observer<T: Real> {
     fn observe<const N: usize>(&mut self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, rebound: bool)
     where
         T: Nodes<N>;
+
+    /// Estimated error of what it integrates over an interval, as a fraction of its scale.
+    #[inline]
+    fn error<const N: usize>(&self, _law: &impl ContactLaw<T>, _interval: &Interval<T, N>) -> T
+    where
+        T: Nodes<N>,
+    {
+        T::ZERO
+    }
 
     /// Fraction of an interval, in the order of time, after which the sphere rolls, if it begins to.
     #[inline]
@@ -37,7 +49,7 @@ pub trait Observer<T: Real> {
         None
     }
 
-    /// By how much of its length an interval ends after the sphere has begun to roll.
+    /// By how much time an interval ends after the sphere has begun to roll.
     #[inline]
     fn residual<const N: usize>(&self, _law: &impl ContactLaw<T>, _interval: &Interval<T, N>) -> T
     where
@@ -118,6 +130,7 @@ impl<T: Real, A: Observer<T>, B: Observer<T>> Observer<T> for (A, B) {
     const EVENTS: bool = A::EVENTS || B::EVENTS;
     const OBSERVES: bool = A::OBSERVES || B::OBSERVES;
     const TIMED: bool = A::TIMED || B::TIMED;
+    const DEMANDS: bool = A::DEMANDS || B::DEMANDS;
     const TO_TURNING_POINT: bool = A::TO_TURNING_POINT || B::TO_TURNING_POINT;
 
     #[inline]
@@ -127,6 +140,14 @@ impl<T: Real, A: Observer<T>, B: Observer<T>> Observer<T> for (A, B) {
     {
         self.0.observe(law, interval, rebound);
         self.1.observe(law, interval, rebound);
+    }
+
+    #[inline]
+    fn error<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>) -> T
+    where
+        T: Nodes<N>,
+    {
+        self.0.error(law, interval).max(self.1.error(law, interval))
     }
 
     #[inline]

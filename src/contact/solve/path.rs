@@ -99,15 +99,8 @@ impl<T: Real> Statistics<T> {
     }
 }
 
-/// Times that an interval may be solved anew to find where the sphere begins to roll.
-const MOST_SPLITS: u32 = 40;
-
 /// Intervals that a motion may take, refused ones included.
 pub(crate) const MOST_INTERVALS: u32 = 160;
-
-/// Residual of the end of sliding, over the root of the tolerance and the length, at which the search ends: the last step is
-/// applied to first order, so that an error of its square remains.
-const CLOSE_TO_END_OF_SLIP: f64 = 0.03;
 
 /// First length of an interval: half the way from first contact to the undamped peak.
 const FIRST_LENGTH: f64 = 0.5;
@@ -214,51 +207,11 @@ const LENGTH_STEPS: u32 = 6;
 pub(crate) struct Follower<'a, T, L, O> {
     pub(crate) law: &'a L,
     pub(crate) control: Control<T>,
-    observer: &'a mut O,
+    pub(super) observer: &'a mut O,
     pub(crate) at: Point<T>,
     /// Where the barrier stands that holds the sphere, and the energy to pass it; zero without an external force.
     pub(crate) barrier: (T, T),
     pub(crate) statistics: Statistics<T>,
-}
-
-/// Fraction of an interval at which the sphere begins to roll, the part up to there, and the remaining error as a fraction of the
-/// interval; from a first value of the fraction.
-pub(crate) fn find_end_of_slip<T: Nodes<N>, const N: usize>(
-    law: &impl ContactLaw<T>,
-    observer: &impl Observer<T>,
-    fraction: T,
-    tolerance: T,
-    mut part: impl FnMut(T) -> Interval<T, N>,
-) -> (T, Interval<T, N>, T) {
-    let close = T::constant(CLOSE_TO_END_OF_SLIP) * tolerance.sqrt();
-    let (mut z, mut before, mut after) = (fraction, T::ZERO, T::ONE);
-    let mut tries = 0;
-    loop {
-        let first = part(z);
-        // Newton's step, held between the places known to come before and after.
-        let late = observer.residual(law, &first) * z;
-        tries += 1;
-        // The square of the speed has an error of the tolerance. The rate is one over the speed, so towards a turning point the
-        // last rate has that error over the square of the last speed, and its node makes up a fraction of the time, its
-        // weight. The residual is no more exact than their product: below it, steps go to and fro until the tries are spent.
-        let speed = first.y.last().copied().unwrap_or(T::ZERO);
-        let inexact = T::WEIGHTS.last().copied().unwrap_or(T::ZERO) * tolerance;
-        if (late.abs() - close * z) * speed * speed <= inexact * z {
-            return (z, first, late);
-        }
-        if tries == MOST_SPLITS {
-            return (z, first, T::ZERO);
-        }
-        if late > T::ZERO {
-            after = z;
-        } else {
-            before = z;
-        }
-        z = z - late;
-        if z <= before || z >= after {
-            z = T::constant(0.5) * (before + after);
-        }
-    }
 }
 
 impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
@@ -322,14 +275,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let mut length = T::constant(FIRST_LENGTH);
         loop {
             if self.at.s > self.law.start() {
-                let arrival: Interval<T, N> = arrive(
-                    self.law,
-                    &self.at,
-                    beyond,
-                    Course::APPROACH,
-                    &self.control,
-                    &mut self.statistics.iterations,
-                );
+                let arrival = self.arrive::<N>(beyond, Course::APPROACH);
                 if self.take(&arrival, Course::APPROACH, Some(arrival.end.s))? {
                     return Ok(());
                 }
@@ -341,14 +287,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 length = self.first_length();
             }
             loop {
-                let interval: Interval<T, N> = pass(
-                    self.law,
-                    &self.at,
-                    (length, T::ZERO),
-                    Course::APPROACH,
-                    &self.control,
-                    &mut self.statistics.iterations,
-                );
+                let interval = self.pass::<N>(length, Course::APPROACH);
                 let factor = self.length_factor(N, &interval);
                 if self.take(&interval, Course::APPROACH, None)? {
                     length = (length * factor).min(farthest - self.at.s * half);
@@ -433,8 +372,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                     return Ok(T::ZERO);
                 }
                 let guess = self.outer_turning_point();
-                let arrival: Interval<T, N> =
-                    arrive(self.law, &self.at, guess, Course::REBOUND, &self.control, &mut self.statistics.iterations);
+                let arrival = self.arrive::<N>(guess, Course::REBOUND);
                 if self.take(&arrival, Course::REBOUND, Some(arrival.end.s))? {
                     return Ok(self.at.s);
                 }
@@ -453,14 +391,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             loop {
                 let to_the_end = length >= self.at.s - outermost;
                 let step = if to_the_end { outermost - self.at.s } else { -length };
-                let interval: Interval<T, N> = pass(
-                    self.law,
-                    &self.at,
-                    (step, T::ZERO),
-                    Course::REBOUND,
-                    &self.control,
-                    &mut self.statistics.iterations,
-                );
+                let interval = self.pass::<N>(step, Course::REBOUND);
                 let factor = self.length_factor(N, &interval);
                 if self.take(&interval, Course::REBOUND, None)? {
                     length = length * factor;
@@ -509,8 +440,9 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         }
         loop {
             let (energy, iterations) = (self.at.energy, &mut self.statistics.iterations);
-            let interval: Interval<T, N> =
+            let mut interval: Interval<T, N> =
                 leave(self.law, from, signed(depth), energy, course, &self.control, iterations);
+            self.check(&mut interval);
             let factor = self.length_factor(N, &interval);
             if self.take(&interval, course, Some(from))? {
                 return Ok(depth);
@@ -578,6 +510,42 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         turning
     }
 
+    /// An interval of a signed length, away from turning points.
+    #[inline]
+    pub(crate) fn pass<const N: usize>(&mut self, length: T, course: Course) -> Interval<T, N>
+    where
+        T: Nodes<N>,
+    {
+        let (polynomial, iterations) = ((length, T::ZERO), &mut self.statistics.iterations);
+        let mut interval = pass(self.law, &self.at, polynomial, course, &self.control, iterations);
+        self.check(&mut interval);
+        interval
+    }
+
+    /// The interval to the turning point ahead.
+    #[inline]
+    pub(crate) fn arrive<const N: usize>(&mut self, guess: T, course: Course) -> Interval<T, N>
+    where
+        T: Nodes<N>,
+    {
+        let iterations = &mut self.statistics.iterations;
+        let mut interval = arrive(self.law, &self.at, guess, course, &self.control, iterations);
+        self.check(&mut interval);
+        interval
+    }
+
+    /// Takes in the error of what is observed.
+    #[inline]
+    fn check<const N: usize>(&self, interval: &mut Interval<T, N>)
+    where
+        T: Nodes<N>,
+    {
+        if O::DEMANDS && interval.accepted {
+            interval.error = interval.error.max(self.observer.error(self.law, interval));
+            interval.accepted = interval.error <= self.control.error;
+        }
+    }
+
     /// Goes on to the end of an interval if it is accepted; `turning_point` is that of an interval that has one.
     #[inline]
     pub(crate) fn take<const N: usize>(
@@ -607,53 +575,6 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             return Err(if self.is_held() { End::Capture } else { End::Budget });
         }
         Ok(interval.accepted)
-    }
-
-    /// Solves an interval in two parts, before and after the sphere begins to roll at z, so that what is observed keeps
-    /// the full order.
-    #[inline(never)]
-    fn split<const N: usize>(&mut self, whole: &Interval<T, N>, course: Course, turning_point: Option<T>, z: T)
-    where
-        T: Nodes<N>,
-    {
-        let (from, to) = (self.at, whole.end.s);
-        let two = T::constant(2.0);
-        let control = Control { error: T::ONE / T::EPSILON, times: T::ZERO, ..self.control };
-        let (law, iterations) = (self.law, &mut self.statistics.iterations);
-        // The square of the speed has an error of the tolerance. Nearer to a turning point than the root of that, it is nothing
-        // but error, and so is the time of a part that ends there. The end of slip is then a step away that is no longer than
-        // the root of the tolerance; the error that remains is its square.
-        let ahead = turning_point.is_some_and(|peak| from.s != peak);
-        let z = if ahead { z.min(T::ONE - self.control.error.sqrt()) } else { z };
-        let (z, first, late) = find_end_of_slip(law, self.observer, z, self.control.error, |z| match turning_point {
-            Some(peak) if from.s == peak => {
-                leave(law, peak, (peak - to) * z * z, from.energy, course, &control, iterations)
-            }
-            Some(peak) => {
-                let depth = peak - from.s;
-                pass(law, &from, (two * depth * z, -(depth * z * z)), course, &control, iterations)
-            }
-            None => pass(law, &from, ((to - from.s) * z, T::ZERO), course, &control, iterations),
-        });
-        let late = late / z * first.rate.last().copied().unwrap_or(T::ZERO);
-        let mut middle = first.end;
-        if course.rebound && middle.speed_squared < T::ZERO {
-            middle.energy = whole.end.energy;
-        }
-        let rest = T::ONE - z;
-        let mut after = || match turning_point {
-            Some(peak) if from.s == peak => {
-                let depth = peak - to;
-                pass(law, &middle, (-(two * depth * z * rest), -(depth * rest * rest)), course, &control, iterations)
-            }
-            Some(peak) => {
-                let back = Course { reversed: true, ..course };
-                let back = leave(law, peak, peak - middle.s, whole.end.energy, back, &control, iterations);
-                Interval { forward: false, end: whole.end, ..back }
-            }
-            None => pass(law, &middle, (to - middle.s, T::ZERO), course, &control, iterations),
-        };
-        self.observer.observe_rolling(law, whole, &first, late, &mut after, course.rebound);
     }
 
     /// By how much the next interval may be longer, from 0.3 to 3: (allowed error/error)^(1/2N).

@@ -3,7 +3,7 @@
 //! Energies are counted from the bottom of the well, as (V(s) - V(b))/(s - b) (s - b): close to rest nothing cancels, so
 //! that the decay is as exact after hundreds of swings as in the first.
 
-use super::interval::{Course, Interval, arrive, pass};
+use super::interval::Course;
 use super::nodes::Nodes;
 use super::observer::Observer;
 use super::path::{End, Follower, NormalPath, REFUSED_SHRINK, Statistics, UNDAMPED_FRACTION};
@@ -223,8 +223,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
         let mut length = T::ONE;
         loop {
             if !*creeps {
-                let arrival: Interval<T, N> =
-                    arrive(self.law, &self.at, beyond, course, &self.control, &mut self.statistics.iterations);
+                let arrival = self.arrive::<N>(beyond, course);
                 if self.take(&arrival, course, Some(arrival.end.s))? {
                     return Ok(true);
                 }
@@ -235,9 +234,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
             }
             loop {
                 let step = if *creeps { length.min(self.creeping_length(well)) } else { length };
-                let polynomial = (along(step), T::ZERO);
-                let interval: Interval<T, N> =
-                    pass(self.law, &self.at, polynomial, course, &self.control, &mut self.statistics.iterations);
+                let interval = self.pass::<N>(along(step), course);
                 let factor = self.length_factor(N, &interval);
                 if self.take(&interval, course, None)? {
                     length = step * factor.max(T::ONE);
