@@ -5,7 +5,7 @@ use super::critical::Trial;
 use super::interval::{Interval, tail_of_times};
 use super::nodes::{Nodes, PhaseSamples, WEIGHT_POWER};
 use super::observer::Observer;
-use super::path::{End, Method, NormalPath, Statistics};
+use super::path::{End, Method, NormalPath, Statistics, energy_bound};
 use super::phase::Phase;
 use super::rest::{RestCriterion, Settling};
 use super::split::{FirstPart, find_end_of_slip};
@@ -191,7 +191,7 @@ const TIME_TAIL_ERROR: f64 = 0.1;
 /// Error of an impulse over the momentum before the impact, over the relative error of the time.
 const IMPULSE_WEIGHT: f64 = 5.0;
 
-/// Remaining energy over its estimated error, up to which the outcome is left to intervals.
+/// Remaining energy over the bound of its error, up to which the outcome is left to intervals.
 const UNDECIDED: f64 = 4.0;
 
 /// Both phases by `N` nodes and their outputs by `M`, unless the motion is not suited to it or the estimated error is too
@@ -208,7 +208,7 @@ where
     O: Observer<T>,
 {
     let mut phase = Phase::<T, N>::approach(law, energy);
-    if phase.loss[0] > T::constant(STRONGEST) * phase.speed[0] {
+    if !phase.is_represented(STRONGEST) {
         return Err(Failed::ByFar);
     }
     let mut iterations = 0;
@@ -267,8 +267,10 @@ where
         error = error.max(timed(&rebound, tails.error_of_times()));
     }
     judge(error)?;
-    if left.abs() <= T::constant(UNDECIDED) * error * energy {
-        return Err(Failed::ByLittle);
+    // Of a law in its own units no speed exceeds one.
+    let bound = energy_bound(tolerance, energy, T::constant(0.5));
+    if left.abs() <= T::constant(UNDECIDED) * bound {
+        return Err(Failed::ByFar);
     }
     if let (Some(approach), Some(rebound)) = (&approach, &rebound) {
         show(law, &before, approach, false, tolerance, observer);
@@ -276,7 +278,7 @@ where
     }
     let end = if left > T::ZERO { End::Separation } else { End::Capture };
     let statistics = Statistics { intervals: 2, refused: 0, iterations, nodes: N as u32, error };
-    Ok(NormalPath { end, energy: left, peak, turning: T::ZERO, statistics })
+    Ok(NormalPath { end, energy: left, peak, turning: T::ZERO, error_bound: bound / energy, statistics })
 }
 
 /// Shows a phase to an observer, in two parts if the sphere begins to roll in it.

@@ -78,7 +78,7 @@ impl<T: Nodes<N>, const N: usize> Method<T> for Collocation<N, T> {
     fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
         let mut follower = Follower::arriving(law, energy, self.control(O::TIMED), observer);
         let mut path = follower.contact::<N>(O::TO_TURNING_POINT);
-        if path.statistics.intervals + path.statistics.refused >= MOST_INTERVALS {
+        if path.statistics.intervals + path.statistics.refused >= MOST_INTERVALS && path.end != End::Undecided {
             // Of a capture, peak or turning point are still out of sight.
             path.end = End::Budget;
         }

@@ -15,9 +15,9 @@ use crate::{InputError, Parameter};
 /// nodes for outputs.
 ///
 /// The error of e over the scenes of the paper and others as mildly damped is 1e-5 with five nodes and 1e-6 with seven, both
-/// in three iterations. Stronger damping needs more iterations; where they do not converge to some thousandths of the
-/// energy, the status of the result is not *solved*. If the approach speed is closer to the critical speed than the error,
-/// the outcome is not certain: use [`Collocation`] for such impacts.
+/// in three iterations. Stronger damping needs more iterations. The bound of the error of e^2 consists of the change by the last
+/// iterations, an estimate of what the nodes do not resolve, and rounding. If it exceeds 0.003, the status of the result is not
+/// *solved*; if e^2 is smaller, the outcome is *undecided*. Use [`Collocation`] for such impacts.
 ///
 /// ```
 /// use microimpact::contact::{Contact, FixedCost};
@@ -78,22 +78,29 @@ impl<const N: usize> FixedCost<N> {
 /// Nodes beyond those of a phase that the end of sliding needs: the square of the speed is that much a higher polynomial.
 const NODES_OF_EVENTS: usize = 4;
 
-/// Change of the remaining energy by the last iterations, over the energy before, up to which they count as converged.
-const CONVERGED: f64 = 0.003;
+/// Bound of the error of e^2 over its estimate from the unresolved parts of both phases, which is right to an order of magnitude.
+const ERROR_MARGIN: f64 = 16.0;
+
+/// Roundings of the energies of an impact that its remaining energy may be off by.
+const ROUNDINGS: f64 = 8.0;
+
+/// Largest bound of the error of e^2, and of the relative error of times, with which a result counts as solved.
+const LARGEST_ERROR: f64 = 3e-3;
 
 /// Change of the remaining energy by an iteration, over the energy before, above which the reciprocals of the speeds are
 /// renewed: below it their error changes the energy by less than its square.
 const UNSTEADY: f64 = 0.01;
 
+/// Largest part of the reciprocal speed that the nodes may leave unresolved where there can be a barrier.
+const LARGEST_SLOWNESS: f64 = 0.01;
+
+/// Least energy at the peak beyond that of a barrier, over the energy before: close to a barrier the sphere is slow in the middle
+/// of its way.
+const BARRIER_MARGIN: f64 = 0.1;
+
 /// Loss over speed at the peak above which iterations can converge to a wrong value: the error that an iteration leaves is in
 /// proportion to it.
-const STRONGEST: f64 = 30.0;
-
-/// Remaining energy over the energy before, above which there is no solution: no phase gains energy, but for rounding.
-const LARGEST_GAIN: f64 = 1.0001;
-
-/// Change by the last iterations over the energy that a capture lacks, below which its sign is certain.
-const CLEAR_CAPTURE: f64 = 0.25;
+const STRONGEST: f64 = 8.0;
 
 /// Tolerance to which the end of sliding is found within a phase, for outputs that need it.
 const END_OF_SLIP: f64 = 1e-9;
@@ -107,7 +114,7 @@ where
         if law.loss_power() < WEIGHT_POWER || (O::EVENTS && M < N + NODES_OF_EVENTS) {
             return NormalPath::unsupported(energy);
         }
-        self.run(law, energy, |phase: &Phase<T, N>, rebound| {
+        self.run::<T, L, O>(law, energy, |phase: &Phase<T, N>, rebound| {
             if O::OBSERVES {
                 let tolerance = T::constant(END_OF_SLIP).max(T::EPSILON);
                 show(law, phase, &phase.samples::<M>(law, rebound), rebound, tolerance, observer);
@@ -119,10 +126,11 @@ where
 impl<const N: usize, const M: usize> FixedCost<N, M> {
     /// Approach and rebound, each shown to `observe` when it is solved.
     #[inline]
-    fn run<T, L>(&self, law: &L, energy: T, mut observe: impl FnMut(&Phase<T, N>, bool)) -> NormalPath<T>
+    fn run<T, L, O>(&self, law: &L, energy: T, mut observe: impl FnMut(&Phase<T, N>, bool)) -> NormalPath<T>
     where
         T: PhaseNodes<N>,
         L: ContactLaw<T>,
+        O: Observer<T>,
     {
         let moves = |by: T| by.abs() > T::constant(UNSTEADY) * energy;
         let mut phase = Phase::<T, N>::approach(law, energy);
@@ -141,7 +149,10 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             moved = lost - before;
             at_peak = phase.correct_peak(law, energy, lost);
         }
-        let changed = moved.abs();
+        let mut error = moved.abs() / energy;
+        let approach = phase.tails(energy);
+        // Where the approach comes to a stand before its peak, there is another one.
+        let mut represented = phase.is_represented(STRONGEST) && phase.is_moving();
         observe(&phase, false);
         phase.turn(law);
         let mut gained = T::ZERO;
@@ -156,23 +167,47 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             gained = phase.iterate::<false>().0;
             moved = gained - before;
         }
-        let changed = changed + moved.abs();
+        error = error + moved.abs() / energy;
+        let rebound = phase.tails(energy);
         observe(&phase, true);
+        // The iterates of the losses lie on both sides of the solution, or gain on it faster from one to the next: it is no
+        // farther from the last than that was from the one before. The nodes and rounding add their part.
+        error = error + T::constant(ERROR_MARGIN) * (approach.error_of_energy() + rebound.error_of_energy());
+        error = error + T::constant(ROUNDINGS) * T::EPSILON / energy;
+        represented &= phase.is_represented(STRONGEST) && phase.peak > T::ZERO;
+        // In front of a barrier the sphere may be slowest on its way, where no polynomial is exact, and the potential may be so flat
+        // that one step for the peak leaves an error.
+        if law.may_have_barrier() {
+            represented &= approach.slowness.max(rebound.slowness) <= T::constant(LARGEST_SLOWNESS);
+            error = error + (law.potential(phase.peak) - at_peak).abs() / energy;
+        }
+        let exact = |error: T| error <= T::constant(LARGEST_ERROR);
+        let timely = !O::TIMED || exact(approach.error_of_times().max(rebound.error_of_times()));
         let left = at_peak + gained;
-        let mild =
-            -phase.loss[0] <= T::constant(STRONGEST) * phase.speed[0] && left <= T::constant(LARGEST_GAIN) * energy;
-        // Of a capture only the sign counts.
-        let converged = changed <= (T::constant(CONVERGED) * energy).max(T::constant(-CLEAR_CAPTURE) * left);
-        // A sphere that comes slower than a barrier is high never meets the peak computed here.
+        let uncertain = error * energy;
+        // A sphere that comes slower than a barrier is high, or loses so much on its way there, never meets the peak computed here.
         let (_, escape) = barrier(law);
-        let end = match mild && converged && energy > escape {
-            false => End::Budget,
-            true if left > escape => End::Separation,
-            true => End::Capture,
+        let passes = if law.may_have_barrier() {
+            at_peak - escape > T::constant(BARRIER_MARGIN) * energy
+        } else {
+            energy > uncertain
         };
-        let error = changed / energy;
+        let excess = left - escape;
+        let end = if !(represented && passes) {
+            End::Budget
+        } else if excess < -uncertain {
+            End::Capture
+        } else if !(exact(error) && timely) {
+            End::Budget
+        } else if excess <= uncertain {
+            End::Undecided
+        } else if phase.is_moving() && left - energy <= uncertain {
+            End::Separation
+        } else {
+            End::Budget
+        };
         let statistics =
             Statistics { intervals: 2, refused: 0, iterations: 2 * self.iterations, nodes: N as u32, error };
-        NormalPath { end, energy: left, peak: phase.peak, turning: T::ZERO, statistics }
+        NormalPath { end, energy: left, peak: phase.peak, turning: T::ZERO, error_bound: error, statistics }
     }
 }

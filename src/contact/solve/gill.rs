@@ -64,94 +64,145 @@ impl<T: Real> Method<T> for RungeKuttaGill {
     fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
         let step = law.duration(energy) / T::constant(f64::from(self.steps));
         let most = self.steps.saturating_mul(Self::LONGEST_RUN);
-        integrate(law, energy, step, most, observer).unwrap_or(NormalPath::unsupported(energy))
+        // What half as many steps change is a bound of the error.
+        let runs = Run::new(law, energy, step + step, most / 2).and_then(|coarse| {
+            let coarse = coarse.follow(None, &mut ())?;
+            let fine = Run::new(law, energy, step, most)?.follow(Some(&coarse), observer)?;
+            Some((coarse, fine))
+        });
+        let Some((coarse, fine)) = runs else {
+            return NormalPath::unsupported(energy);
+        };
+        let mut path = fine.path;
+        path.statistics.iterations = path.statistics.iterations.saturating_add(coarse.path.statistics.iterations);
+        path
     }
 }
 
 /// Difference between a coordinate and the inverse of its indentation, above which the two functions do not belong together.
 const INVERSE_ACCURACY: f64 = 1e-3;
 
+/// Change of the energy at the peak by half as many steps that a capture has to be certain by: the way back has as large an error.
+const CAPTURE_MARGIN: f64 = 3.0;
+
+/// Roundings of the largest energy by which a change may vanish by chance.
+const ROUNDINGS: f64 = 64.0;
+
 /// Indentation and speed, and the observer's state.
 type State<T, O> = ([T; 2], O);
 
-/// Follows the motion with a fixed step, `most` times at most; `None` where the indentation does not determine the coordinate.
-fn integrate<T, L, O>(law: &L, energy: T, step: T, most: u32, observer: &mut O) -> Option<NormalPath<T>>
-where
-    T: Real,
-    L: ContactLaw<T>,
-    O: Observer<T>,
-{
-    let half = T::constant(0.5);
-    let (first, last) = (law.indentation(law.start()), law.indentation(law.end()));
-    // A law of one's own can have an indentation that its coordinate does not invert.
-    let middle = half * (law.start() + T::ONE);
-    let inverse = law.coordinate(law.indentation(middle))? - middle;
-    if inverse.abs() > T::constant(INVERSE_ACCURACY) {
-        return None;
+/// A motion with a fixed step.
+struct Run<'a, T, L> {
+    law: &'a L,
+    energy: T,
+    step: T,
+    most: u32,
+    /// Where the barrier stands that holds the sphere, and the energy to pass it.
+    barrier: (T, T),
+}
+
+/// A motion and its energies at the peak and at its end, with which another is compared.
+struct Followed<T> {
+    path: NormalPath<T>,
+    at_peak: T,
+    left: T,
+}
+
+impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
+    /// At most so many steps; `None` where the indentation does not determine the coordinate.
+    fn new(law: &'a L, energy: T, step: T, most: u32) -> Option<Self> {
+        // A law of one's own can have an indentation that its coordinate does not invert.
+        let middle = T::constant(0.5) * (law.start() + T::ONE);
+        let inverse = law.coordinate(law.indentation(middle))? - middle;
+        if inverse.abs() > T::constant(INVERSE_ACCURACY) {
+            return None;
+        }
+        // A sphere that comes slower than a barrier is high turns back in front of it and has none to pass on its way out.
+        let total = energy + law.potential(law.start());
+        let barrier = Some(barrier(law)).filter(|(_, height)| total > *height).unwrap_or((law.end(), T::ZERO));
+        Some(Self { law, energy, step, most, barrier })
     }
-    let mut state: State<T, O::State> = ([first, (energy + energy).sqrt()], observer.state());
-    let mut times = Times::new();
-    let statistics = Statistics { nodes: 4, ..Statistics::NONE };
-    let mut path = NormalPath { end: End::Budget, energy, peak: T::ZERO, turning: T::ZERO, statistics };
-    // A sphere that comes slower than a barrier is high turns back in front of it and has none to pass on its way out.
-    let total = energy + law.potential(law.start());
-    let (place, escape) = Some(barrier(law)).filter(|(_, height)| total > *height).unwrap_or((law.end(), T::ZERO));
-    let held = |depth: T, speed: T| {
-        law.coordinate(depth).is_some_and(|s| s >= place && half * speed * speed + law.potential(s) < escape)
-    };
-    while path.statistics.intervals < most {
-        path.statistics.intervals += 1;
-        let [x, y] = state.0;
-        let mut duration = step;
-        let mut next = gill(law, observer, &state, duration);
-        // The earlier of separation and the end of sliding, by linear interpolation.
-        let separates = y < T::ZERO && next.0[0] <= last;
-        let mut fraction = if separates { (x - last) / (x - next.0[0]) } else { T::ONE };
-        let mut rolls = false;
-        if let (Some(before), Some(after)) = (observer.slip(&state.1), observer.slip(&next.1))
-            && after <= T::ZERO
-            && before <= fraction * (before - after)
-        {
-            fraction = before / (before - after);
-            rolls = true;
+
+    /// Follows the motion, whose error the `coarse` one shows. Without it the sphere is captured where it turns back.
+    fn follow<O: Observer<T>>(&self, coarse: Option<&Followed<T>>, observer: &mut O) -> Option<Followed<T>> {
+        let Self { law, energy, step, most, barrier: (place, escape) } = *self;
+        let (half, zero) = (T::constant(0.5), T::ZERO);
+        let (first, last) = (law.indentation(law.start()), law.indentation(law.end()));
+        let mut state: State<T, O::State> = ([first, (energy + energy).sqrt()], observer.state());
+        let mut times = Times::new();
+        let statistics = Statistics { nodes: 4, ..Statistics::NONE };
+        let mut path =
+            NormalPath { end: End::Budget, energy, peak: zero, turning: zero, error_bound: zero, statistics };
+        let total = |s: T, speed: T| half * speed * speed + law.potential(s);
+        let (mut at_peak, mut left, mut margin) = (energy, energy, zero);
+        while path.statistics.intervals < most {
+            path.statistics.intervals += 1;
+            let [x, y] = state.0;
+            let mut duration = step;
+            let mut next = gill(law, observer, &state, duration);
+            // The earlier of separation and the end of sliding, by linear interpolation.
+            let separates = y < zero && next.0[0] <= last;
+            let mut fraction = if separates { (x - last) / (x - next.0[0]) } else { T::ONE };
+            let mut rolls = false;
+            if let (Some(before), Some(after)) = (observer.slip(&state.1), observer.slip(&next.1))
+                && after <= zero
+                && before <= fraction * (before - after)
+            {
+                fraction = before / (before - after);
+                rolls = true;
+            }
+            if separates || rolls {
+                path.statistics.refused += 1;
+                duration = step * fraction;
+                next = gill(law, observer, &state, duration);
+            }
+            let [depth, speed] = next.0;
+            if !(depth.is_finite() && speed.is_finite()) {
+                break;
+            }
+            if y >= zero && speed < zero {
+                let rest = duration * y / (y - speed);
+                times.peak = times.now + rest;
+                path.peak = law.coordinate(x + half * rest * y)?;
+                at_peak = law.potential(path.peak);
+                let changed = coarse.map_or(zero, |coarse| (at_peak - coarse.at_peak).abs());
+                margin = T::constant(CAPTURE_MARGIN) * changed + T::constant(ROUNDINGS) * T::EPSILON * energy.max(half);
+                observer.stepped(law, times.peak, path.peak, zero, false);
+            }
+            state = next;
+            times.now = times.now + duration;
+            let s = law.coordinate(depth)?;
+            left = total(s, speed);
+            observer.stepped(law, times.now, s, speed.abs(), speed < zero);
+            if rolls {
+                observer.rolls_from(times.now);
+            } else if separates {
+                path.end = End::Separation;
+                left = half * speed * speed;
+                break;
+            }
+            // Without a margin to judge by, the sphere is followed until it turns back.
+            let held = coarse.is_some() && speed < zero && s >= place && left < escape - margin;
+            if held || (y < zero && speed >= zero) {
+                path.end = if held || coarse.is_none() { End::Capture } else { End::Undecided };
+                break;
+            }
         }
-        if separates || rolls {
-            path.statistics.refused += 1;
-            duration = step * fraction;
-            next = gill(law, observer, &state, duration);
+        if let Some(coarse) = coarse {
+            let changed = if path.end == End::Separation { (left - coarse.left).abs() } else { zero };
+            let uncertain = margin.max(changed);
+            if path.end == End::Separation && left - escape <= uncertain {
+                path.end = End::Undecided;
+            } else if path.end == End::Budget && left < escape - margin.max((left - coarse.left).abs()) {
+                path.end = End::Capture;
+            }
+            path.error_bound = uncertain / energy;
         }
-        let [depth, speed] = next.0;
-        if !(depth.is_finite() && speed.is_finite()) {
-            break;
-        }
-        if y >= T::ZERO && speed < T::ZERO {
-            let rest = duration * y / (y - speed);
-            times.peak = times.now + rest;
-            path.peak = law.coordinate(x + half * rest * y)?;
-            observer.stepped(law, times.peak, path.peak, T::ZERO, false);
-        }
-        state = next;
-        times.now = times.now + duration;
-        observer.stepped(law, times.now, law.coordinate(depth)?, speed.abs(), speed < T::ZERO);
-        if rolls {
-            observer.rolls_from(times.now);
-        } else if separates {
-            path.end = End::Separation;
-            path.energy = half * speed * speed;
-            break;
-        }
-        if speed < T::ZERO && held(depth, speed) {
-            path.end = End::Capture;
-            break;
-        }
+        path.energy = left;
+        path.statistics.iterations = path.statistics.intervals + path.statistics.refused;
+        observer.ended(&state.1, &times);
+        Some(Followed { path, at_peak, left })
     }
-    let [depth, speed] = state.0;
-    if path.end == End::Budget && held(depth, speed) {
-        path.end = End::Capture;
-    }
-    path.statistics.iterations = path.statistics.intervals + path.statistics.refused;
-    observer.ended(&state.1, &times);
-    Some(path)
 }
 
 /// A step by Gill's coefficients.

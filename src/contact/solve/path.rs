@@ -14,6 +14,8 @@ pub(crate) enum End {
     Separation,
     /// The energy is below that of a sphere that separates at rest.
     Capture,
+    /// The energy differs from that of a sphere that separates at rest by less than its error bound.
+    Undecided,
     /// The number of intervals is spent.
     Budget,
     /// The method cannot represent the law.
@@ -31,6 +33,8 @@ pub struct NormalPath<T> {
     /// Contact radius where a captured sphere first turns back; zero where it has not been followed so far, or creeps, or comes
     /// to its equilibrium within the error allowed before it turns.
     pub(crate) turning: T,
+    /// Bound of the error of e^2.
+    pub(crate) error_bound: T,
     pub(crate) statistics: Statistics<T>,
 }
 
@@ -53,6 +57,16 @@ pub trait Method<T: Real> {
     fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T>;
 }
 
+/// Roundings of the largest energy of a motion that its remaining energy may be off by.
+const ROUNDINGS: f64 = 16.0;
+
+/// Bound of the error of the remaining energy for a tolerance, a sphere that arrives with a kinetic energy, and the largest energy
+/// on its way.
+#[inline]
+pub(crate) fn energy_bound<T: Real>(tolerance: T, kinetic: T, largest: T) -> T {
+    (tolerance * kinetic).max(T::constant(ROUNDINGS) * T::EPSILON * largest)
+}
+
 /// Statistics of a solution.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Statistics<T> {
@@ -72,6 +86,7 @@ impl<T: Real> NormalPath<T> {
         match self.end {
             End::Separation => Some(Outcome::Rebound),
             End::Capture => Some(Outcome::Capture),
+            End::Undecided => Some(Outcome::Undecided),
             End::Budget | End::Unsupported => None,
         }
     }
@@ -84,7 +99,8 @@ impl<T: Real> NormalPath<T> {
 
     /// That of a law that the method cannot represent.
     pub(crate) fn unsupported(energy: T) -> Self {
-        Self { end: End::Unsupported, energy, peak: T::ZERO, turning: T::ZERO, statistics: Statistics::NONE }
+        let (zero, statistics) = (T::ZERO, Statistics::NONE);
+        Self { end: End::Unsupported, energy, peak: zero, turning: zero, error_bound: zero, statistics }
     }
 }
 
@@ -211,12 +227,18 @@ pub(crate) struct Follower<'a, T, L, O> {
     pub(crate) at: Point<T>,
     /// Where the barrier stands that holds the sphere, and the energy to pass it; zero without an external force.
     pub(crate) barrier: (T, T),
+    /// Kinetic energy at first contact.
+    kinetic: T,
+    /// Largest kinetic energy so far.
+    largest: T,
     pub(crate) statistics: Statistics<T>,
 }
 
 impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     pub(crate) fn from(law: &'a L, control: Control<T>, observer: &'a mut O, at: Point<T>) -> Self {
-        Self { law, control, observer, at, barrier: (law.end(), T::ZERO), statistics: Statistics::NONE }
+        let kinetic = T::constant(0.5) * at.speed_squared;
+        let (barrier, statistics) = ((law.end(), T::ZERO), Statistics::NONE);
+        Self { law, control, observer, at, barrier, kinetic, largest: kinetic, statistics }
     }
 
     /// At first contact, with a kinetic energy.
@@ -238,7 +260,9 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     {
         self.statistics.nodes = N as u32;
         let (energy, statistics) = (self.at.energy, self.statistics);
-        let mut path = NormalPath { end: End::Budget, energy, peak: T::ZERO, turning: T::ZERO, statistics };
+        let zero = T::ZERO;
+        let mut path =
+            NormalPath { end: End::Budget, energy, peak: zero, turning: zero, error_bound: zero, statistics };
         path.end = match self.approach::<N>() {
             Err(end) => end,
             Ok(()) => {
@@ -253,14 +277,35 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             }
         };
         path.energy = self.at.energy;
+        path.error_bound = self.surplus().1.saturating_div(self.kinetic);
         path.statistics = self.statistics;
         path
+    }
+
+    /// Energy beyond that of a sphere that separates at rest, and the bound of its error.
+    #[inline]
+    fn surplus(&self) -> (T, T) {
+        (self.at.energy - self.barrier.1, energy_bound(self.control.error, self.kinetic, self.largest))
     }
 
     /// Whether the sphere cannot escape any more.
     #[inline]
     fn is_held(&self) -> bool {
-        self.at.energy < self.barrier.1 && self.at.s >= self.barrier.0
+        let (surplus, uncertain) = self.surplus();
+        surplus < -uncertain && self.at.s >= self.barrier.0
+    }
+
+    /// How the motion ends where no interval is short enough to go on, or none is left.
+    fn stuck(&self, course: Course) -> End {
+        let (surplus, uncertain) = self.surplus();
+        if self.is_held() {
+            End::Capture
+        } else if course.rebound && surplus <= uncertain {
+            // Losses can only bring it further down.
+            End::Undecided
+        } else {
+            End::Budget
+        }
     }
 
     /// From first contact to the peak; `Err` where the motion ends without one.
@@ -295,7 +340,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 }
                 length = length * factor.min(T::constant(REFUSED_SHRINK));
                 if length <= T::EPSILON * T::EPSILON {
-                    return Err(if self.is_held() { End::Capture } else { End::Budget });
+                    return Err(self.stuck(Course::APPROACH));
                 }
             }
         }
@@ -402,7 +447,10 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 }
                 length = length * factor.min(T::constant(REFUSED_SHRINK));
                 if length <= T::EPSILON * T::EPSILON {
-                    return if self.is_held() { Ok(T::ZERO) } else { Err(End::Budget) };
+                    return if self.is_held() { Ok(T::ZERO) } else { Err(self.stuck(Course::REBOUND)) };
+                }
+                if self.is_undecided() {
+                    return Err(End::Undecided);
                 }
                 // Where the forces left are hardly more than their rounding, errors are, squared, what that makes of them: no
                 // interval is short enough.
@@ -412,7 +460,20 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 }
             }
         }
-        if self.is_held() { Ok(T::ZERO) } else { Err(End::Separation) }
+        let (surplus, uncertain) = self.surplus();
+        if self.is_held() {
+            Ok(T::ZERO)
+        } else {
+            Err(if surplus > uncertain { End::Separation } else { End::Undecided })
+        }
+    }
+
+    /// Whether what is left to lose on the way out cannot decide between rebound and capture.
+    fn is_undecided(&self) -> bool {
+        let (surplus, uncertain) = self.surplus();
+        let farther = (self.at.s - self.barrier.0).max(T::ZERO);
+        let loss = self.law.loss(self.at.s, true) * self.at.speed_squared.max(T::ZERO).sqrt() * farther;
+        surplus.abs() <= uncertain && loss <= uncertain
     }
 
     /// The first interval of the rebound, no deeper than `deepest`; its depth.
@@ -569,10 +630,13 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 Some(z) => self.split(interval, course, turning_point, z),
                 None => self.observer.observe(self.law, interval, course.rebound),
             }
+            let middle = interval.y[N / 2];
+            let largest = interval.end.speed_squared.max(middle * middle);
+            self.largest = self.largest.max(T::constant(0.5) * largest);
             self.at = interval.end;
         }
         if self.statistics.intervals + self.statistics.refused >= MOST_INTERVALS {
-            return Err(if self.is_held() { End::Capture } else { End::Budget });
+            return Err(self.stuck(course));
         }
         Ok(interval.accepted)
     }

@@ -190,7 +190,8 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     pub(crate) fn tails(&self, energy: T) -> Tails<T> {
         let (mut power_tail, mut lost, mut slowness_tail, mut slowness) = (T::ZERO, T::ZERO, T::ZERO, T::ZERO);
         for k in 0..N {
-            let (power, inverse) = (self.loss[k] * self.speed[k], T::ONE / self.speed[k]);
+            // As good as the reciprocal of the present speed: it is as smooth.
+            let (power, inverse) = (self.loss[k] * self.speed[k], self.half_inverse[k]);
             power_tail = power_tail + T::HIGHEST_COEFFICIENT[k] * power;
             lost = lost + T::WEIGHTS[k] * power;
             slowness_tail = slowness_tail + T::HIGHEST_COEFFICIENT[k] * inverse;
@@ -199,6 +200,22 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         let half = T::constant(0.5);
         let lost = half * lost.abs() / energy;
         Tails { lost, power: half * power_tail.abs() / energy, slowness: slowness_tail.abs() / slowness }
+    }
+
+    /// Whether damping is so mild that iterations converge to the solution.
+    #[inline]
+    pub(crate) fn is_represented(&self, strongest: f64) -> bool {
+        self.loss[0].abs() <= T::constant(strongest) * self.speed[0]
+    }
+
+    /// Whether the sphere moves at all nodes.
+    #[inline]
+    pub(crate) fn is_moving(&self) -> bool {
+        let mut slowest = self.speed[0];
+        for j in 1..N {
+            slowest = slowest.min(self.speed[j]);
+        }
+        slowest > T::SLOWEST
     }
 
     /// Half the losses at the first and the last node.

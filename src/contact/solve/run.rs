@@ -18,7 +18,7 @@ use crate::Real;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Status {
-    /// The motion was followed to its end, within the tolerance if the method has one.
+    /// The motion was followed to its end, within the tolerance if the method has one. The outcome may be undecided.
     Solved,
     /// The iterations did not converge, or the intervals ran out; the result is not to be relied on.
     BudgetSpent,
@@ -29,7 +29,7 @@ pub enum Status {
 impl Status {
     pub(crate) fn of<T>(path: &NormalPath<T>) -> Self {
         match path.end {
-            End::Separation | End::Capture => Self::Solved,
+            End::Separation | End::Capture | End::Undecided => Self::Solved,
             End::Budget => Self::BudgetSpent,
             End::Unsupported => Self::Unsupported,
         }
@@ -61,6 +61,8 @@ pub struct RunReport<T> {
     pub refused: u32,
     /// Evaluations of a speed from the forces, or of the forces in time.
     pub evaluations: u32,
+    /// Bound of the error of e^2. If e^2 differs from zero by less, the outcome is undecided.
+    pub error_bound: T,
     /// Largest estimated error of an interval or phase, over the energy there; zero where a method has no estimate.
     pub estimated_error: T,
 }
@@ -73,6 +75,7 @@ impl<T: Real> RunReport<T> {
             steps: statistics.intervals,
             refused: statistics.refused,
             evaluations: statistics.iterations.saturating_mul(statistics.nodes),
+            error_bound: path.error_bound,
             estimated_error: statistics.error,
         }
     }
