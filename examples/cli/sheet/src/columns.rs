@@ -59,13 +59,13 @@ pub(crate) fn check(header: &[String], inputs: &[Input]) -> Result<(), String> {
     let absent = inputs.iter().filter(|input| input.default.is_none() && !input.is_in(header)).map(|input| {
         let near = input.columns.iter().find_map(|column| nearest(column, unread()));
         let near = near.map_or_else(String::new, |near| format!(" (did you mean it by `{near}`?)"));
-        format!("{}: missing{near}", input.in_words())
+        format!("{}{near}", input.in_words())
     });
     let absent: Vec<_> = absent.collect();
     if absent.is_empty() {
         return Ok(());
     }
-    Err(format!("the header lacks required columns: {}; the header is: {}", absent.join(", "), header.join(", ")))
+    Err(format!("the table lacks required columns: {}; the header is: {}", absent.join(", "), header.join(", ")))
 }
 
 fn is_read(name: &str, inputs: &[Input]) -> bool {
