@@ -128,7 +128,7 @@ fn options_change_the_result() {
     for (coarse, fine) in [
         ("--tolerance 1e-3", "--tolerance 1e-9"),
         ("--method collocation --nodes 5 --tolerance 1e-2", "--method collocation --nodes 9"),
-        ("--method fixed-cost --iterations 1", "--method fixed-cost --iterations 3"),
+        ("--method fixed-cost --iterations 2", "--method fixed-cost --iterations 8"),
         ("--method fixed-cost --nodes 5 --iterations 8", "--method fixed-cost --nodes 9 --iterations 8"),
         ("--method runge-kutta-gill --steps 50", "--method runge-kutta-gill"),
     ] {

@@ -316,3 +316,29 @@ fn absent_required_columns_are_one_error() {
     let neither = said("radius_m,density_kg_m3,speed_normal_m_s\n", "classify", &[]);
     assert!(neither.contains("restitution or restitution_speed_m_s; "), "{neither}");
 }
+
+/// The help of a command names all columns that the command reads.
+#[test]
+fn help_names_all_columns() {
+    let required =
+        "radius_m,density_kg_m3,stiffness_pa,restitution,speed_normal_m_s,rebound_speed_m_s,speed_tangential_out_m_s\n";
+    for (command, arguments) in [
+        ("classify", &["--model", "both"][..]),
+        ("classify", &["--model", "simulation"]),
+        ("critical", &[]),
+        ("analyse", &[]),
+    ] {
+        let help = microimpact(command, &["--help"], b"").complaint();
+        let said = said(required, command, arguments);
+        let mut count = 0;
+        for line in said.lines().filter(|line| !line.contains("not read")) {
+            let names = line.split_once(": ").unwrap().1.split([' ', ',', ':', '(', ')']);
+            for name in names.filter(|name| name.contains('_')) {
+                assert!(help.contains(name), "{command}: {name}");
+                count += 1;
+            }
+        }
+        assert!(count >= 7, "{said}");
+        assert!(help.contains("decimal commas: one mark in the"), "{help}");
+    }
+}

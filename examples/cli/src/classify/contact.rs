@@ -24,8 +24,8 @@ pub struct Simulated<T> {
     pub outcome: Outcome,
     pub class: Class,
     normal: NormalContact<T>,
-    /// Whether the motion was followed to separation, or to the turning point of a captured sphere.
-    followed: bool,
+    /// Whether the method follows a captured sphere to its first turning point.
+    follows_captures: bool,
     /// Velocities after a rebound, or of a captured sphere when its slip has ended.
     tangential: TangentialVelocities<T>,
     times: ContactTimes<T>,
@@ -46,23 +46,33 @@ impl<T: Number> Simulated<T> {
     /// Velocities along the surface after a rebound, or of a captured sphere when its slip has ended; `None` where the motion
     /// was not followed so far.
     pub fn along(&self) -> Option<&TangentialVelocities<T>> {
-        self.followed.then_some(&self.tangential)
+        self.followed().then_some(&self.tangential)
+    }
+
+    /// Whether the motion was followed to separation, or to the turning point of a captured sphere.
+    fn followed(&self) -> bool {
+        match self.outcome {
+            Outcome::Rebound => true,
+            Outcome::Capture => self.follows_captures,
+            Outcome::Undecided => false,
+        }
     }
 
     /// The cells of the columns that the model computes.
     fn cells(&self, row: &Row<'_>) -> Vec<String> {
-        let Self { outcome, normal, followed, times, impulses, works, slip, groups, .. } = self;
+        let Self { outcome, normal, times, impulses, works, slip, groups, .. } = self;
+        let followed = self.followed();
         let optional = |value: Option<T>| value.map(|value| row.cell(value)).unwrap_or_default();
         let at_end = |value: T| optional(followed.then_some(value));
         let motion = if slip.slides { SurfaceMotion::Sliding } else { SurfaceMotion::Rolling };
         vec![
             outcome_name(*outcome).into(),
-            if *followed { motion_name(motion).into() } else { String::new() },
+            if followed { motion_name(motion).into() } else { String::new() },
             optional(self.restitution()),
             optional(normal.peak_indentation()),
-            optional(normal.turning_indentation()),
+            optional(normal.turning_indentation().filter(|_| followed)),
             optional(times.peak),
-            optional(times.contact),
+            optional(times.contact.filter(|_| followed)),
             at_end(slip.rolls_from.unwrap_or(-T::ONE)),
             at_end(impulses.elastic),
             at_end(impulses.adhesion_rebound),
@@ -76,6 +86,30 @@ impl<T: Number> Simulated<T> {
             optional(groups.map(|groups| groups.adhesion)),
             optional(groups.map(|groups| groups.material_damping)),
             optional(groups.map(|groups| groups.adhesion_damping)),
+        ]
+    }
+
+    /// The line of the summary.
+    fn line(&self, name: String) -> Vec<String> {
+        let Self { outcome, class, normal, times, slip, energy, .. } = self;
+        let nano = |value: Option<T>| value.map_or("-".into(), |value| format!("{:.2}", value * T::constant(1e9)));
+        let (restitution, followed) = (self.restitution(), self.followed());
+        let lost = energy.filter(|_| followed).map(|ledger| T::constant(100.0) * ledger.lost() / ledger.before);
+        let optional = |value: Option<String>| value.unwrap_or("-".into());
+        vec![
+            name,
+            class.to_string(),
+            optional(restitution.map(|e| format!("{e:.4}"))),
+            optional(restitution.map(|_| format!("{:.3}", normal.rebound_speed()))),
+            optional(self.along().map(|along| format!("{:.3}", along.velocity() + T::ZERO))),
+            optional(self.along().map(|along| format!("{:.2e}", along.spin() + T::ZERO))),
+            nano(normal.peak_indentation()),
+            nano(times.contact.filter(|_| followed)),
+            match (outcome, slip.slides) {
+                (Outcome::Rebound, true) => "always".into(),
+                _ => nano(slip.rolls_from.filter(|_| followed)),
+            },
+            optional(lost.map(|lost| format!("{lost:.1}"))),
         ]
     }
 }
@@ -94,12 +128,20 @@ impl<T: Number> SimulationModel<T> {
         let (Status::Solved, Some(outcome), Some(class)) = (status, normal.outcome(), impact.class()) else {
             return Err(self.simulator.refusal(status));
         };
-        let followed = match outcome {
-            Outcome::Rebound => true,
-            Outcome::Capture => self.simulator.follows_captures,
-            Outcome::Undecided => false,
-        };
-        Ok(Simulated { outcome, class, normal, followed, tangential, times, impulses, works, slip, energy, groups })
+        let follows_captures = self.simulator.follows_captures;
+        Ok(Simulated {
+            outcome,
+            class,
+            normal,
+            follows_captures,
+            tangential,
+            times,
+            impulses,
+            works,
+            slip,
+            energy,
+            groups,
+        })
     }
 }
 
@@ -164,26 +206,52 @@ impl<T: Number> Work for SimulationModel<T> {
     }
 
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
-        let simulated = self.compute(row)?;
-        let Simulated { outcome, class, normal, followed, times, slip, energy, .. } = &simulated;
-        let nano = |value: Option<T>| value.map_or("-".into(), |value| format!("{:.2}", value * T::constant(1e9)));
-        let restitution = simulated.restitution();
-        let lost = energy.map(|ledger| T::constant(100.0) * ledger.lost() / ledger.before);
-        let optional = |value: Option<String>| value.unwrap_or("-".into());
-        Ok(vec![
-            name,
-            class.to_string(),
-            optional(restitution.map(|e| format!("{e:.4}"))),
-            optional(restitution.map(|_| format!("{:.3}", normal.rebound_speed()))),
-            optional(simulated.along().map(|along| format!("{:.3}", along.velocity() + T::ZERO))),
-            optional(simulated.along().map(|along| format!("{:.2e}", along.spin() + T::ZERO))),
-            nano(normal.peak_indentation()),
-            nano(times.contact),
-            match (outcome, slip.slides) {
-                (Outcome::Rebound, true) => "always".into(),
-                _ => nano(slip.rolls_from.filter(|_| *followed)),
-            },
-            optional(lost.map(|lost| format!("{lost:.1}"))),
-        ])
+        Ok(self.compute(row)?.line(name))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+    use sheet::Sheet;
+
+    use super::*;
+    use crate::classify::method::MethodOptions;
+
+    const TABLE: &str = "\
+radius_m,density_kg_m3,stiffness_pa,adhesion_n_m,zeta_h,zeta_a,friction,speed_normal_m_s,speed_tangential_m_s
+5.06e-6,2600,7.5e10,250,10.5,6.25,0.1,2.8,1
+";
+
+    #[derive(Parser)]
+    struct Arguments {
+        #[command(flatten)]
+        method: MethodOptions,
+    }
+
+    /// A method that cannot distinguish rebound from capture knows the approach, and nothing that depends on the outcome.
+    #[test]
+    fn an_undecided_impact_has_no_values_of_its_end() {
+        let options = Arguments::try_parse_from(["test"]).unwrap_or_else(|error| panic!("{error}"));
+        let model = SimulationModel::<f64> { simulator: options.method.simulator().unwrap() };
+        let mut sheet = Sheet::open(TABLE.as_bytes(), &model.inputs(), None).unwrap();
+        let row = sheet.next_row().unwrap().unwrap();
+        let rebound = model.compute(&row).unwrap();
+        let filled = |simulated: &Simulated<f64>| {
+            let cells = simulated.cells(&row);
+            let named = model.columns().into_iter().zip(cells).filter(|(_, cell)| !cell.is_empty());
+            named.map(|(column, _)| column).collect::<Vec<_>>()
+        };
+        assert_eq!(filled(&rebound).len(), model.columns().len() - 1, "all but the turning point of a capture");
+
+        let undecided = Simulated { outcome: Outcome::Undecided, class: Class::Undecided, ..rebound };
+        assert_eq!(undecided.cells(&row)[0], "undecided");
+        assert_eq!(
+            filled(&undecided),
+            ["outcome", "max_indentation_m", "time_peak_s", "group_a", "group_b", "group_h", "group_g"]
+        );
+        let line = undecided.line("name".into());
+        assert_eq!(line[1], "undecided");
+        assert_eq!(line.iter().filter(|cell| *cell == "-").count(), line.len() - 3, "{line:?}");
     }
 }
