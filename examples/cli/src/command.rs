@@ -39,7 +39,7 @@ pub struct TableOptions {
 #[derive(Args)]
 pub struct Reading {
     /// Decimal mark of the table. Without it the command judges the mark from the columns that it reads, in the first 1000
-    /// rows.
+    /// rows, and writes no result before it has read them.
     #[arg(long, value_enum)]
     decimal: Option<Decimal>,
 }
