@@ -10,14 +10,15 @@ use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 use microimpact::contact::{Adaptive, AdaptiveNodes};
 use microimpact::measure::NormalDistribution;
 use microimpact::{InputError, Real};
-use sheet::{Row, Scalar, Sheet};
+use sheet::{Decimal, Input, LABEL, Row, Scalar, Sheet};
 
 use crate::Streams;
+use crate::classify::OfferedNodes;
 
 /// A number type that all commands can compute in.
-pub trait Number: Scalar + AdaptiveNodes + NormalDistribution + Into<f64> {}
+pub trait Number: Scalar + AdaptiveNodes + OfferedNodes + NormalDistribution + Into<f64> + 'static {}
 
-impl<T: Scalar + AdaptiveNodes + NormalDistribution + Into<f64>> Number for T {}
+impl<T: Scalar + AdaptiveNodes + OfferedNodes + NormalDistribution + Into<f64> + 'static> Number for T {}
 
 /// Options of a command that reads a table and adds columns to it.
 #[derive(Args)]
@@ -30,13 +31,48 @@ pub struct TableOptions {
     /// Number type of the computation.
     #[arg(long, value_enum, default_value_t = ScalarType::F64)]
     scalar: ScalarType,
+    #[command(flatten)]
+    reading: Reading,
+}
+
+/// How a command reads a table.
+#[derive(Args)]
+pub struct Reading {
+    /// Decimal mark of the table. Without it the command judges the mark from the columns that it reads, in the first 1000
+    /// rows, and writes no result before it has read them.
+    #[arg(long, value_enum)]
+    decimal: Option<Decimal>,
+}
+
+impl Reading {
+    /// Opens a table, and says on standard error which of its columns a command reads. `computed` are the columns that it will
+    /// add.
+    ///
+    /// # Errors
+    /// What is wrong with the table, in words.
+    pub fn open<'a>(
+        &self,
+        command: &str,
+        source: impl BufRead + 'a,
+        inputs: &[Input],
+        computed: &[String],
+        errors: &mut dyn Write,
+    ) -> Result<Sheet<Box<dyn BufRead + 'a>>, String> {
+        let sheet = Sheet::open(source, inputs, self.decimal)?;
+        // If standard error is closed, nobody wants to know.
+        let _ = write!(errors, "{command}: {}", sheet.columns_in_words(computed));
+        Ok(sheet)
+    }
 }
 
 /// What the help of each command that reads a table says at its end.
 pub const TABLE_HELP: &str = "\
-CSV files may use commas, semicolons or tabs, and decimal commas with the latter two. The command
-copies all other columns. If an input column has the name of a computed column, its copy is named
-input_NAME.
+CSV files may use commas, semicolons or tabs, and decimal points or decimal commas: one mark in the
+whole file. A number such as 2.600 is refused unless other cells, commas that separate cells, or
+--decimal settle whether its mark is decimal; thousands separators are not read. The result has the
+decimal mark of the file. The command copies all other columns. If an input column has the name of
+a computed column, its copy is named input_NAME. Standard error lists the columns that the command
+uses, the defaults of those that are absent, and the columns that it does not read.
 
 Exit status: 0 on success; 1 if a row is bad (the column `error` gives the reason); 2 if the command
 fails, for example because it cannot read the table.";
@@ -44,18 +80,30 @@ fails, for example because it cannot read the table.";
 /// Options of a command that simulates contacts.
 #[derive(Args)]
 pub struct SimulationOptions {
-    /// Tolerance of the simulation.
+    /// Tolerance of the simulation [default: 1e-9].
     ///
     /// It bounds the error of the squared restitution, and the relative error of a critical speed. Rounding limits it: in f32
     /// the tolerance is 1e-6 at least.
-    #[arg(long, default_value = "1e-9")]
-    tolerance: f64,
+    #[arg(long)]
+    tolerance: Option<f64>,
 }
 
+const TOLERANCE: f64 = 1e-9;
+
 impl SimulationOptions {
+    /// Whether a tolerance was given.
+    pub fn is_given(&self) -> bool {
+        self.tolerance.is_some()
+    }
+
+    /// The tolerance.
+    pub fn tolerance<T: Real>(&self) -> T {
+        T::constant(self.tolerance.unwrap_or(TOLERANCE))
+    }
+
     /// The method that keeps this tolerance.
     pub fn method<T: Real>(&self) -> Result<Adaptive<T>, InputError> {
-        Adaptive::new(T::constant(self.tolerance))
+        Adaptive::new(self.tolerance())
     }
 }
 
@@ -98,6 +146,9 @@ pub trait TableCommand {
 
 /// What a command computes from each row of a table.
 pub trait Work {
+    /// The numbers that it reads.
+    fn inputs(&self) -> Vec<Input>;
+
     /// Computed columns, in the order in which they are written; the column `error` follows them.
     fn columns(&self) -> Vec<String>;
 
@@ -135,13 +186,13 @@ pub type BadRows = Result<usize, Box<dyn Error>>;
 
 impl TableOptions {
     /// Computes all rows of a file, of standard input if the file is `-`, or of a bundled table if there is no file.
-    pub fn work(&self, bundled: &str, work: &impl Work, streams: &mut Streams<'_>) -> BadRows {
+    pub fn work(&self, command: &str, bundled: &str, work: &impl Work, streams: &mut Streams<'_>) -> BadRows {
         let source: Box<dyn BufRead> = match &self.file {
             None => Box::new(bundled.as_bytes()),
             Some(path) if path.as_os_str() == "-" => Box::new(&mut *streams.input),
             Some(path) => Box::new(open(path)?),
         };
-        let sheet = Sheet::open(source)?;
+        let sheet = self.reading.open(command, source, &work.inputs(), &work.columns(), streams.errors)?;
         match self.format {
             Format::Csv => write_csv(sheet, &mut *streams.output, work),
             Format::Table => write_table(sheet, &mut *streams.output, work),
@@ -206,10 +257,9 @@ fn write_table(mut sheet: Sheet<Box<dyn BufRead + '_>>, mut sink: impl Write, wo
     for column in table.column_iter_mut().skip(work.words()) {
         column.set_cell_alignment(CellAlignment::Right);
     }
-    let (mut number, mut bad_rows) = (0, 0);
+    let mut bad_rows = 0;
     while let Some(row) = sheet.next_row()? {
-        number += 1;
-        let name = row.text("name").unwrap_or_else(|| format!("row {number}"));
+        let name = row.text(LABEL).unwrap_or_else(|| format!("row {}", row.index()));
         match row.check().and_then(|()| work.line(&row, name.clone())) {
             Ok(line) => table.add_row(line),
             Err(reason) => {

@@ -6,11 +6,11 @@
 use clap::Args;
 use microimpact::contact::{Adaptive, Contact};
 use microimpact::{CriticalSpeed, Sphere};
-use sheet::{Row, reason};
+use sheet::{Input, Row, reason};
 
 use crate::Streams;
 use crate::command::{BadRow, BadRows, Number, SimulationOptions, TABLE_HELP, TableCommand, TableOptions, Work};
-use crate::inputs::contact_law;
+use crate::inputs::{DENSITY_INPUT, LAW_INPUTS, contact_law};
 
 /// Spheres of the paper's figure 6 and Table 1. Its program halves the printed damping of adhesion.
 const BUNDLED: &str = "\
@@ -54,7 +54,7 @@ impl TableCommand for Options {
     }
 
     fn run_in<T: Number>(&self, streams: &mut Streams<'_>) -> BadRows {
-        self.table.work(BUNDLED, &Critical { method: self.simulation.method::<T>()? }, streams)
+        self.table.work(Self::NAME, BUNDLED, &Critical { method: self.simulation.method::<T>()? }, streams)
     }
 }
 
@@ -71,6 +71,10 @@ impl<T: Number> Critical<T> {
 }
 
 impl<T: Number> Work for Critical<T> {
+    fn inputs(&self) -> Vec<Input> {
+        [&[Input::required(&["radius_m"]), DENSITY_INPUT], &LAW_INPUTS[..]].concat()
+    }
+
     fn columns(&self) -> Vec<String> {
         ["critical_speed_m_s", "critical"].map(String::from).into()
     }

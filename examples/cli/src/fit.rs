@@ -3,15 +3,16 @@
 //! `cargo microimpact fit FILE.csv --diameter 8.6e-6 --diameter-error 2e-7`
 
 use std::error::Error;
+use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
 use comfy_table::Table;
 use joint_fit::{Impact, JointFit, Known, NAMES};
-use sheet::Sheet;
+use sheet::Input;
 
 use crate::Streams;
-use crate::command::{exit_status, open};
+use crate::command::{Reading, exit_status, open};
 
 pub mod figures;
 
@@ -46,17 +47,24 @@ pub struct Options {
     /// SVG file to draw the fit in.
     #[arg(long)]
     figure: Option<PathBuf>,
+    #[command(flatten)]
+    reading: Reading,
 }
+
+/// The numbers of an impact.
+const INPUTS: [Input; 2] = [Input::required(&["speed_normal_m_s"]), Input::required(&["restitution"])];
+
+const NAME: &str = "fit";
 
 impl Options {
     /// Runs the command; its exit status.
     pub fn run(&self, streams: &mut Streams<'_>) -> u8 {
-        exit_status("fit", run(self, streams).map(|()| 0), streams.errors)
+        exit_status(NAME, run(self, streams).map(|()| 0), streams.errors)
     }
 }
 
 fn run(options: &Options, streams: &mut Streams<'_>) -> Result<(), Box<dyn Error>> {
-    let impacts = read(options)?;
+    let impacts = read(options, streams.errors)?;
     let known = Known {
         stiffness: options.stiffness,
         density: options.density,
@@ -88,15 +96,15 @@ fn run(options: &Options, streams: &mut Streams<'_>) -> Result<(), Box<dyn Error
 }
 
 /// The impacts of a table.
-fn read(options: &Options) -> Result<Vec<Impact>, String> {
-    let mut sheet = Sheet::open(open(&options.file)?)?;
+fn read(options: &Options, errors: &mut dyn Write) -> Result<Vec<Impact>, String> {
+    let mut sheet = options.reading.open(NAME, open(&options.file)?, &INPUTS, &[], errors)?;
     let mut impacts = Vec::new();
     while let Some(row) = sheet.next_row()? {
         let number = |column: &str| row.required(column);
         let impact = row
             .check()
             .and_then(|()| Ok(Impact { speed: number("speed_normal_m_s")?, restitution: number("restitution")? }));
-        impacts.push(impact.map_err(|reason| format!("row {}: {reason}", impacts.len() + 1))?);
+        impacts.push(impact.map_err(|reason| format!("row {}: {reason}", row.index()))?);
     }
     Ok(impacts)
 }

@@ -2,7 +2,35 @@
 
 use microimpact::contact::AnyLaw;
 use microimpact::{ConstantRestitution, Real, RestitutionLaw, SpeedRestitution, Stiffness};
-use sheet::{Row, Scalar, reason};
+use sheet::{Input, Row, Scalar, reason};
+
+/// The numbers of a law of contact.
+pub const LAW_INPUTS: [Input; 5] = [
+    Input::required(&["stiffness_pa"]),
+    Input::optional(&["adhesion_n_m"], "0 N/m"),
+    Input::optional(&["zeta_h"], "0"),
+    Input::optional(&["zeta_a"], "0"),
+    Input::optional(&["external_force_n"], "0 N"),
+];
+
+/// The numbers of a peeling moment.
+pub const PEELING_INPUT: Input = Input::optional(&["peeling_n_m"], "0 N m");
+
+/// The numbers of a restitution law.
+pub const RESTITUTION_INPUT: Input = Input::required(&["restitution", "restitution_speed_m_s"]);
+
+/// The density of a sphere.
+pub const DENSITY_INPUT: Input = Input::required(&["density_kg_m3"]);
+
+/// The moment of inertia of a sphere.
+pub const GYRATION_INPUT: Input = Input::optional(&["gyration_ratio"], "0.4, a solid sphere");
+
+/// The motion before an impact.
+pub const MOTION_INPUTS: [Input; 3] = [
+    Input::required(&["speed_normal_m_s"]),
+    Input::optional(&["speed_tangential_m_s"], "0 m/s"),
+    Input::optional(&["spin_rad_s"], "0 rad/s"),
+];
 
 /// The law of contact of a row: Hertz's, with a ring of adhesion if the row gives one of its columns.
 pub fn contact_law<T: Scalar>(row: &Row<'_>) -> Result<AnyLaw<T>, String> {

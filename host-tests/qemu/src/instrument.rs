@@ -17,7 +17,7 @@ use crate::session::{Session, instructions};
 use boards::INSTRUMENT_BOARD as BOARD;
 use boards::packages::Permission;
 use boards::toolchain::{Choice, Toolchain};
-use sheet::{Row, Sheet};
+use sheet::{Decimal, Input, Row, Sheet};
 
 /// An emulated processor on a busy machine is slow.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -33,7 +33,17 @@ pub(crate) struct Events {
     /// absent), or - for standard input; without it, impacts of the paper. Particle and surface are the instrument's own: other
     /// columns do not count. Rows are read, sent and answered one by one, so that a file may be larger than memory
     file: Option<PathBuf>,
+    /// Decimal mark of the table; without it judged from the columns above, in the first 1000 rows
+    #[arg(long, value_enum)]
+    decimal: Option<Decimal>,
 }
+
+/// The columns of an event.
+const INPUTS: [Input; 3] = [
+    Input::required(&["speed_normal_m_s"]),
+    Input::optional(&["speed_tangential_m_s"], "0 m/s"),
+    Input::optional(&["spin_rad_s"], "0 rad/s"),
+];
 
 /// A trial.
 #[derive(Args)]
@@ -48,7 +58,8 @@ pub(crate) struct Load {
 
 /// Sends the events of a table and prints their classes.
 pub(crate) fn classify(events: &Events, choice: Choice, permission: Permission) -> Result<Vec<String>, String> {
-    let mut sheet = Sheet::open(source(events)?)?;
+    let mut sheet = Sheet::open(source(events)?, &INPUTS, events.decimal)?;
+    eprint!("{}", sheet.columns_in_words(&[]));
     let toolchain = crate::tools(choice, &[BOARD], permission)?;
     let (mut session, mut client) = start(&toolchain, "instrument")?;
     let judge = Judge::new()?;

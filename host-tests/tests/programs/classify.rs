@@ -5,30 +5,30 @@ use crate::{Output, microimpact};
 const HEADER: &str = "name,radius_m,density_kg_m3,restitution,adhesion_coefficient,friction,speed_normal_m_s,speed_tangential_m_s,spin_rad_s\n";
 const TABLE_1: &str = "Table 1,5.06e-6,2600,0.978,0.237,0.1,2.8,0,1.46e5\n";
 
-fn run(arguments: &[&str], input: &[u8]) -> Output {
+pub fn run(arguments: &[&str], input: &[u8]) -> Output {
     microimpact("classify", arguments, input)
 }
 
 /// A table that was written, by column name and row.
-struct Written {
+pub struct Written {
     names: Vec<String>,
-    rows: Vec<csv::StringRecord>,
+    pub rows: Vec<csv::StringRecord>,
 }
 
 impl Written {
-    fn read(bytes: &[u8], delimiter: u8) -> Self {
+    pub fn read(bytes: &[u8], delimiter: u8) -> Self {
         let mut reader = csv::ReaderBuilder::new().delimiter(delimiter).from_reader(bytes);
         let names = reader.headers().unwrap().iter().map(str::to_owned).collect();
         let rows = reader.records().map(Result::unwrap).collect();
         Self { names, rows }
     }
 
-    fn text(&self, row: usize, column: &str) -> &str {
+    pub fn text(&self, row: usize, column: &str) -> &str {
         let index = self.names.iter().position(|name| name == column).unwrap_or_else(|| panic!("no column {column}"));
         &self.rows[row][index]
     }
 
-    fn number(&self, row: usize, column: &str) -> f64 {
+    pub fn number(&self, row: usize, column: &str) -> f64 {
         self.text(row, column).parse().unwrap_or_else(|_| panic!("{column}: {}", self.text(row, column)))
     }
 }

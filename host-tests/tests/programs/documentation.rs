@@ -191,3 +191,26 @@ fn errors_of_fixed_cost_are_the_tested_ones() {
         assert!(error < bound.parse::<f64>().unwrap() + added, "{scene}: {error:e} on the board");
     }
 }
+
+/// Commands of the command line run as README states them, and by the methods that it names.
+#[test]
+fn commands_of_the_command_line_run() {
+    let lines: Vec<_> = README.lines().filter_map(|line| line.strip_prefix("cargo microimpact ")).collect();
+    assert!(lines.len() >= 2);
+    let mut named = Vec::new();
+    for line in lines {
+        let (command, remark) = line.split_once('#').unwrap();
+        let words: Vec<_> = command.split_whitespace().collect();
+        let output = crate::microimpact(words[0], &words[1..], b"");
+        // The bundled impacts may include one that a method does not solve.
+        assert!(output.status <= 1 && !output.stdout.is_empty(), "{command}: {}", output.complaint());
+        if command.contains("--method") {
+            named.extend(remark.split([',', ' ']).filter(|word| word.len() > 2));
+        }
+    }
+    assert_eq!(named, ["adaptive", "collocation", "runge-kutta-gill"]);
+    for method in named {
+        let output = crate::microimpact("classify", &["--model", "simulation", "--method", method], b"");
+        assert_eq!(output.status, 0, "{method}: {}", output.complaint());
+    }
+}

@@ -151,7 +151,10 @@ fn tables_that_cannot_be_read_say_where() {
     let header = "Speed_normal_m_s;restitution\n";
     for (name, table, sign) in [
         ("empty", String::new(), "the table is empty"),
-        ("columns", "a,b\n1,2\n".into(), "row 1: speed_normal_m_s: missing"),
+        ("columns", "a,b\n1,2\n".into(), "lacks required columns: speed_normal_m_s, restitution; the header is: a, b"),
+        ("cell", format!("{header}2,5;0,5\n3,5;\n"), "row 2: restitution: missing"),
+        ("marks", format!("{header}2,5;0,5\n3,5;0.5\n"), "restitution: \"0.5\" in row 2 has a decimal point"),
+        ("ambiguous", format!("{header}2;1\n2.500;1\n"), "speed_normal_m_s: \"2.500\" is ambiguous in row 2"),
         ("word", format!("{header}2,5;0,5\n\"3\";half\n"), "row 2: restitution: \"half\" is not a number"),
         ("few", format!("{header}2,5;0,5\n"), "needs 15 impacts"),
     ] {

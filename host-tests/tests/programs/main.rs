@@ -8,9 +8,11 @@ mod critical;
 mod documentation;
 mod fit;
 mod formats;
+mod methods;
 mod mistakes;
 mod report;
 mod report_cost;
+mod tables;
 mod without;
 
 use clap::Parser;

@@ -1,8 +1,12 @@
 //! CSV tables of impacts in the variants that spreadsheets write.
 //!
-//! Commas, semicolons or tabs separate cells. A byte-order mark, quotes, CRLF line ends and, with semicolons or tabs, decimal
-//! commas are read, and the result is written in the same variant.
+//! Commas, semicolons or tabs separate cells. A byte-order mark, quotes, CRLF line ends and decimal commas are read, and the
+//! result is written in the same variant. A table has one decimal mark, which the columns that are read decide.
 
+mod columns;
+mod decimal;
+
+use std::collections::VecDeque;
 use std::error::Error;
 use std::fmt::{Display, LowerExp};
 use std::io::{self, BufRead, Read, Write};
@@ -10,6 +14,10 @@ use std::str::FromStr;
 
 use csv::ByteRecord;
 use microimpact::Real;
+
+pub use columns::{Input, LABEL};
+pub use decimal::Decimal;
+use decimal::{Cell, Convention, JUDGED_ROWS, Judge};
 
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
@@ -55,14 +63,22 @@ pub struct Sheet<R> {
     header: ByteRecord,
     names: Vec<String>,
     dialect: Dialect,
+    inputs: Vec<Input>,
+    convention: Convention,
+    /// Rows that were read to judge the decimal mark.
+    judged: VecDeque<ByteRecord>,
+    /// Rows that were given out.
+    given: usize,
 }
 
 impl<'a> Sheet<Box<dyn BufRead + 'a>> {
-    /// Opens a table and reads its header.
+    /// Opens a table from which a command reads `inputs`: reads its header and, unless `decimal` gives the decimal mark, its
+    /// first 1000 rows, from which the mark is judged.
     ///
     /// # Errors
-    /// What is wrong with the table or the cell, in words.
-    pub fn open(mut source: impl BufRead + 'a) -> Result<Self, String> {
+    /// What is wrong with the table or the cell, in words: required columns are absent, or the marks of all cells may
+    /// separate thousands.
+    pub fn open(mut source: impl BufRead + 'a, inputs: &[Input], decimal: Option<Decimal>) -> Result<Self, String> {
         let mut header_line = Vec::new();
         source.read_until(b'\n', &mut header_line).map_err(|error| error.to_string())?;
         let dialect = Dialect::of(&header_line);
@@ -76,8 +92,40 @@ impl<'a> Sheet<Box<dyn BufRead + 'a>> {
         if let Some(twice) = names.iter().enumerate().find(|(i, name)| !name.is_empty() && names[..*i].contains(name)) {
             return Err(format!("the header names the column {} twice; rename or remove one", twice.1));
         }
-        Ok(Self { rows, header, names, dialect })
+        columns::check(&names, inputs)?;
+        let mut judged = VecDeque::new();
+        let convention = match decimal {
+            Some(decimal) => Convention::chosen(decimal),
+            None => {
+                let is_read = |name: &String| inputs.iter().any(|input| input.columns().contains(&name.as_str()));
+                let read: Vec<_> = names.iter().enumerate().filter(|(_, name)| is_read(name)).collect();
+                let mut judge = Judge::default();
+                while judged.len() < JUDGED_ROWS
+                    && let Some(cells) = next_cells(&mut rows)?
+                {
+                    for (index, column) in &read {
+                        let text = text(&cells, *index);
+                        judge.add(&Cell { row: judged.len() + 1, column, text: &text });
+                    }
+                    judged.push_back(cells);
+                }
+                judge.convention(dialect.delimiter == b',')?
+            }
+        };
+        Ok(Self { rows, header, names, dialect, inputs: inputs.to_vec(), convention, judged, given: 0 })
     }
+}
+
+/// The cells of the next row, or `None` after the last.
+fn next_cells<R: Read>(rows: &mut csv::Reader<R>) -> Result<Option<ByteRecord>, String> {
+    let mut cells = ByteRecord::new();
+    let more = rows.read_byte_record(&mut cells).map_err(|error| error.to_string())?;
+    Ok(more.then_some(cells))
+}
+
+/// The text of a cell without surrounding space; empty if the row is too short.
+fn text(cells: &ByteRecord, index: usize) -> String {
+    String::from_utf8_lossy(cells.get(index).unwrap_or_default()).trim().to_owned()
 }
 
 /// The name in a header cell: without a byte-order mark and surrounding space, in lower case.
@@ -92,11 +140,19 @@ impl<R: Read> Sheet<R> {
     /// # Errors
     /// What is wrong with the table or the cell, in words.
     pub fn next_row(&mut self) -> Result<Option<Row<'_>>, String> {
-        let mut cells = ByteRecord::new();
-        let more = self.rows.read_byte_record(&mut cells).map_err(|error| error.to_string())?;
-        let decimal_comma = self.dialect.delimiter != b','
-            && cells.iter().any(|cell| cell.contains(&b',') && decimal_point(cell).parse::<f64>().is_ok());
-        Ok(more.then_some(Row { names: &self.names, cells, decimal_comma }))
+        let cells = match self.judged.pop_front() {
+            Some(cells) => Some(cells),
+            None => next_cells(&mut self.rows)?,
+        };
+        self.given += 1;
+        let Self { names, inputs, convention, given, .. } = &*self;
+        Ok(cells.map(|cells| Row { names, inputs, convention, cells, number: *given }))
+    }
+
+    /// Which columns are used, which are absent and what is used instead, and which are not read, in one to three lines.
+    /// `computed` are the names of columns that will be added.
+    pub fn columns_in_words(&self, computed: &[String]) -> String {
+        columns::in_words(&self.names, &self.inputs, computed)
     }
 
     /// A writer for this table with computed columns after its own. If a column of the table has the name of a computed
@@ -135,32 +191,36 @@ impl<R: Read> Sheet<R> {
 /// One row of a table.
 pub struct Row<'a> {
     names: &'a [String],
+    inputs: &'a [Input],
+    convention: &'a Convention,
     cells: ByteRecord,
-    decimal_comma: bool,
+    number: usize,
 }
 
 impl Row<'_> {
     /// The text of a cell without surrounding space; `None` if there is no such column or the cell is empty.
     pub fn text(&self, column: &str) -> Option<String> {
         let index = self.names.iter().position(|name| name == column)?;
-        let text = String::from_utf8_lossy(self.cells.get(index)?).trim().to_owned();
+        let text = text(&self.cells, index);
         (!text.is_empty()).then_some(text)
     }
 
-    /// The number in a cell; `None` if there is no such column or the cell is empty.
+    /// The number of this row; that below the header is 1.
+    pub fn index(&self) -> usize {
+        self.number
+    }
+
+    /// The number in a cell; `None` if there is no such column or the cell is empty. The column is one of the inputs with
+    /// which the table was opened.
     ///
     /// # Errors
     /// What is wrong with the table or the cell, in words.
     pub fn number<T: Scalar>(&self, column: &str) -> Result<Option<T>, String> {
+        debug_assert!(self.inputs.iter().any(|input| input.columns().contains(&column)), "{column} is no input");
         let Some(text) = self.text(column) else {
             return Ok(None);
         };
-        if self.decimal_comma && text.contains('.') {
-            return Err(format!(
-                "{column}: \"{text}\" is ambiguous in a row with decimal commas; write a decimal comma here too"
-            ));
-        }
-        let number = if self.decimal_comma { decimal_point(text.as_bytes()) } else { text.clone() };
+        let number = self.convention.with_point(&Cell { row: self.number, column, text: &text })?;
         number.parse().map(Some).map_err(|_| format!("{column}: \"{text}\" is not a number"))
     }
 
@@ -199,18 +259,13 @@ impl Row<'_> {
         // Adding zero drops the sign of a zero.
         let value = value + T::ZERO;
         let text = if plain { value.to_string() } else { format!("{value:e}") };
-        if self.decimal_comma { text.replace('.', ",") } else { text }
+        self.convention.decimal().mark(text)
     }
 }
 
 /// An error of the library as the text of a cell.
 pub fn reason(error: impl Error) -> String {
     error.to_string()
-}
-
-/// The text of a number with its first comma replaced by a decimal point.
-fn decimal_point(cell: &[u8]) -> String {
-    String::from_utf8_lossy(cell).trim().replacen(',', ".", 1)
 }
 
 /// A table that is written row by row.

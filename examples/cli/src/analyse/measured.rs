@@ -5,10 +5,10 @@ use microimpact::{
     Classification, ContactClass, Dual, Impact, NormalMotion, Oblique, Outcome, Real, RigidBody, Sphere, SurfaceMotion,
     TangentialImpact,
 };
-use sheet::{Row, reason};
+use sheet::{Input, Row, reason};
 
 use crate::command::Number;
-use crate::inputs::restitution_law;
+use crate::inputs::{DENSITY_INPUT, GYRATION_INPUT, RESTITUTION_INPUT, restitution_law};
 
 /// Results with their derivatives by the six measured velocities: normal, tangential and peripheral, before and after.
 pub type Inputs<T> = Dual<T, 6>;
@@ -24,6 +24,21 @@ pub struct Measured<T: Real> {
     spin_measured: bool,
     errors: [T; 6],
 }
+
+/// The numbers of a measured impact.
+pub const INPUTS: [Input; 11] = [
+    Input::required(&["diameter_m", "radius_m"]),
+    DENSITY_INPUT,
+    GYRATION_INPUT,
+    RESTITUTION_INPUT,
+    Input::required(&["speed_normal_m_s"]),
+    Input::optional(&["speed_tangential_m_s"], "0 m/s"),
+    Input::optional(&["spin_rad_s"], "that of a sphere that rolls at separation"),
+    Input::required(&["rebound_speed_m_s"]),
+    Input::required(&["speed_tangential_out_m_s"]),
+    Input::optional(&["spin_out_rad_s"], "that which friction alone gives"),
+    Input::optional(&["velocity_error_m_s"], "0.01 m/s"),
+];
 
 /// Standard error of a velocity where the row names none, m/s.
 const VELOCITY_ERROR: f64 = 0.01;

@@ -16,12 +16,12 @@ use std::path::PathBuf;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use microimpact::Real;
-use sheet::Row;
+use sheet::{Input, Row};
 
 use crate::Streams;
 use crate::command::{BadRow, BadRows, Number, TABLE_HELP, TableCommand, TableOptions, Work};
 use crate::words::{motion_name, outcome_name};
-use measured::{Inputs, Measured};
+use measured::{INPUTS, Inputs, Measured};
 use summary::Summary;
 
 /// Analyse measured impacts of microspheres: coefficients, energy, class, and the confidence in the class. Without a table,
@@ -61,7 +61,7 @@ impl TableCommand for Options {
 
     fn run_in<T: Number>(&self, streams: &mut Streams<'_>) -> BadRows {
         let analysis = Analysis::<T> { summary: RefCell::default(), progress: progress()?, scalar: PhantomData };
-        let bad_rows = self.table.work(include_str!("impacts.csv"), &analysis, streams)?;
+        let bad_rows = self.table.work(Self::NAME, include_str!("impacts.csv"), &analysis, streams)?;
         analysis.progress.finish_and_clear();
         let summary = analysis.summary.into_inner();
         write!(streams.errors, "{summary}")?;
@@ -97,6 +97,10 @@ impl<T: Number> Analysis<T> {
 }
 
 impl<T: Number> Work for Analysis<T> {
+    fn inputs(&self) -> Vec<Input> {
+        INPUTS.into()
+    }
+
     fn columns(&self) -> Vec<String> {
         [
             "outcome",

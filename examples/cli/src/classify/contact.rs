@@ -1,30 +1,33 @@
 //! Rows by the contact simulation.
 
 use microimpact::contact::{
-    Adaptive, AnyLaw, AnyScene, Contact, ContactImpulses, ContactTimes, ContactWorks, Energy, Groups, Impulses,
-    NormalContact, Slip, SlipHistory, TangentialVelocities, Times, Works,
+    AnyLaw, AnyScene, Contact, ContactImpulses, ContactTimes, ContactWorks, Groups, NormalContact, SlipHistory, Status,
+    TangentialVelocities,
 };
 use microimpact::rigid::EnergyLedger;
 use microimpact::{Class, InputError, Outcome, PlanarMotion, SurfaceMotion};
-use sheet::{Row, reason};
+use sheet::{Input, Row, reason};
 
-use super::sphere_and_motion;
+use super::method::Simulator;
+use super::{SCENE_INPUTS, sphere_and_motion};
 use crate::command::{BadRow, Number, Work};
-use crate::inputs::contact_law;
+use crate::inputs::{LAW_INPUTS, PEELING_INPUT, contact_law};
 use crate::words::{motion_name, outcome_name};
 
-/// The simulation to a tolerance, in numbers of type `T`.
+/// The simulation by a method, in numbers of type `T`.
 pub struct SimulationModel<T> {
-    pub method: Adaptive<T>,
+    pub simulator: Simulator<T>,
 }
 
 /// A simulated impact.
 pub struct Simulated<T> {
     pub outcome: Outcome,
     pub class: Class,
-    pub normal: NormalContact<T>,
+    normal: NormalContact<T>,
+    /// Whether the method follows a captured sphere to its first turning point.
+    follows_captures: bool,
     /// Velocities after a rebound, or of a captured sphere when its slip has ended.
-    pub tangential: TangentialVelocities<T>,
+    tangential: TangentialVelocities<T>,
     times: ContactTimes<T>,
     impulses: ContactImpulses<T>,
     works: ContactWorks<T>,
@@ -32,6 +35,83 @@ pub struct Simulated<T> {
     slip: SlipHistory<T>,
     energy: Option<EnergyLedger<T>>,
     groups: Option<Groups<T>>,
+}
+
+impl<T: Number> Simulated<T> {
+    /// Overall restitution; `None` where the outcome is undecided.
+    pub fn restitution(&self) -> Option<T> {
+        (self.outcome != Outcome::Undecided).then(|| self.normal.overall_restitution())
+    }
+
+    /// Velocities along the surface after a rebound, or of a captured sphere when its slip has ended; `None` where the motion
+    /// was not followed so far.
+    pub fn along(&self) -> Option<&TangentialVelocities<T>> {
+        self.followed().then_some(&self.tangential)
+    }
+
+    /// Whether the motion was followed to separation, or to the turning point of a captured sphere.
+    fn followed(&self) -> bool {
+        match self.outcome {
+            Outcome::Rebound => true,
+            Outcome::Capture => self.follows_captures,
+            Outcome::Undecided => false,
+        }
+    }
+
+    /// The cells of the columns that the model computes.
+    fn cells(&self, row: &Row<'_>) -> Vec<String> {
+        let Self { outcome, normal, times, impulses, works, slip, groups, .. } = self;
+        let followed = self.followed();
+        let optional = |value: Option<T>| value.map(|value| row.cell(value)).unwrap_or_default();
+        let at_end = |value: T| optional(followed.then_some(value));
+        let motion = if slip.slides { SurfaceMotion::Sliding } else { SurfaceMotion::Rolling };
+        vec![
+            outcome_name(*outcome).into(),
+            if followed { motion_name(motion).into() } else { String::new() },
+            optional(self.restitution()),
+            optional(normal.peak_indentation()),
+            optional(normal.turning_indentation().filter(|_| followed)),
+            optional(times.peak),
+            optional(times.contact.filter(|_| followed)),
+            at_end(slip.rolls_from.unwrap_or(-T::ONE)),
+            at_end(impulses.elastic),
+            at_end(impulses.adhesion_rebound),
+            at_end(works.material),
+            at_end(works.adhesion),
+            at_end(slip.velocity),
+            at_end(slip.spin),
+            at_end(slip.rotation),
+            at_end(slip.displacement),
+            optional(groups.map(|groups| groups.elasticity)),
+            optional(groups.map(|groups| groups.adhesion)),
+            optional(groups.map(|groups| groups.material_damping)),
+            optional(groups.map(|groups| groups.adhesion_damping)),
+        ]
+    }
+
+    /// The line of the summary.
+    fn line(&self, name: String) -> Vec<String> {
+        let Self { outcome, class, normal, times, slip, energy, .. } = self;
+        let nano = |value: Option<T>| value.map_or("-".into(), |value| format!("{:.2}", value * T::constant(1e9)));
+        let (restitution, followed) = (self.restitution(), self.followed());
+        let lost = energy.filter(|_| followed).map(|ledger| T::constant(100.0) * ledger.lost() / ledger.before);
+        let optional = |value: Option<String>| value.unwrap_or("-".into());
+        vec![
+            name,
+            class.to_string(),
+            optional(restitution.map(|e| format!("{e:.4}"))),
+            optional(restitution.map(|_| format!("{:.3}", normal.rebound_speed()))),
+            optional(self.along().map(|along| format!("{:.3}", along.velocity() + T::ZERO))),
+            optional(self.along().map(|along| format!("{:.2e}", along.spin() + T::ZERO))),
+            nano(normal.peak_indentation()),
+            nano(times.contact.filter(|_| followed)),
+            match (outcome, slip.slides) {
+                (Outcome::Rebound, true) => "always".into(),
+                _ => nano(slip.rolls_from.filter(|_| followed)),
+            },
+            optional(lost.map(|lost| format!("{lost:.1}"))),
+        ]
+    }
 }
 
 impl<T: Number> SimulationModel<T> {
@@ -43,12 +123,25 @@ impl<T: Number> SimulationModel<T> {
         // Without a moment this is the same motion; so the solver is compiled for one scene only.
         let scene = scene.with_peeling(row.or_zero("peeling_n_m")?).map_err(reason)?;
         let (impact, ((times, impulses, works), (slip, energy))) =
-            scene.solve_for(&before, &self.method, ((Times, Impulses, Works), (Slip, Energy))).map_err(reason)?;
-        let (normal, tangential) = (impact.normal, impact.tangential);
-        let (Some(outcome), Some(class)) = (normal.outcome(), impact.class()) else {
-            return Err("the simulation did not converge; use a larger --tolerance".into());
+            (self.simulator.simulate)(&scene, &before).map_err(reason)?;
+        let (normal, tangential, status) = (impact.normal, impact.tangential, impact.run.status);
+        let (Status::Solved, Some(outcome), Some(class)) = (status, normal.outcome(), impact.class()) else {
+            return Err(self.simulator.refusal(status));
         };
-        Ok(Simulated { outcome, class, normal, tangential, times, impulses, works, slip, energy, groups })
+        let follows_captures = self.simulator.follows_captures;
+        Ok(Simulated {
+            outcome,
+            class,
+            normal,
+            follows_captures,
+            tangential,
+            times,
+            impulses,
+            works,
+            slip,
+            energy,
+            groups,
+        })
     }
 }
 
@@ -62,6 +155,10 @@ fn groups<T: Number>(scene: &AnyScene<T>, before: &PlanarMotion<T>) -> Result<Op
 }
 
 impl<T: Number> Work for SimulationModel<T> {
+    fn inputs(&self) -> Vec<Input> {
+        [&SCENE_INPUTS[..], &LAW_INPUTS, &[PEELING_INPUT]].concat()
+    }
+
     fn columns(&self) -> Vec<String> {
         [
             "outcome",
@@ -90,31 +187,7 @@ impl<T: Number> Work for SimulationModel<T> {
     }
 
     fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
-        let Simulated { outcome, normal, times, impulses, works, slip, groups, .. } = self.compute(row)?;
-        let optional = |value: Option<T>| value.map(|value| row.cell(value)).unwrap_or_default();
-        let motion = if slip.slides { SurfaceMotion::Sliding } else { SurfaceMotion::Rolling };
-        Ok(vec![
-            outcome_name(outcome).into(),
-            motion_name(motion).into(),
-            row.cell(normal.overall_restitution()),
-            optional(normal.peak_indentation()),
-            optional(normal.turning_indentation()),
-            optional(times.peak),
-            optional(times.contact),
-            row.cell(slip.rolls_from.unwrap_or(-T::ONE)),
-            row.cell(impulses.elastic),
-            row.cell(impulses.adhesion_rebound),
-            row.cell(works.material),
-            row.cell(works.adhesion),
-            row.cell(slip.velocity),
-            row.cell(slip.spin),
-            row.cell(slip.rotation),
-            row.cell(slip.displacement),
-            optional(groups.map(|groups| groups.elasticity)),
-            optional(groups.map(|groups| groups.adhesion)),
-            optional(groups.map(|groups| groups.material_damping)),
-            optional(groups.map(|groups| groups.adhesion_damping)),
-        ])
+        Ok(self.compute(row)?.cells(row))
     }
 
     fn heads(&self) -> Vec<&'static str> {
@@ -133,23 +206,52 @@ impl<T: Number> Work for SimulationModel<T> {
     }
 
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
-        let Simulated { outcome, class, normal, tangential, times, slip, energy, .. } = self.compute(row)?;
-        let nano = |value: Option<T>| value.map_or("-".into(), |value| format!("{:.2}", value * T::constant(1e9)));
-        let lost = energy.map(|ledger| T::constant(100.0) * ledger.lost() / ledger.before);
-        Ok(vec![
-            name,
-            class.to_string(),
-            format!("{:.4}", normal.overall_restitution()),
-            format!("{:.3}", normal.rebound_speed()),
-            format!("{:.3}", tangential.velocity() + T::ZERO),
-            format!("{:.2e}", tangential.spin() + T::ZERO),
-            nano(normal.peak_indentation()),
-            nano(times.contact),
-            match (outcome, slip.slides) {
-                (Outcome::Rebound, true) => "always".into(),
-                _ => nano(slip.rolls_from),
-            },
-            lost.map_or("-".into(), |lost| format!("{lost:.1}")),
-        ])
+        Ok(self.compute(row)?.line(name))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+    use sheet::Sheet;
+
+    use super::*;
+    use crate::classify::method::MethodOptions;
+
+    const TABLE: &str = "\
+radius_m,density_kg_m3,stiffness_pa,adhesion_n_m,zeta_h,zeta_a,friction,speed_normal_m_s,speed_tangential_m_s
+5.06e-6,2600,7.5e10,250,10.5,6.25,0.1,2.8,1
+";
+
+    #[derive(Parser)]
+    struct Arguments {
+        #[command(flatten)]
+        method: MethodOptions,
+    }
+
+    /// A method that cannot distinguish rebound from capture knows the approach, and nothing that depends on the outcome.
+    #[test]
+    fn an_undecided_impact_has_no_values_of_its_end() {
+        let options = Arguments::try_parse_from(["test"]).unwrap_or_else(|error| panic!("{error}"));
+        let model = SimulationModel::<f64> { simulator: options.method.simulator().unwrap() };
+        let mut sheet = Sheet::open(TABLE.as_bytes(), &model.inputs(), None).unwrap();
+        let row = sheet.next_row().unwrap().unwrap();
+        let rebound = model.compute(&row).unwrap();
+        let filled = |simulated: &Simulated<f64>| {
+            let cells = simulated.cells(&row);
+            let named = model.columns().into_iter().zip(cells).filter(|(_, cell)| !cell.is_empty());
+            named.map(|(column, _)| column).collect::<Vec<_>>()
+        };
+        assert_eq!(filled(&rebound).len(), model.columns().len() - 1, "all but the turning point of a capture");
+
+        let undecided = Simulated { outcome: Outcome::Undecided, class: Class::Undecided, ..rebound };
+        assert_eq!(undecided.cells(&row)[0], "undecided");
+        assert_eq!(
+            filled(&undecided),
+            ["outcome", "max_indentation_m", "time_peak_s", "group_a", "group_b", "group_h", "group_g"]
+        );
+        let line = undecided.line("name".into());
+        assert_eq!(line[1], "undecided");
+        assert_eq!(line.iter().filter(|cell| *cell == "-").count(), line.len() - 3, "{line:?}");
     }
 }

@@ -4,14 +4,19 @@
 //! `cargo microimpact classify FILE.csv --format csv` adds the result to each row of a table.
 
 mod contact;
+mod method;
 mod rigid_body;
 
 use clap::{Args, ValueEnum};
+use microimpact::contact::TangentialVelocities;
 use microimpact::{NormalMotion, PlanarMotion, Sphere};
-use sheet::{Row, Scalar, reason};
+use sheet::{Input, Row, Scalar, reason};
 
 use crate::Streams;
-use crate::command::{BadRow, BadRows, Number, SimulationOptions, TABLE_HELP, TableCommand, TableOptions, Work};
+use crate::command::{BadRow, BadRows, Number, TABLE_HELP, TableCommand, TableOptions, Work};
+use crate::inputs::{DENSITY_INPUT, GYRATION_INPUT, MOTION_INPUTS};
+use method::MethodOptions;
+pub use method::OfferedNodes;
 
 /// Classify impacts of microspheres: rebound or capture, sliding, rolling or resting. Without a table, classify impacts of
 /// the paper.
@@ -30,8 +35,11 @@ use crate::command::{BadRow, BadRows, Number, SimulationOptions, TABLE_HELP, Tab
 ///
 /// Computed by the simulation: restitution is the overall restitution. time_roll_s is the time at which slip ends: 0 if
 /// there was no slip, -1 if slip does not end. A cell is empty if its quantity does not exist. A captured sphere is followed
-/// to its first turning point: motion (rolling includes resting), velocities and works are those there. The summary gives
-/// its class and velocities when slip has ended. With both models, columns of the rigid body begin with rigid_body_.
+/// to its first turning point: motion (rolling includes resting), velocities, impulses and works are those there. The methods
+/// fixed-cost and runge-kutta-gill do not follow it so far, and leave these cells empty. The summary gives its class and
+/// velocities when slip has ended. The outcome is undecided where a method cannot distinguish rebound from capture; the
+/// cells that depend on it are then empty. A row that a method cannot solve has its reason in the column error, and no
+/// outcome. With both models, columns of the rigid body begin with rigid_body_.
 #[derive(Args)]
 #[command(verbatim_doc_comment, after_long_help = TABLE_HELP)]
 pub struct Options {
@@ -39,7 +47,7 @@ pub struct Options {
     #[arg(long, value_enum, default_value_t = Model::RigidBody)]
     model: Model,
     #[command(flatten)]
-    simulation: SimulationOptions,
+    method: MethodOptions,
     #[command(flatten)]
     table: TableOptions,
 }
@@ -61,11 +69,16 @@ impl TableCommand for Options {
     fn run_in<T: Number>(&self, streams: &mut Streams<'_>) -> BadRows {
         let bundled = include_str!("impacts.csv");
         let rigid_body = rigid_body::RigidBodyModel::<T>::new();
-        let simulation = contact::SimulationModel::<T> { method: self.simulation.method()? };
+        let simulation = || Ok::<_, String>(contact::SimulationModel::<T> { simulator: self.method.simulator()? });
         match self.model {
-            Model::RigidBody => self.table.work(bundled, &rigid_body, streams),
-            Model::Simulation => self.table.work(bundled, &simulation, streams),
-            Model::Both => self.table.work(bundled, &Both { rigid_body, simulation }, streams),
+            Model::RigidBody => {
+                self.method.refuse("rigid-body")?;
+                self.table.work(Self::NAME, bundled, &rigid_body, streams)
+            }
+            Model::Simulation => self.table.work(Self::NAME, bundled, &simulation()?, streams),
+            Model::Both => {
+                self.table.work(Self::NAME, bundled, &Both { rigid_body, simulation: simulation()? }, streams)
+            }
         }
     }
 }
@@ -77,6 +90,16 @@ struct Both<T> {
 }
 
 impl<T: Number> Work for Both<T> {
+    fn inputs(&self) -> Vec<Input> {
+        let mut inputs = self.simulation.inputs();
+        for input in self.rigid_body.inputs() {
+            if !inputs.contains(&input) {
+                inputs.push(input);
+            }
+        }
+        inputs
+    }
+
     fn columns(&self) -> Vec<String> {
         let rigid_body = self.rigid_body.columns();
         let named = rigid_body.iter().map(|column| format!("rigid_body_{column}"));
@@ -122,19 +145,28 @@ impl<T: Number> Work for Both<T> {
 
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
         let (simulated, body) = (self.simulation.compute(row)?, self.rigid_body.compute(row)?);
+        let optional = |value: Option<T>| value.map_or("-".into(), |value| format!("{:.4}", value + T::ZERO));
+        let along = simulated.along();
         Ok(vec![
             name,
             simulated.class.to_string(),
             body.classification.class().to_string(),
-            format!("{:.4}", simulated.normal.overall_restitution()),
+            optional(simulated.restitution()),
             format!("{:.4}", body.impact.normal.overall_restitution()),
-            format!("{:.4}", simulated.tangential.velocity() + T::ZERO),
+            optional(along.map(TangentialVelocities::velocity)),
             format!("{:.4}", body.impact.tangential.velocity() + T::ZERO),
-            format!("{:.2e}", simulated.tangential.spin() + T::ZERO),
+            along.map_or("-".into(), |along| format!("{:.2e}", along.spin() + T::ZERO)),
             format!("{:.2e}", body.impact.tangential.spin(&body.sphere) + T::ZERO),
         ])
     }
 }
+
+/// The numbers that both models read.
+const SCENE_INPUTS: [Input; 7] = {
+    let [speed, tangential, spin] = MOTION_INPUTS;
+    let friction = Input::optional(&["friction"], "0");
+    [Input::required(&["radius_m"]), DENSITY_INPUT, GYRATION_INPUT, speed, tangential, spin, friction]
+};
 
 /// The sphere of a row and its motion before the impact.
 fn sphere_and_motion<T: Scalar>(row: &Row<'_>) -> Result<(Sphere<T>, PlanarMotion<T>), String> {

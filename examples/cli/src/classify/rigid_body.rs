@@ -4,12 +4,20 @@ use std::marker::PhantomData;
 
 use microimpact::rigid::ReboundAdhesion;
 use microimpact::{Classification, ContactClass, Impact, PlanarMotion, RigidBody, Sphere, TangentialImpact};
-use sheet::{Row, Scalar, reason};
+use sheet::{Input, Row, Scalar, reason};
 
-use super::sphere_and_motion;
+use super::{SCENE_INPUTS, sphere_and_motion};
 use crate::command::{BadRow, Work};
-use crate::inputs::{AnyRestitution, restitution_law};
+use crate::inputs::{AnyRestitution, RESTITUTION_INPUT, restitution_law};
 use crate::words::{motion_name, outcome_name};
+
+/// The numbers that only this model reads.
+const INPUTS: [Input; 4] = [
+    RESTITUTION_INPUT,
+    Input::optional(&["adhesion_coefficient", "work_of_adhesion_j"], "no adhesion"),
+    Input::optional(&["impulse_ratio"], "as friction gives it"),
+    Input::optional(&["rolling_arm_m"], "0 m"),
+];
 
 /// The rigid-body model in numbers of type `T`.
 pub struct RigidBodyModel<T> {
@@ -66,6 +74,10 @@ fn with_adhesion<T: Scalar>(
 }
 
 impl<T: Scalar> Work for RigidBodyModel<T> {
+    fn inputs(&self) -> Vec<Input> {
+        [&SCENE_INPUTS[..], &INPUTS].concat()
+    }
+
     fn columns(&self) -> Vec<String> {
         [
             "outcome",

@@ -1,0 +1,102 @@
+//! Which columns of a table a command reads.
+
+use std::fmt::Write;
+
+/// The column that names a row. It is a label, and never read as a number.
+pub const LABEL: &str = "name";
+
+/// A number that a command reads from each row, and the columns that can give it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Input {
+    columns: &'static [&'static str],
+    /// What the command uses where no column gives the number; `None` if the number is required.
+    default: Option<&'static str>,
+}
+
+impl Input {
+    /// A number that one of these columns must give.
+    pub const fn required(columns: &'static [&'static str]) -> Self {
+        Self { columns, default: None }
+    }
+
+    /// A number that has a default, which is given in words with its unit.
+    pub const fn optional(columns: &'static [&'static str], default: &'static str) -> Self {
+        Self { columns, default: Some(default) }
+    }
+
+    pub(crate) fn columns(&self) -> &'static [&'static str] {
+        self.columns
+    }
+
+    fn is_in(&self, header: &[String]) -> bool {
+        self.columns.iter().any(|column| header.iter().any(|name| name == column))
+    }
+
+    fn in_words(&self) -> String {
+        self.columns.join(" or ")
+    }
+}
+
+/// Similarity of Jaro and Winkler above which two names are near: it finds a missing unit (`density` for `density_kg_m3`) and
+/// misspelt words, and keeps quantities apart that begin alike (`impulse_ratio` and `impulse_hertz_n_s`).
+const NEAR: f64 = 0.875;
+
+/// The nearest of some names, if it is near.
+fn nearest<'a>(name: &str, others: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    others
+        .map(|other| (strsim::jaro_winkler(name, other), other))
+        .filter(|(similarity, _)| *similarity > NEAR)
+        .max_by(|(a, _), (b, _)| a.total_cmp(b))
+        .map(|(_, other)| other)
+}
+
+/// Checks that a header has all required columns.
+///
+/// # Errors
+/// Those that are absent, each with the nearest name of the header, and the header.
+pub(crate) fn check(header: &[String], inputs: &[Input]) -> Result<(), String> {
+    let unread = || header.iter().map(String::as_str).filter(|name| *name != LABEL && !is_read(name, inputs));
+    let absent = inputs.iter().filter(|input| input.default.is_none() && !input.is_in(header)).map(|input| {
+        let near = input.columns.iter().find_map(|column| nearest(column, unread()));
+        let near = near.map_or_else(String::new, |near| format!(" (did you mean it by `{near}`?)"));
+        format!("{}{near}", input.in_words())
+    });
+    let absent: Vec<_> = absent.collect();
+    if absent.is_empty() {
+        return Ok(());
+    }
+    Err(format!("the table lacks required columns: {}; the header is: {}", absent.join(", "), header.join(", ")))
+}
+
+fn is_read(name: &str, inputs: &[Input]) -> bool {
+    inputs.iter().any(|input| input.columns.contains(&name))
+}
+
+/// Which columns are used, which are absent and what is used instead, and which are not read. `computed` are names that a
+/// command gives to its own columns, which nobody writes by mistake for another.
+pub(crate) fn in_words(header: &[String], inputs: &[Input], computed: &[String]) -> String {
+    let used = header.iter().filter(|name| is_read(name, inputs)).cloned();
+    let defaulted = inputs.iter().filter(|input| !input.is_in(header)).filter_map(|input| {
+        let default = input.default?;
+        Some(format!("{} ({default})", input.in_words()))
+    });
+    let absent = || {
+        let columns = inputs.iter().flat_map(|input| input.columns).copied();
+        columns.filter(|column| !header.iter().any(|name| name == column))
+    };
+    let unread = header.iter().filter(|name| !name.is_empty() && *name != LABEL && !is_read(name, inputs));
+    let unread = unread.map(|name| match nearest(name, absent()) {
+        Some(near) if !computed.contains(name) => format!("{name} (did you mean `{near}`?)"),
+        _ => name.clone(),
+    });
+    let mut words = format!("columns used: {}\n", used.collect::<Vec<_>>().join(", "));
+    for (title, names) in
+        [("columns absent, and what is used", defaulted.collect::<Vec<_>>()), ("columns not read", unread.collect())]
+    {
+        if !names.is_empty() {
+            // A string takes any text.
+            let _ = writeln!(words, "  {title}: {}", names.join(", "));
+        }
+    }
+    words
+}

@@ -1,0 +1,189 @@
+//! The methods of the simulation that a command can ask for.
+
+use clap::{Args, ValueEnum};
+use microimpact::contact::{
+    AnyLaw, Collocation, Contact, ContactImpulses, ContactTimes, ContactWorks, Energy, FixedCost, Impulses, Method,
+    Nodes, Peeling, PhaseSamples, RungeKuttaGill, SimulatedImpact, Slip, SlipHistory, Status, TangentialVelocities,
+    Times, Works,
+};
+use microimpact::rigid::EnergyLedger;
+use microimpact::{InputError, PlanarMotion};
+use sheet::reason;
+
+use crate::command::{Number, SimulationOptions};
+
+/// Options of the simulation's method.
+#[derive(Args)]
+pub struct MethodOptions {
+    /// Method of the simulation [default: adaptive].
+    #[arg(long, value_enum)]
+    method: Option<MethodName>,
+    /// Nodes of each interval of collocation, 5 to 14 [default: 9], or of each phase of fixed-cost, 5 to 9 [default: 7].
+    #[arg(long)]
+    nodes: Option<u32>,
+    /// Iterations of fixed-cost for each phase, 1 to 40 [default: 3].
+    #[arg(long)]
+    iterations: Option<u32>,
+    /// Time steps of runge-kutta-gill in the duration of an impact without adhesion and damping, 4 or more [default: 2000].
+    #[arg(long, value_parser = clap::value_parser!(u32).range(4..))]
+    steps: Option<u32>,
+    #[command(flatten)]
+    simulation: SimulationOptions,
+}
+
+/// Method of the simulation.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum MethodName {
+    /// Chooses nodes and intervals that keep the tolerance.
+    Adaptive,
+    /// As many intervals as the tolerance needs, with a fixed number of nodes in each.
+    Collocation,
+    /// For firmware: a fixed number of nodes and iterations. It does not follow a captured sphere beyond its peak.
+    FixedCost,
+    /// The paper's own: fixed steps in time. It does not follow a captured sphere to its turning point.
+    RungeKuttaGill,
+}
+
+impl MethodName {
+    fn in_words(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+    }
+}
+
+const COLLOCATION_NODES: u32 = 9;
+const FIXED_COST_NODES: u32 = 7;
+const ITERATIONS: u32 = 3;
+const STEPS: u32 = 2000;
+
+/// A scene of any law of contact, with any friction and peeling moment.
+pub type AnyContact<T> = Contact<T, AnyLaw<T>, Peeling<T>>;
+
+/// An impact and its outputs.
+pub type Solution<T> = (
+    SimulatedImpact<T, TangentialVelocities<T>>,
+    ((ContactTimes<T>, ContactImpulses<T>, ContactWorks<T>), (SlipHistory<T>, Option<EnergyLedger<T>>)),
+);
+
+/// Simulates an impact by a method.
+type Simulate<T> = Box<dyn Fn(&AnyContact<T>, &PlanarMotion<T>) -> Result<Solution<T>, InputError>>;
+
+/// A method of the simulation, in numbers of type `T`.
+pub struct Simulator<T> {
+    pub simulate: Simulate<T>,
+    /// Whether it follows a captured sphere to its first turning point.
+    pub follows_captures: bool,
+    /// What to do where it did not converge.
+    advice: &'static str,
+}
+
+impl<T> Simulator<T> {
+    /// Why a method has no solution.
+    pub fn refusal(&self, status: Status) -> String {
+        match status {
+            Status::Unsupported => "the method cannot represent this contact; use --method adaptive".into(),
+            _ => format!("the simulation did not converge; use {}", self.advice),
+        }
+    }
+}
+
+impl MethodOptions {
+    /// Each option with its name, whether it was given, and the methods that it applies to.
+    fn options(&self) -> [(&'static str, bool, &'static [MethodName]); 4] {
+        use MethodName::{Adaptive, Collocation, FixedCost, RungeKuttaGill};
+        [
+            ("--nodes", self.nodes.is_some(), &[Collocation, FixedCost]),
+            ("--iterations", self.iterations.is_some(), &[FixedCost]),
+            ("--steps", self.steps.is_some(), &[RungeKuttaGill]),
+            ("--tolerance", self.simulation.is_given(), &[Adaptive, Collocation]),
+        ]
+    }
+
+    /// Checks that no option was given, for a model without methods.
+    ///
+    /// # Errors
+    /// An option that does not apply.
+    pub fn refuse(&self, model: &str) -> Result<(), String> {
+        let method = ("--method", self.method.is_some());
+        let others = self.options().map(|(option, given, _)| (option, given));
+        match [method].into_iter().chain(others).find(|(_, given)| *given) {
+            Some((option, _)) => {
+                Err(format!("{option} does not apply to --model {model}, only to --model simulation or both"))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The method that these options ask for.
+    ///
+    /// # Errors
+    /// An option that does not apply to the method, or a value that is not offered or outside its range.
+    pub fn simulator<T: Number>(&self) -> Result<Simulator<T>, String> {
+        let name = self.method.unwrap_or(MethodName::Adaptive);
+        if let Some((option, _, methods)) =
+            self.options().into_iter().find(|(_, given, methods)| *given && !methods.contains(&name))
+        {
+            let methods: Vec<_> = methods.iter().map(|method| method.in_words()).collect();
+            let (name, methods) = (name.in_words(), methods.join(" and "));
+            return Err(format!("{option} does not apply to --method {name}, only to {methods}"));
+        }
+        let simulate = match name {
+            MethodName::Adaptive => by(self.simulation.method().map_err(reason)?),
+            MethodName::Collocation => {
+                collocation(self.nodes.unwrap_or(COLLOCATION_NODES), self.simulation.tolerance())?
+            }
+            MethodName::FixedCost => {
+                fixed_cost(self.nodes.unwrap_or(FIXED_COST_NODES), self.iterations.unwrap_or(ITERATIONS))?
+            }
+            MethodName::RungeKuttaGill => by(RungeKuttaGill::new(self.steps.unwrap_or(STEPS))),
+        };
+        Ok(Simulator {
+            simulate,
+            follows_captures: matches!(name, MethodName::Adaptive | MethodName::Collocation),
+            advice: match name {
+                MethodName::Adaptive | MethodName::Collocation => "a larger --tolerance",
+                MethodName::FixedCost => "more --iterations, or --method adaptive",
+                MethodName::RungeKuttaGill => "--method adaptive",
+            },
+        })
+    }
+}
+
+/// Simulates by a method.
+fn by<T: Number>(method: impl Method<T> + 'static) -> Simulate<T> {
+    Box::new(move |scene, before| scene.solve_for(before, &method, ((Times, Impulses, Works), (Slip, Energy))))
+}
+
+/// What to say of a number of nodes that is not offered.
+fn not_offered(nodes: u32, method: MethodName, offered: &[u32]) -> String {
+    let offered: Vec<_> = offered.iter().map(u32::to_string).collect();
+    format!("--nodes {nodes} is not offered by {}; choose one of {}", method.in_words(), offered.join(", "))
+}
+
+/// The numbers of nodes that are offered, each of which is a type of its own; `with` the nodes for outputs.
+macro_rules! offer {
+    (collocation: $($nodes:literal)*; fixed_cost: $($phase:literal with $outputs:literal),*) => {
+        /// A number type with the tables for the numbers of nodes that are offered.
+        pub trait OfferedNodes: $(Nodes<$nodes> +)* $(PhaseSamples<$phase, $outputs> +)* {}
+
+        impl<T: $(Nodes<$nodes> +)* $(PhaseSamples<$phase, $outputs> +)*> OfferedNodes for T {}
+
+        fn collocation<T: Number>(nodes: u32, tolerance: T) -> Result<Simulate<T>, String> {
+            match nodes {
+                $($nodes => Ok(by(Collocation::<$nodes, T>::new(tolerance).map_err(reason)?)),)*
+                _ => Err(not_offered(nodes, MethodName::Collocation, &[$($nodes),*])),
+            }
+        }
+
+        fn fixed_cost<T: Number>(nodes: u32, iterations: u32) -> Result<Simulate<T>, String> {
+            match nodes {
+                $($phase => {
+                    Ok(by(FixedCost::<$phase>::new(iterations).map_err(reason)?.with_outputs::<$outputs>()))
+                })*
+                _ => Err(not_offered(nodes, MethodName::FixedCost, &[$($phase),*])),
+            }
+        }
+    };
+}
+
+// The end of slip needs four nodes more than the phase, times near the critical speed about twice as many.
+offer!(collocation: 5 6 7 8 9 10 11 12 13 14; fixed_cost: 5 with 10, 6 with 12, 7 with 13, 8 with 15, 9 with 16);
