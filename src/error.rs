@@ -279,6 +279,8 @@ pub enum Fault {
     TooLarge,
     /// The thickness exceeds the radius of its sphere.
     ExceedsRadius,
+    /// The tolerance is below what the rounding of the number type allows.
+    BelowPrecision,
 }
 
 /// An invalid input: the parameter, the value found, and how the value misses its range.
@@ -338,6 +340,7 @@ impl fmt::Display for InputError {
         f.write_str(", but must ")?;
         match fault {
             Fault::ExceedsRadius => f.write_str("not exceed the radius of the sphere"),
+            Fault::BelowPrecision => f.write_str("be at least 1e-6 in single and 1e-13 in double precision"),
             Fault::NotFinite => write!(f, "be a number from {} to {}{unit}", Number(smallest), Number(largest)),
             Fault::TooSmall | Fault::TooLarge => {
                 write!(f, "be {} to {}{unit}", Number(smallest), Number(largest))?;

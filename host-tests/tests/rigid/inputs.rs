@@ -1,6 +1,6 @@
 //! Every input has a range, and every value outside it is an error that names the input.
 
-use microimpact::contact::{Collocation, Contact, DimensionlessImpact, FixedCost, RestCriterion};
+use microimpact::contact::{Adaptive, Collocation, Contact, DimensionlessImpact, FixedCost, RestCriterion};
 use microimpact::measure::ring_strength;
 use microimpact::measure::{NormalDistribution, rebound_probability};
 use microimpact::rigid::{AdhesionCoefficient, Departure, WorkOfAdhesion, infer, infer_with_spins};
@@ -161,7 +161,8 @@ fn assert_bounds_hold<T: Single + NormalDistribution + Into<f64>>(not_a_number: 
         }
         fault(T::constant(beyond(smallest, false)), Fault::TooSmall);
         fault(T::constant(beyond(largest, true)), Fault::TooLarge);
-        for value in [smallest, largest, (smallest + largest) / 2.0] {
+        let least = if parameter == Parameter::Tolerance { smallest.max(8.0 * T::EPSILON.into()) } else { smallest };
+        for value in [least, largest, (smallest + largest) / 2.0] {
             // Rounding may carry the product of mass and velocity across the bound; a hair inside it may not.
             let value = if parameter == Parameter::VelocityChange { value * (1.0 - 1e-5) } else { value };
             assert_eq!(supply(parameter, T::constant(value)), Ok(()), "{parameter:?} = {value:e}");
@@ -219,6 +220,16 @@ fn ratios_of_forces() {
     for (turning_points, expected) in [(0, Fault::TooSmall), (100_001, Fault::TooLarge)] {
         assert_eq!(RestCriterion::new(0.1, turning_points).err().map(kind), fault(Parameter::TurningPoints, expected));
     }
+}
+
+#[test]
+fn tolerances_below_the_rounding_are_refused() {
+    for tolerance in [1e-13_f32, 1e-9, 9e-7] {
+        let error = Collocation::<7, f32>::new(tolerance).unwrap_err();
+        assert_eq!((error.parameter, error.fault), (Parameter::Tolerance, Fault::BelowPrecision));
+        assert_eq!(Adaptive::new(tolerance), Err(error));
+    }
+    assert!(Adaptive::new(1e-6_f32).is_ok() && Adaptive::new(1e-13).is_ok());
 }
 
 #[test]

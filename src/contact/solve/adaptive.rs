@@ -1,6 +1,6 @@
 //! The method that chooses for itself: whole phases if damping is mild and the tolerance not too small, else intervals.
 
-use super::collocation::{Collocation, ErrorControl, at_least_rounding};
+use super::collocation::{Collocation, ErrorControl, checked_tolerance};
 use super::critical::Trial;
 use super::interval::{Interval, tail_of_times};
 use super::nodes::{Nodes, PhaseSamples, WEIGHT_POWER};
@@ -80,18 +80,24 @@ impl<T> AdaptiveNodes for T where
 }
 
 impl<T: Real> Adaptive<T> {
-    /// A method with a tolerance for e^2 and, relative to themselves, for all outputs asked for; a number type's rounding
-    /// limits it from below.
+    /// A method with a tolerance for e^2 and for all outputs asked for: at least 1e-6 in single precision and 1e-13 in double
+    /// precision. Errors of outputs are relative to the approach speed, the momentum and the energy before the impact, the
+    /// contact time and the peak indentation.
     ///
     /// # Errors
-    /// A tolerance outside its range.
+    /// A tolerance outside its range, or below what the rounding of the number type allows.
     ///
     /// ```
     /// assert!(microimpact::contact::Adaptive::new(1e-6).is_ok());
     /// assert!(microimpact::contact::Adaptive::new(0.0).is_err());
+    /// let error = microimpact::contact::Adaptive::new(1e-9_f32).unwrap_err();
+    /// assert_eq!(
+    ///     error.to_string(),
+    ///     "tolerance is 1e-9, but must be at least 1e-6 in single and 1e-13 in double precision"
+    /// );
     /// ```
     pub fn new(tolerance: T) -> Result<Self, InputError> {
-        Ok(Self { tolerance: at_least_rounding(Parameter::Tolerance.check(tolerance)?) })
+        Ok(Self { tolerance: checked_tolerance(tolerance)? })
     }
 }
 

@@ -7,7 +7,7 @@ use super::observer::Observer;
 use super::path::{End, Follower, MOST_INTERVALS, Method, NormalPath};
 use super::rest::{RestCriterion, Settling};
 use crate::contact::law::ContactLaw;
-use crate::{InputError, Parameter, Real};
+use crate::{Fault, InputError, Parameter, Real};
 
 /// The method that solves the normal motion by collocation at `N` nodes, in as many intervals as the tolerance needs.
 ///
@@ -43,16 +43,17 @@ const LEAST_TOLERANCE: f64 = 8.0;
 const LEAST_CHANGE: f64 = 2.0;
 
 impl<const N: usize, T: Real> Collocation<N, T> {
-    /// A method with a tolerance for e^2; a number type's rounding limits it from below.
+    /// A method with a tolerance for e^2: at least 1e-6 in single precision and 1e-13 in double precision.
     ///
     /// # Errors
-    /// A tolerance outside its range.
+    /// A tolerance outside its range, or below what the rounding of the number type allows.
     ///
     /// ```
     /// assert!(microimpact::contact::Collocation::<7, f32>::new(1e-6).is_ok());
+    /// assert!(microimpact::contact::Collocation::<7, f32>::new(1e-9).is_err());
     /// ```
     pub fn new(tolerance: T) -> Result<Self, InputError> {
-        Ok(Self { tolerance: at_least_rounding(Parameter::Tolerance.check(tolerance)?) })
+        Ok(Self { tolerance: checked_tolerance(tolerance)? })
     }
 
     /// Intervals after which a run gives up, refused ones included.
@@ -69,9 +70,14 @@ impl<const N: usize, T: Real> Collocation<N, T> {
     }
 }
 
-/// A tolerance, or the least that the rounding of a number type allows.
-pub(super) fn at_least_rounding<T: Real>(tolerance: T) -> T {
-    tolerance.max(T::constant(LEAST_TOLERANCE) * T::EPSILON)
+/// A tolerance in its range, and no less than the rounding of the number type allows.
+pub(super) fn checked_tolerance<T: Real>(tolerance: T) -> Result<T, InputError> {
+    let tolerance = Parameter::Tolerance.check(tolerance)?;
+    if tolerance < T::constant(LEAST_TOLERANCE) * T::EPSILON {
+        let value = tolerance.to_f64() as f32;
+        return Err(InputError { parameter: Parameter::Tolerance, fault: Fault::BelowPrecision, value });
+    }
+    Ok(tolerance)
 }
 
 impl<T: Nodes<N>, const N: usize> Method<T> for Collocation<N, T> {

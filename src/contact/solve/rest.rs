@@ -3,7 +3,7 @@
 //! Energies are counted from the bottom of the well, as (V(s) - V(b))/(s - b) (s - b): close to rest nothing cancels, so
 //! that the decay is as exact after hundreds of swings as in the first.
 
-use super::interval::Course;
+use super::interval::{Course, Point};
 use super::nodes::Nodes;
 use super::observer::Observer;
 use super::path::{End, Follower, NormalPath, REFUSED_SHRINK, Statistics, UNDAMPED_FRACTION};
@@ -12,6 +12,9 @@ use crate::{InputError, Parameter, Real};
 
 /// Excess of the energy at rest, in roots of a rounding: a creeping sphere stops just there.
 const REST_ROUNDING: f64 = 3.0;
+
+/// Intervals of a creeping sphere that may be shortened to end where it comes to rest.
+const MOST_SEARCHES: u32 = 20;
 
 /// Longest interval of a creeping sphere, over the distance to the equilibrium, where the time has a singularity.
 const CREEPING_FRACTION: f64 = 0.5;
@@ -195,13 +198,12 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
     }
 
     fn rests(&self, well: &Well<T>) -> bool {
-        self.excess(well) <= well.rest * (T::ONE + T::constant(REST_ROUNDING) * T::EPSILON.sqrt())
+        Self::excess(self.law, &self.at, well) <= well.rest * (T::ONE + T::constant(REST_ROUNDING) * T::EPSILON.sqrt())
     }
 
     /// Energy above the bottom of the well.
-    fn excess(&self, well: &Well<T>) -> T {
-        let (s, bottom) = (self.at.s, well.bottom);
-        T::constant(0.5) * self.at.speed_squared + self.law.mean_slope(s, bottom) * (s - bottom)
+    fn excess(law: &L, at: &Point<T>, well: &Well<T>) -> T {
+        T::constant(0.5) * at.speed_squared + law.mean_slope(at.s, well.bottom) * (at.s - well.bottom)
     }
 
     /// To the next turning point (`true`), which does not lie as far as `beyond`, or creeping to rest.
@@ -220,7 +222,8 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
         if self.at.speed_squared <= T::ZERO {
             self.leave_turning_point::<N>(along(well.bottom - self.at.s), course)?;
         }
-        let mut length = T::ONE;
+        let (mut length, mut searches) = (T::ONE, 0);
+        let least = well.rest * (T::ONE - T::constant(REST_ROUNDING) * T::EPSILON.sqrt());
         loop {
             if !*creeps {
                 let arrival = self.arrive::<N>(beyond, course);
@@ -236,6 +239,15 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
                 let step = if *creeps { length.min(self.creeping_length(well)) } else { length };
                 let interval = self.pass::<N>(along(step), course);
                 let factor = self.length_factor(N, &interval);
+                let after = Self::excess(self.law, &interval.end, well);
+                if *creeps && interval.accepted && after < least && searches < MOST_SEARCHES {
+                    // Close to the bottom the root of the energy above it is proportional to the distance.
+                    let [before, after, rest] =
+                        [Self::excess(self.law, &self.at, well), after.max(T::ZERO), well.rest].map(T::sqrt);
+                    length = step * (before - rest) / (before - after);
+                    searches += 1;
+                    continue;
+                }
                 if self.take(&interval, course, None)? {
                     length = step * factor.max(T::ONE);
                     break;
@@ -256,7 +268,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
     /// has a singularity there.
     fn creeping_length(&self, well: &Well<T>) -> T {
         // Close to the bottom the energy goes with the square of the distance.
-        let fraction = (well.rest / self.excess(well)).sqrt().max(T::constant(CREEPING_FRACTION));
+        let fraction = (well.rest / Self::excess(self.law, &self.at, well)).sqrt().max(T::constant(CREEPING_FRACTION));
         let length = (self.at.s - well.bottom).abs() * (T::ONE - fraction);
         length.max(T::constant(CREEPING_ROUNDING) * T::EPSILON * self.at.s)
     }
@@ -264,7 +276,6 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::interval::Point;
     use super::*;
     use crate::contact::{Collocation, HertzLaw, NoDamping, NoForce, Ring};
 
