@@ -47,24 +47,32 @@ impl Series {
     /// The coefficient of a power in the product of two series, of whose coefficients those up to this power are known.
     #[inline]
     pub(crate) fn product(&self, other: &Self, power: usize) -> Double {
-        let mut sum = Sum::default();
-        for i in 0..=power {
-            sum.add(self, i, other, power - i, 1.0);
-        }
-        sum.total()
+        self.products(other, power, power + 1)
     }
 
     /// The same of the square of this series.
     #[inline]
     pub(crate) fn square(&self, power: usize) -> Double {
-        let mut sum = Sum::default();
-        for i in 0..power.div_ceil(2) {
-            sum.add(self, i, self, power - i, 2.0);
+        let twice = self.products(self, power, power.div_ceil(2)) * 2.0;
+        if power.is_multiple_of(2) { twice + self.get(power / 2) * self.get(power / 2) } else { twice }
+    }
+
+    /// The first `count` terms of that coefficient.
+    #[inline(always)]
+    fn products(&self, other: &Self, power: usize, count: usize) -> Double {
+        // Sums that do not wait for each other.
+        let mut sums = [Sum::default(); LANES];
+        let whole = count - count % LANES;
+        for start in (0..whole).step_by(LANES) {
+            for (lane, sum) in sums.iter_mut().enumerate() {
+                sum.add(self, start + lane, other, power - start - lane);
+            }
         }
-        if power.is_multiple_of(2) {
-            sum.add(self, power / 2, self, power / 2, 1.0);
+        for i in whole..count {
+            sums[0].add(self, i, other, power - i);
         }
-        sum.total()
+        let [a, b, c, d] = sums.map(Sum::total);
+        (a + b) + (c + d)
     }
 
     /// The value at a place.
@@ -141,23 +149,26 @@ impl Series {
     }
 }
 
+/// Sums over which a product is distributed.
+const LANES: usize = 4;
+
 /// A sum of products of two numbers of 31 digits.
-#[derive(Default)]
+#[derive(Clone, Copy, Default)]
 struct Sum {
     high: f64,
     low: f64,
 }
 
 impl Sum {
-    /// Adds `factor`, a power of two, times the product of two coefficients.
+    /// Adds the product of two coefficients.
     #[inline(always)]
-    fn add(&mut self, a: &Series, i: usize, b: &Series, j: usize, factor: f64) {
+    fn add(&mut self, a: &Series, i: usize, b: &Series, j: usize) {
         let product = a.high[i] * b.high[j];
         let exact =
             ((a.head[i] * b.head[j] - product) + a.head[i] * b.tail[j] + a.tail[i] * b.head[j]) + a.tail[i] * b.tail[j];
-        let (sum, rest) = two_sum(self.high, factor * product);
+        let (sum, rest) = two_sum(self.high, product);
         self.high = sum;
-        self.low += rest + factor * (exact + (a.high[i] * b.low[j] + a.low[i] * b.high[j]));
+        self.low += rest + (exact + (a.high[i] * b.low[j] + a.low[i] * b.high[j]));
     }
 
     #[inline(always)]

@@ -1,0 +1,123 @@
+//! The truth of a scene, and what an answer is worth beside it.
+
+use std::cell::OnceCell;
+
+use microimpact::{Outcome, SurfaceMotion};
+use truth::{Double, Scene, Truth, solve};
+
+use crate::allowance::Allowance;
+use crate::output::{COUNT, Output};
+use crate::solver::{Answer, Number, Solver};
+
+/// Steps after which the truth gives up. Stiff scenes take more.
+const STEPS: u32 = 300;
+
+/// A scene with its truth. What the inputs account for is computed where an error needs it.
+pub struct Judge {
+    /// The scene.
+    pub scene: Scene,
+    /// Its solution.
+    pub truth: Truth,
+    allowances: [OnceCell<Allowance>; 3],
+}
+
+/// What an answer is worth.
+#[derive(Clone, Copy, Debug)]
+pub enum Finding {
+    /// The truth does not know the outcome.
+    Unknown,
+    /// The inputs were refused.
+    Refused,
+    /// The status is not *solved*.
+    Unsolved,
+    /// The outcome is undecided.
+    Undecided,
+    /// Rebound for capture or capture for rebound.
+    WrongOutcome,
+    /// The right outcome.
+    Right {
+        /// Sliding for rolling or the reverse, farther from the boundary than the tolerance.
+        wrong_class: bool,
+        /// Error of each output, less what the inputs account for, over the tolerance; `None` where it is not compared.
+        errors: [Option<f64>; COUNT],
+    },
+}
+
+impl Judge {
+    /// Solves the scene.
+    pub fn new(scene: Scene) -> Self {
+        Self { truth: solve(&scene, STEPS), scene, allowances: Default::default() }
+    }
+
+    /// Judges an answer of a solver.
+    pub fn judge(&self, solver: &Solver, answer: &Answer) -> Finding {
+        let Some(outcome) = self.truth.outcome else {
+            return Finding::Unknown;
+        };
+        let (found, motion, outputs) = match answer {
+            Answer::Refused => return Finding::Refused,
+            Answer::Unsolved => return Finding::Unsolved,
+            Answer::Solved { outcome: Outcome::Undecided, .. } => return Finding::Undecided,
+            Answer::Solved { outcome, motion, outputs } => (*outcome, motion, outputs),
+        };
+        let rebounds = outcome == truth::Outcome::Rebound;
+        if rebounds != (found == Outcome::Rebound) {
+            return Finding::WrongOutcome;
+        }
+        let other_motion = motion.is_some_and(|motion| self.is_other_motion(rebounds, motion));
+        let near = || {
+            let allowance = self.allowance(solver.number).slip + FARTHEST * solver.tolerance;
+            self.truth.slip_margin.is_some_and(|margin| margin.to_f64().abs() <= allowance)
+        };
+        let compared = match (self.truth.complete, rebounds) {
+            (true, true) => COUNT,
+            (true, false) => Output::OF_CAPTURES,
+            (false, _) => 0,
+        };
+        let mut errors = [None; COUNT];
+        for (index, output) in Output::ALL.into_iter().enumerate().take(compared) {
+            let given = solver.all_outputs || output == Output::RestitutionSquared;
+            if given && !(other_motion && output == Output::RollTime) {
+                errors[index] = self.error(solver, index, output, outputs[index]);
+            }
+        }
+        Finding::Right { wrong_class: other_motion && !near(), errors }
+    }
+
+    /// Whether the motion along the surface is not the true one. A captured sphere is said to roll as soon as friction will
+    /// end its slip.
+    fn is_other_motion(&self, rebounds: bool, (motion, slides): (SurfaceMotion, bool)) -> bool {
+        let sliding = motion == SurfaceMotion::Sliding;
+        if rebounds {
+            return sliding == self.truth.rolls || slides == self.truth.rolls;
+        }
+        sliding != (self.scene.friction == 0.0 && self.truth.slip_margin.is_some())
+    }
+
+    /// Error of an output, less what the inputs account for, over the tolerance.
+    fn error(&self, solver: &Solver, index: usize, output: Output, found: Option<f64>) -> Option<f64> {
+        let error = match (output.of(&self.truth), found) {
+            (None, None) => return None,
+            (Some(truth), Some(found)) => (Double::from(found) - truth).to_f64().abs(),
+            _ => f64::INFINITY,
+        };
+        let scale = output.scale(&self.scene, &self.truth);
+        let tolerance = solver.tolerance * scale;
+        if error <= tolerance {
+            return Some(error / tolerance);
+        }
+        let allowed = self.allowance(solver.number).outputs[index];
+        if allowed == f64::INFINITY {
+            return Some(0.0);
+        }
+        let excess = (error - allowed).max(0.0) / tolerance;
+        Some(if excess.is_nan() { f64::INFINITY } else { excess })
+    }
+
+    fn allowance(&self, number: Number) -> &Allowance {
+        self.allowances[number as usize].get_or_init(|| Allowance::new(&self.scene, &self.truth, number.unit(), STEPS))
+    }
+}
+
+/// Tolerances from the boundary within which sliding may be taken for rolling.
+const FARTHEST: f64 = 10.0;
