@@ -76,8 +76,13 @@ impl Judge {
         };
         let mut errors = [None; COUNT];
         for (index, output) in Output::ALL.into_iter().enumerate().take(compared) {
-            let given = solver.all_outputs || output == Output::RestitutionSquared;
-            if given && !(other_motion && output == Output::RollTime) {
+            let given = match output {
+                Output::RestitutionSquared => true,
+                Output::Turning => solver.follows_captures,
+                Output::RollTime => solver.all_outputs && !other_motion,
+                _ => solver.all_outputs,
+            };
+            if given {
                 errors[index] = self.error(solver, index, output, outputs[index]);
             }
         }
@@ -99,6 +104,17 @@ impl Judge {
         let error = match (output.of(&self.truth), found) {
             (None, None) => return None,
             (Some(truth), Some(found)) => (Double::from(found) - truth).to_f64().abs(),
+            // A swing smaller than the tolerance cannot be told from creeping to the equilibrium.
+            (truth, found) if output == Output::Peak || output == Output::Turning => {
+                let turn = truth.or(found.map(Double::from));
+                let distance = turn.zip(self.truth.equilibrium).map(|(turn, rest)| (turn - rest).to_f64().abs());
+                distance.unwrap_or(f64::INFINITY)
+            }
+            (truth, found) if output == Output::PeakTime && truth.is_some() == self.truth.peak.is_some() => {
+                // Judged by the peak.
+                debug_assert!(truth.is_none() || found.is_none());
+                return None;
+            }
             _ => f64::INFINITY,
         };
         let scale = output.scale(&self.scene, &self.truth);

@@ -1,8 +1,8 @@
 //! Methods with number types, and their answers.
 
 use microimpact::contact::{
-    Adaptive, Collocation, Contact, ContactImpulses, ContactTimes, ContactWorks, FixedCost, Impulses, Method,
-    RungeKuttaGill, SimulatedImpact, Slip, SlipHistory, Status, TangentialVelocities, Times, Works,
+    Adaptive, Collocation, Contact, ContactImpulses, ContactTimes, ContactWorks, ErrorControl, FixedCost, Impulses,
+    Method, RungeKuttaGill, SimulatedImpact, Slip, SlipHistory, Status, TangentialVelocities, Times, Works,
 };
 use microimpact::{
     FixedPoint, InputError, NormalMotion, Outcome, PlanarMotion, Real, Sphere, Stiffness, SurfaceMotion,
@@ -70,6 +70,8 @@ pub struct Solver {
     pub tolerance: f64,
     /// Whether the answer has all outputs; otherwise it has e^2 alone.
     pub all_outputs: bool,
+    /// Whether the method follows a captured sphere until it turns back.
+    pub follows_captures: bool,
     solve: Box<dyn Fn(&Scene) -> Answer + Send + Sync>,
 }
 
@@ -88,7 +90,17 @@ impl Solver {
     ) -> Self {
         let method = method.expect("the parameters of the methods are in their ranges");
         let solve = move |scene: &Scene| everything(scene, &method).unwrap_or(Answer::Refused);
-        Self { name, number, tolerance, all_outputs: true, solve: Box::new(solve) }
+        Self { name, number, tolerance, all_outputs: true, follows_captures: false, solve: Box::new(solve) }
+    }
+
+    /// A method that controls its error; only these follow captured spheres.
+    fn controlled<T: Real>(
+        name: &'static str,
+        number: Number,
+        method: Result<impl ErrorControl<T> + Send + Sync + 'static, InputError>,
+    ) -> Self {
+        let tolerance = method.as_ref().map_or(0.0, |method| method.tolerance().to_f64());
+        Self { follows_captures: true, ..Self::new(name, number, tolerance, method) }
     }
 
     fn fixed<const N: usize>(name: &'static str, iterations: u32, tolerance: f64) -> Self
@@ -97,7 +109,14 @@ impl Solver {
     {
         let method = FixedCost::<N>::new(iterations).expect("the number of iterations is in its range");
         let solve = move |scene: &Scene| in_fixed_point(scene, &method).unwrap_or(Answer::Refused);
-        Self { name, number: Number::Fixed, tolerance, all_outputs: false, solve: Box::new(solve) }
+        Self {
+            name,
+            number: Number::Fixed,
+            tolerance,
+            all_outputs: false,
+            follows_captures: false,
+            solve: Box::new(solve),
+        }
     }
 }
 
@@ -108,13 +127,13 @@ impl Solver {
 pub fn solvers() -> Vec<Solver> {
     use Number::{Double, Single};
     vec![
-        Solver::new("Adaptive 1e-4", Double, 1e-4, Adaptive::new(1e-4_f64)),
-        Solver::new("Adaptive 1e-6", Double, 1e-6, Adaptive::new(1e-6_f64)),
-        Solver::new("Adaptive 1e-9", Double, 1e-9, Adaptive::new(1e-9_f64)),
-        Solver::new("Adaptive 1e-12", Double, 1e-12, Adaptive::new(1e-12_f64)),
-        Solver::new("Collocation 7, 1e-6", Double, 1e-6, Collocation::<7, f64>::new(1e-6)),
-        Solver::new("Collocation 9, 1e-9", Double, 1e-9, Collocation::<9, f64>::new(1e-9)),
-        Solver::new("Collocation 12, 1e-12", Double, 1e-12, Collocation::<12, f64>::new(1e-12)),
+        Solver::controlled("Adaptive 1e-4", Double, Adaptive::new(1e-4_f64)),
+        Solver::controlled("Adaptive 1e-6", Double, Adaptive::new(1e-6_f64)),
+        Solver::controlled("Adaptive 1e-9", Double, Adaptive::new(1e-9_f64)),
+        Solver::controlled("Adaptive 1e-12", Double, Adaptive::new(1e-12_f64)),
+        Solver::controlled("Collocation 7, 1e-6", Double, Collocation::<7, f64>::new(1e-6)),
+        Solver::controlled("Collocation 9, 1e-9", Double, Collocation::<9, f64>::new(1e-9)),
+        Solver::controlled("Collocation 12, 1e-12", Double, Collocation::<12, f64>::new(1e-12)),
         Solver::new::<f64>("FixedCost 5 x 3", Double, 1e-5, five(3)),
         Solver::new::<f64>("FixedCost 5 x 12", Double, 1e-5, five(12)),
         Solver::new::<f64>("FixedCost 7 x 3", Double, 1e-6, seven(3)),
@@ -123,9 +142,9 @@ pub fn solvers() -> Vec<Solver> {
         Solver::new::<f64>("FixedCost 9 x 6", Double, 1e-7, nine(6)),
         Solver::new::<f64>("FixedCost 9 x 20", Double, 1e-7, nine(20)),
         Solver::new::<f64>("RungeKuttaGill 2000", Double, 1e-4, Ok(RungeKuttaGill::new(2000))),
-        Solver::new("Adaptive 1e-4", Single, 1e-4, Adaptive::new(1e-4_f32)),
-        Solver::new("Adaptive 1e-6", Single, 1e-6, Adaptive::new(1e-6_f32)),
-        Solver::new("Collocation 7, 1e-6", Single, 1e-6, Collocation::<7, f32>::new(1e-6)),
+        Solver::controlled("Adaptive 1e-4", Single, Adaptive::new(1e-4_f32)),
+        Solver::controlled("Adaptive 1e-6", Single, Adaptive::new(1e-6_f32)),
+        Solver::controlled("Collocation 7, 1e-6", Single, Collocation::<7, f32>::new(1e-6)),
         Solver::new::<f32>("FixedCost 5 x 3", Single, 1e-5, five(3)),
         Solver::new::<f32>("FixedCost 7 x 3", Single, 1e-6, seven(3)),
         Solver::new::<f32>("FixedCost 7 x 12", Single, 1e-6, seven(12)),

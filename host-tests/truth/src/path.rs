@@ -34,6 +34,8 @@ pub struct Truth {
     pub peak: Option<Double>,
     /// Indentation where a captured sphere first turns back, m; `None` where there is none.
     pub turning: Option<Double>,
+    /// Indentation of the stable equilibrium, m; `None` where nothing holds the sphere.
+    pub equilibrium: Option<Double>,
     /// Time of the peak, s.
     pub peak_time: Option<Double>,
     /// Time at the end of the computed motion, s.
@@ -506,6 +508,7 @@ pub fn solve_exactly(numbers: &[Double; 13], most_steps: u32) -> Truth {
         restitution_squared: if rebounds { last * last * 0.5 / scene.energy } else { Double::ZERO },
         peak,
         turning,
+        equilibrium: scene.height.map(|_| scene.equilibrium * scene.equilibrium * scene.length),
         peak_time,
         time: path.value(Q::Time) * time_unit,
         roll_time: roll.map(|(time, _)| time * time_unit),
