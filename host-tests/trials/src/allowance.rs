@@ -1,13 +1,13 @@
-//! How much of an error the inputs account for, because a number type rounds them.
+//! How much of an error small changes of the inputs account for.
 
 use truth::{Double, INPUTS, Scene, Truth, solve_changed};
 
 use crate::output::{COUNT, Output};
 
-/// Changes of the truth when each input changes by one unit of the number type, added over the inputs.
+/// Changes of the truth with its inputs.
 #[derive(Clone, Debug)]
 pub struct Allowance {
-    /// Of each output, in its own unit; infinite where it ceases to exist.
+    /// Of each output, in its own unit; infinite where the outcome changes or the output ceases to exist.
     pub outputs: [f64; COUNT],
     /// Of the margin of the motion along the surface.
     pub slip: f64,
@@ -16,18 +16,41 @@ pub struct Allowance {
 /// Several roundings of an input, as a method makes them.
 const ROUNDINGS: f64 = 4.0;
 
+/// Places of the friction and of the approach speed among the numbers of a scene.
+const FRICTION: usize = 7;
+const SPEED: usize = 10;
+
 impl Allowance {
-    /// Of a scene with its truth for a unit.
-    pub fn new(scene: &Scene, truth: &Truth, unit: f64, steps: u32) -> Self {
-        let mut allowance = Self { outputs: [0.0; COUNT], slip: 0.0 };
+    /// What the rounding of the inputs accounts for: each changes by one unit of the number type, and the changes of the truth
+    /// are added.
+    pub fn of_rounding(scene: &Scene, truth: &Truth, unit: f64, steps: u32) -> Self {
         let numbers = scene.numbers();
-        for number in (0..INPUTS.len()).filter(|number| numbers[*number] != 0.0) {
-            let changed = solve_changed(scene, number, unit, steps);
+        let inputs = (0..INPUTS.len()).filter(|number| numbers[*number] != 0.0);
+        Self::of_changes(scene, truth, inputs.map(|number| (number, unit)), ROUNDINGS, steps)
+    }
+
+    /// What a tolerance accounts for: the outputs of an impact whose energies and impulses are wrong by that much. Close to
+    /// the critical speed times change far more than the energy, and so does the end of a slip close to separation.
+    pub fn of_tolerance(scene: &Scene, truth: &Truth, tolerance: f64, steps: u32) -> Self {
+        let changes = [(SPEED, tolerance), (SPEED, -tolerance), (FRICTION, tolerance), (FRICTION, -tolerance)];
+        Self::of_changes(scene, truth, changes.into_iter(), 1.0, steps)
+    }
+
+    fn of_changes(
+        scene: &Scene,
+        truth: &Truth,
+        changes: impl Iterator<Item = (usize, f64)>,
+        factor: f64,
+        steps: u32,
+    ) -> Self {
+        let mut allowance = Self { outputs: [0.0; COUNT], slip: 0.0 };
+        for (number, size) in changes {
+            let changed = solve_changed(scene, number, size, steps);
             let same = changed.outcome == truth.outcome;
             for (sum, output) in allowance.outputs.iter_mut().zip(Output::ALL) {
-                *sum += ROUNDINGS * change(output.of(truth), output.of(&changed), same);
+                *sum += factor * change(output.of(truth), output.of(&changed), same);
             }
-            allowance.slip += ROUNDINGS * change(truth.slip_margin, changed.slip_margin, same);
+            allowance.slip += factor * change(truth.slip_margin, changed.slip_margin, same);
         }
         allowance
     }

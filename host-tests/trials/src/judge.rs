@@ -1,6 +1,6 @@
 //! The truth of a scene, and what an answer is worth beside it.
 
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
 
 use microimpact::{Outcome, SurfaceMotion};
 use truth::{Double, Scene, Truth, solve};
@@ -18,7 +18,17 @@ pub struct Judge {
     pub scene: Scene,
     /// Its solution.
     pub truth: Truth,
-    allowances: [OnceCell<Allowance>; 3],
+    of_rounding: [OnceCell<Allowance>; 3],
+    of_tolerances: RefCell<Vec<(f64, Allowance)>>,
+}
+
+/// The error of an output over the tolerance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OutputError {
+    /// Less what the rounding of the inputs accounts for.
+    pub size: f64,
+    /// Less also what the tolerance itself accounts for, where energies and impulses are wrong by that much.
+    pub unexplained: f64,
 }
 
 /// What an answer is worth.
@@ -38,15 +48,15 @@ pub enum Finding {
     Right {
         /// Sliding for rolling or the reverse, farther from the boundary than the tolerance.
         wrong_class: bool,
-        /// Error of each output, less what the inputs account for, over the tolerance; `None` where it is not compared.
-        errors: [Option<f64>; COUNT],
+        /// Of each output; `None` where it is not compared.
+        errors: [Option<OutputError>; COUNT],
     },
 }
 
 impl Judge {
     /// Solves the scene.
     pub fn new(scene: Scene) -> Self {
-        Self { truth: solve(&scene, STEPS), scene, allowances: Default::default() }
+        Self { truth: solve(&scene, STEPS), scene, of_rounding: Default::default(), of_tolerances: RefCell::default() }
     }
 
     /// Judges an answer of a solver.
@@ -66,7 +76,7 @@ impl Judge {
         }
         let other_motion = motion.is_some_and(|motion| self.is_other_motion(rebounds, motion));
         let near = || {
-            let allowance = self.allowance(solver.number).slip + FARTHEST * solver.tolerance;
+            let allowance = self.rounding(solver.number).slip + FARTHEST * solver.tolerance;
             self.truth.slip_margin.is_some_and(|margin| margin.to_f64().abs() <= allowance)
         };
         let compared = match (self.truth.complete, rebounds) {
@@ -99,8 +109,7 @@ impl Judge {
         sliding != (self.scene.friction == 0.0 && self.truth.slip_margin.is_some())
     }
 
-    /// Error of an output, less what the inputs account for, over the tolerance.
-    fn error(&self, solver: &Solver, index: usize, output: Output, found: Option<f64>) -> Option<f64> {
+    fn error(&self, solver: &Solver, index: usize, output: Output, found: Option<f64>) -> Option<OutputError> {
         let error = match (output.of(&self.truth), found) {
             (None, None) => return None,
             (Some(truth), Some(found)) => (Double::from(found) - truth).to_f64().abs(),
@@ -117,21 +126,36 @@ impl Judge {
             }
             _ => f64::INFINITY,
         };
-        let scale = output.scale(&self.scene, &self.truth);
-        let tolerance = solver.tolerance * scale;
+        let tolerance = solver.tolerance * output.scale(&self.scene, &self.truth);
         if error <= tolerance {
-            return Some(error / tolerance);
+            let size = error / tolerance;
+            return Some(OutputError { size, unexplained: size });
         }
-        let allowed = self.allowance(solver.number).outputs[index];
-        if allowed == f64::INFINITY {
-            return Some(0.0);
-        }
-        let excess = (error - allowed).max(0.0) / tolerance;
-        Some(if excess.is_nan() { f64::INFINITY } else { excess })
+        let beyond = |error: f64, allowed: f64| match allowed {
+            f64::INFINITY => 0.0,
+            _ if error.is_nan() => f64::INFINITY,
+            _ => (error - allowed).max(0.0),
+        };
+        let rest = beyond(error, self.rounding(solver.number).outputs[index]);
+        let size = rest / tolerance;
+        let unexplained = match size > 1.0 {
+            true => beyond(rest, self.tolerated(solver.tolerance, index)) / tolerance,
+            false => size,
+        };
+        Some(OutputError { size, unexplained })
     }
 
-    fn allowance(&self, number: Number) -> &Allowance {
-        self.allowances[number as usize].get_or_init(|| Allowance::new(&self.scene, &self.truth, number.unit(), STEPS))
+    fn rounding(&self, number: Number) -> &Allowance {
+        self.of_rounding[number as usize]
+            .get_or_init(|| Allowance::of_rounding(&self.scene, &self.truth, number.unit(), STEPS))
+    }
+
+    fn tolerated(&self, tolerance: f64, index: usize) -> f64 {
+        let mut known = self.of_tolerances.borrow_mut();
+        if !known.iter().any(|(of, _)| *of == tolerance) {
+            known.push((tolerance, Allowance::of_tolerance(&self.scene, &self.truth, tolerance, STEPS)));
+        }
+        known.iter().find(|(of, _)| *of == tolerance).map_or(0.0, |(_, allowance)| allowance.outputs[index])
     }
 }
 

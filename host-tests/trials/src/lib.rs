@@ -7,7 +7,7 @@ mod output;
 mod solver;
 mod tally;
 
-pub use judge::{Finding, Judge};
+pub use judge::{Finding, Judge, OutputError};
 pub use output::Output;
 pub use solver::{Answer, Number, Solver, solvers};
 pub use tally::{Example, OutputErrors, Tally};

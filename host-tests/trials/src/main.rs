@@ -76,6 +76,7 @@ fn counts(solvers: &[Solver], tallies: &[Tally]) -> Table {
         "e^2 > 10",
         "outputs > 1",
         "outputs > 10",
+        "unexplained",
         "worst output",
     ]);
     for (solver, tally) in solvers.iter().zip(tallies) {
@@ -99,6 +100,7 @@ fn counts(solvers: &[Solver], tallies: &[Tally]) -> Table {
             e.far_beyond.to_string(),
             sum(|errors| errors.beyond).to_string(),
             sum(|errors| errors.far_beyond).to_string(),
+            sum(|errors| errors.unexplained).to_string(),
             worst.unwrap_or_default(),
         ]);
     }

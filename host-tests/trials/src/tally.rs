@@ -2,7 +2,7 @@
 
 use truth::{Double, Scene};
 
-use crate::judge::{Finding, Judge};
+use crate::judge::{Finding, Judge, OutputError};
 use crate::output::{COUNT, Output};
 use crate::solver::Solver;
 
@@ -15,6 +15,8 @@ pub struct OutputErrors {
     pub beyond: u64,
     /// Those beyond ten times the tolerance.
     pub far_beyond: u64,
+    /// Those beyond ten times the tolerance that a tolerance for energies and impulses does not account for either.
+    pub unexplained: u64,
     /// The largest, over the tolerance.
     pub largest: f64,
 }
@@ -26,7 +28,7 @@ pub struct Example {
     pub scene: Scene,
     /// What went wrong.
     pub fault: String,
-    /// How badly: errors over the tolerance; a wrong class or outcome is worse than any.
+    /// How badly: unexplained errors over the tolerance; a wrong class or outcome is worse than any.
     pub weight: f64,
 }
 
@@ -71,7 +73,7 @@ impl Tally {
             return;
         };
         self.scenes += 1;
-        let margin = judge.truth.margin.map_or(f64::NAN, Double::to_f64);
+        let margin = judge.truth.margin.map_or(f64::INFINITY, Double::to_f64);
         match judge.judge(solver, &answer) {
             Finding::Unknown => self.unknown += 1,
             Finding::Refused => self.refused += 1,
@@ -94,9 +96,9 @@ impl Tally {
                 for ((counts, error), output) in self.outputs.iter_mut().zip(errors).zip(Output::ALL) {
                     if let Some(error) = error {
                         counts.add(error);
-                        if error > 1.0 {
-                            let fault = format!("{}, {error:.1e} tolerances", output.name());
-                            keep(&mut self.worst, &judge.scene, error, || fault);
+                        if error.size > 1.0 {
+                            let fault = || format!("{}, {:.1e} tolerances", output.name(), error.size);
+                            keep(&mut self.worst, &judge.scene, error.unexplained, fault);
                         }
                     }
                 }
@@ -119,6 +121,7 @@ impl Tally {
             counts.compared += more.compared;
             counts.beyond += more.beyond;
             counts.far_beyond += more.far_beyond;
+            counts.unexplained += more.unexplained;
             counts.largest = counts.largest.max(more.largest);
         }
         for Example { scene, fault, weight } in other.worst {
@@ -132,13 +135,14 @@ impl Tally {
 }
 
 impl OutputErrors {
-    fn add(&mut self, error: f64) {
+    fn add(&mut self, error: OutputError) {
         /// Tolerances that count as far.
         const FAR: f64 = 10.0;
         self.compared += 1;
-        self.beyond += u64::from(error > 1.0);
-        self.far_beyond += u64::from(error > FAR);
-        self.largest = self.largest.max(error);
+        self.beyond += u64::from(error.size > 1.0);
+        self.far_beyond += u64::from(error.size > FAR);
+        self.unexplained += u64::from(error.unexplained > FAR);
+        self.largest = self.largest.max(error.size);
     }
 }
 

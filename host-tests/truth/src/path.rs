@@ -26,7 +26,8 @@ pub struct Truth {
     /// Steps of the series.
     pub steps: u32,
     /// Energy beyond what a rebound needs, over the initial kinetic energy; negative for a capture. If a barrier has to be
-    /// passed on arrival, the smaller of both distances. `None` where it is not known.
+    /// passed on arrival, the smaller of both distances. Of a sphere that creeps to rest, the energy it has where that is proven.
+    /// `None` where it is not known.
     pub margin: Option<Double>,
     /// e^2, zero for a capture.
     pub restitution_squared: Double,
@@ -70,7 +71,7 @@ pub struct Truth {
 }
 
 /// Local error of a step, over the size of the state.
-const TOLERANCE: f64 = 1e-26;
+const TOLERANCE: f64 = 1e-24;
 
 /// A scene in units of the length L and the speed U.
 struct Dimensionless {
@@ -214,8 +215,6 @@ enum Quantity {
     Time,
     /// Elastic impulse.
     Elastic,
-    /// Work of the materials.
-    Material,
     /// Work of adhesion.
     Adhesion,
     /// Impulse of adhesion on rebound.
@@ -232,7 +231,7 @@ enum Quantity {
 
 use Quantity as Q;
 
-const QUANTITIES: usize = 11;
+const QUANTITIES: usize = 10;
 
 /// Slip, rolling or neither.
 #[derive(Clone, Copy, PartialEq)]
@@ -251,6 +250,8 @@ struct Path<'a> {
     sign: f64,
     /// Size of the velocities along the surface.
     lateral: f64,
+    /// 1/(k + 1)
+    reciprocals: [Double; ORDER],
     /// Length of the last step in sigma.
     step: Double,
 }
@@ -266,11 +267,10 @@ enum Event {
 }
 
 /// Series that only serve others, after those of the quantities.
-const HELPERS: usize = 4;
+const HELPERS: usize = 3;
 const SQUARE: usize = QUANTITIES;
 const FOURTH: usize = QUANTITIES + 1;
-const DAMPING: usize = QUANTITIES + 2;
-const SPEED_SQUARED: usize = QUANTITIES + 3;
+const SQUARE_SPEED: usize = QUANTITIES + 2;
 
 impl Path<'_> {
     fn value(&self, quantity: Quantity) -> Double {
@@ -292,33 +292,28 @@ impl Path<'_> {
         let peels = scene.peeling > Double::ZERO;
         let slides = self.surface == Surface::Slides;
         let friction = scene.friction * self.sign;
+        let (start, turned) = (self.value(Q::Velocity), self.value(Q::Peripheral));
         for k in 0..ORDER {
-            let next = k as f64 + 1.0;
+            let part = self.reciprocals[k];
             let place = self.of(Q::Place).get(k);
             let square = self.of(Q::Place).square(k);
             self.series[SQUARE].set(k, square);
             let fourth = self.series[SQUARE].square(k);
             self.series[FOURTH].set(k, fourth);
-            self.series[DAMPING].set(k, ring * square + material * fourth);
-            let resistance = self.series[DAMPING].product(self.of(Q::Speed), k);
-            let speed_squared = self.of(Q::Speed).square(k);
-            self.series[SPEED_SQUARED].set(k, speed_squared);
             let elastic = scene.elastic * fourth * 2.0;
             let attraction = scene.adhesion * square * 2.0;
-            let gain = attraction - elastic - scene.force * place * 2.0 - resistance * 2.0;
-            let material_power = match material > Double::ZERO {
-                true => material * self.series[FOURTH].product(&self.series[SPEED_SQUARED], k) * 2.0,
+            let product = |a: &Series, b: &Series, factor: Double| match factor > Double::ZERO {
+                true => a.product(b, k),
                 false => Double::ZERO,
             };
-            let (mut adhesion_power, mut pull) = (Double::ZERO, if self.rebound { attraction } else { Double::ZERO });
-            if ring > Double::ZERO {
-                adhesion_power = ring * self.series[SQUARE].product(&self.series[SPEED_SQUARED], k) * 2.0;
-                pull = pull - ring * self.series[SQUARE].product(self.of(Q::Speed), k) * 2.0;
-            }
-            let peeling = match peels {
-                true => scene.peeling * self.series[SQUARE].product(self.of(Q::Peripheral), k) * 2.0,
-                false => Double::ZERO,
-            };
+            let of_ring = product(&self.series[SQUARE], self.of(Q::Speed), ring);
+            let of_material = product(&self.series[FOURTH], self.of(Q::Speed), material);
+            self.series[SQUARE_SPEED].set(k, of_ring);
+            let resistance = (ring * of_ring + material * of_material) * 2.0;
+            let gain = attraction - elastic - scene.force * place * 2.0 - resistance;
+            let adhesion_power = ring * product(&self.series[SQUARE_SPEED], self.of(Q::Speed), ring) * 2.0;
+            let pull = if self.rebound { attraction - ring * of_ring * 2.0 } else { Double::ZERO };
+            let peeling = scene.peeling * product(&self.series[SQUARE], self.of(Q::Peripheral), scene.peeling) * 2.0;
             let (velocity, peripheral) = if slides {
                 let force = friction * elastic;
                 (-force, force / scene.gyration - peeling)
@@ -326,18 +321,21 @@ impl Path<'_> {
                 let both = -(peeling * scene.gyration / (scene.gyration + Double::ONE));
                 (both, both)
             };
-            let (displacement, rotation) = if slides || peels {
+            let (displacement, rotation) = if peels {
                 let along = |quantity| self.of(Q::Place).product(self.of(quantity), k) * 2.0;
                 (along(Q::Velocity), along(Q::Peripheral))
+            } else if slides {
+                // What friction takes from the velocity it adds to kappa times the peripheral velocity.
+                let displacement = self.of(Q::Place).product(self.of(Q::Velocity), k) * 2.0;
+                (displacement, turned * place * 2.0 + (start * place * 2.0 - displacement) / scene.gyration)
             } else {
-                (place * self.value(Q::Velocity) * 2.0, place * self.value(Q::Peripheral) * 2.0)
+                (place * start * 2.0, place * turned * 2.0)
             };
             let growth = [
                 (Q::Place, self.of(Q::Speed).get(k)),
                 (Q::Speed, gain),
                 (Q::Time, place * 2.0),
                 (Q::Elastic, elastic),
-                (Q::Material, material_power),
                 (Q::Adhesion, adhesion_power),
                 (Q::Pull, pull),
                 (Q::Velocity, velocity),
@@ -346,20 +344,22 @@ impl Path<'_> {
                 (Q::Displacement, displacement),
             ];
             for (quantity, value) in growth {
-                self.series[quantity as usize].set(k + 1, value / next);
+                self.series[quantity as usize].set(k + 1, value * part);
             }
         }
     }
 
-    /// Length of the step whose last terms are as small as the tolerance.
+    /// Length of the step whose last term is as small as the tolerance, from the radius of convergence that the last terms show.
     fn longest_step(&self) -> f64 {
+        /// From first contact without adhesion only one in five coefficients differs from zero.
+        const GAP: usize = 4;
         let state = self.value(Q::Place).abs().max(self.value(Q::Speed).abs()).to_f64();
         let mut step = f64::INFINITY;
         let mut limit = |series: &Series, size: f64| {
-            for power in [ORDER - 1, ORDER] {
+            for power in ORDER - GAP..=ORDER {
                 let last = series.size(power);
                 if last > 0.0 {
-                    step = step.min((TOLERANCE * size / last).powf(1.0 / power as f64));
+                    step = step.min((size / last).powf(1.0 / power as f64));
                 }
             }
         };
@@ -368,7 +368,7 @@ impl Path<'_> {
         if self.scene.peeling > Double::ZERO {
             limit(self.of(Q::Peripheral), self.lateral);
         }
-        step
+        step * TOLERANCE.powf(1.0 / ORDER as f64)
     }
 
     /// Goes on to the end of a step or the first event in it.
@@ -390,9 +390,7 @@ impl Path<'_> {
         if let Some(place) = slip.and_then(|slip| slip.first_change(self.sign, end)) {
             (end, event) = (place, Event::EndOfSlip);
         }
-        for (value, series) in self.state.iter_mut().zip(&self.series) {
-            *value = series.at(end);
-        }
+        self.state = Series::all_at(&self.series, end);
         self.step = end;
         event
     }
@@ -429,6 +427,7 @@ pub fn solve_exactly(numbers: &[Double; 13], most_steps: u32) -> Truth {
         surface: if slips { Surface::Slides } else { Surface::Rolls },
         sign: first_slip.to_f64().signum(),
         lateral: velocity.abs().max(peripheral.abs()).to_f64(),
+        reciprocals: std::array::from_fn(|k| Double::ONE / (k as f64 + 1.0)),
         step: Double::ZERO,
     };
     let (mut peak, mut peak_time, mut turning) = (None, None, None);
@@ -452,6 +451,9 @@ pub fn solve_exactly(numbers: &[Double; 13], most_steps: u32) -> Truth {
             if speed * speed * 0.5 + scene.potential(place) < height && place > scene.barrier {
                 outcome = Some(Outcome::Capture);
                 complete = event == Event::None && scene.creeps(place, speed, path.rebound);
+                if complete {
+                    margins.push(height - speed * speed * 0.5 - scene.potential(place));
+                }
             }
         }
         match event {
@@ -491,9 +493,14 @@ pub fn solve_exactly(numbers: &[Double; 13], most_steps: u32) -> Truth {
     let (mass, speed) = (scene.mass, scene.speed);
     let energy_unit = mass * speed * speed;
     let rebounds = outcome == Some(Outcome::Rebound);
-    let known = complete && (rebounds || turning.is_some());
-    let smallest = margins.into_iter().reduce(Double::min).filter(|_| known);
+    let smallest = margins.into_iter().reduce(Double::min).filter(|_| complete);
     let last = path.value(Q::Speed);
+    // What the other works and the remaining energy leave.
+    let remaining = last * last * 0.5 + scene.potential(path.value(Q::Place));
+    let material_work = match scene.material > Double::ZERO {
+        true => scene.energy - remaining - path.value(Q::Adhesion),
+        false => Double::ZERO,
+    };
     let capacity = |impulse: Double| scene.friction * impulse * (Double::ONE + Double::ONE / scene.gyration);
     let slip_margin = slips.then(|| match roll {
         Some((_, impulse)) => capacity(path.value(Q::Elastic) - impulse) / first_slip.abs(),
@@ -515,7 +522,7 @@ pub fn solve_exactly(numbers: &[Double; 13], most_steps: u32) -> Truth {
         elastic_impulse: path.value(Q::Elastic) * mass * speed,
         elastic_impulse_to_peak: impulse_to_peak * mass * speed,
         adhesion_impulse: path.value(Q::Pull) * mass * speed,
-        material_work: path.value(Q::Material) * energy_unit,
+        material_work: material_work * energy_unit,
         adhesion_work: path.value(Q::Adhesion) * energy_unit,
         velocity: path.value(Q::Velocity) * speed,
         spin: path.value(Q::Peripheral) * speed / scene.radius,

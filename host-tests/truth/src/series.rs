@@ -3,23 +3,37 @@
 use crate::double::{Double, split, two_sum};
 
 /// Highest power of a series.
-pub(crate) const ORDER: usize = 26;
+pub(crate) const ORDER: usize = 24;
 
 /// Number of coefficients.
 const TERMS: usize = ORDER + 1;
 
-/// A power series. The coefficients are kept as their parts, the larger split for exact products.
+/// A power series.
 #[derive(Clone)]
 pub(crate) struct Series {
-    high: [f64; TERMS],
-    low: [f64; TERMS],
-    head: [f64; TERMS],
-    tail: [f64; TERMS],
+    coefficients: [Coefficient; TERMS],
+}
+
+/// A number as its parts, the larger of them split for exact products.
+#[derive(Clone, Copy)]
+struct Coefficient {
+    high: f64,
+    low: f64,
+    head: f64,
+    tail: f64,
+}
+
+impl Coefficient {
+    const ZERO: Self = Self { high: 0.0, low: 0.0, head: 0.0, tail: 0.0 };
+
+    #[inline(always)]
+    fn value(&self) -> Double {
+        Double::of_parts(self.high, self.low)
+    }
 }
 
 impl Series {
-    pub(crate) const ZERO: Self =
-        Self { high: [0.0; TERMS], low: [0.0; TERMS], head: [0.0; TERMS], tail: [0.0; TERMS] };
+    pub(crate) const ZERO: Self = Self { coefficients: [Coefficient::ZERO; TERMS] };
 
     /// A constant.
     pub(crate) fn constant(value: Double) -> Self {
@@ -30,18 +44,19 @@ impl Series {
 
     #[inline(always)]
     pub(crate) fn set(&mut self, power: usize, value: Double) {
-        (self.high[power], self.low[power]) = value.parts();
-        (self.head[power], self.tail[power]) = split(self.high[power]);
+        let (high, low) = value.parts();
+        let (head, tail) = split(high);
+        self.coefficients[power] = Coefficient { high, low, head, tail };
     }
 
     #[inline(always)]
     pub(crate) fn get(&self, power: usize) -> Double {
-        Double::of_parts(self.high[power], self.low[power])
+        self.coefficients[power].value()
     }
 
     /// Size of a coefficient.
     pub(crate) fn size(&self, power: usize) -> f64 {
-        self.high[power].abs()
+        self.coefficients[power].high.abs()
     }
 
     /// The coefficient of a power in the product of two series, of whose coefficients those up to this power are known.
@@ -62,14 +77,15 @@ impl Series {
     fn products(&self, other: &Self, power: usize, count: usize) -> Double {
         // Sums that do not wait for each other.
         let mut sums = [Sum::default(); LANES];
-        let whole = count - count % LANES;
-        for start in (0..whole).step_by(LANES) {
-            for (lane, sum) in sums.iter_mut().enumerate() {
-                sum.add(self, start + lane, other, power - start - lane);
-            }
+        let forwards = self.coefficients[..count].chunks_exact(LANES);
+        let backwards = other.coefficients[power + 1 - count..=power].rchunks_exact(LANES);
+        for (a, b) in forwards.remainder().iter().zip(backwards.remainder().iter().rev()) {
+            sums[0].add(a, b);
         }
-        for i in whole..count {
-            sums[0].add(self, i, other, power - i);
+        for (a, b) in forwards.zip(backwards) {
+            for ((sum, a), b) in sums.iter_mut().zip(a).zip(b.iter().rev()) {
+                sum.add(a, b);
+            }
         }
         let [a, b, c, d] = sums.map(Sum::total);
         (a + b) + (c + d)
@@ -78,11 +94,29 @@ impl Series {
     /// The value at a place.
     #[inline]
     pub(crate) fn at(&self, place: Double) -> Double {
-        let mut value = self.get(ORDER);
-        for power in (0..ORDER).rev() {
-            value = value * place + self.get(power);
+        self.coefficients.iter().rev().fold(Double::ZERO, |value, coefficient| value * place + coefficient.value())
+    }
+
+    /// The value at a place to the rounding of f64.
+    fn near(&self, place: f64) -> f64 {
+        self.coefficients.iter().rev().fold(0.0, |value, coefficient| value * place + coefficient.high)
+    }
+
+    /// The derivative there, likewise.
+    fn slope_near(&self, place: f64) -> f64 {
+        let powers = self.coefficients.iter().enumerate().skip(1).rev();
+        powers.fold(0.0, |value, (power, coefficient)| value * place + power as f64 * coefficient.high)
+    }
+
+    /// The values of several series at a place.
+    pub(crate) fn all_at<const N: usize>(series: &[Self], place: Double) -> [Double; N] {
+        let mut values = [Double::ZERO; N];
+        for power in (0..TERMS).rev() {
+            for (value, series) in values.iter_mut().zip(series) {
+                *value = *value * place + series.get(power);
+            }
         }
-        value
+        values
     }
 
     /// The derivative.
@@ -107,14 +141,13 @@ impl Series {
     ///
     /// The series has at most one extremum up to `end`, because a step is short beside the radius of convergence.
     pub(crate) fn first_change(&self, sign: f64, end: Double) -> Option<Double> {
-        let opposite = |value: Double| value.to_f64() * sign < 0.0;
-        if opposite(self.at(end)) {
+        let last = end.to_f64();
+        if self.near(last) * sign < 0.0 {
             return Some(self.root(sign, end));
         }
-        let slope = self.derivative();
-        if slope.get(0).to_f64() * sign < 0.0 && slope.at(end).to_f64() * sign > 0.0 {
-            let extremum = slope.root(-sign, end);
-            if opposite(self.at(extremum)) {
+        if self.get(1).to_f64() * sign < 0.0 && self.slope_near(last) * sign > 0.0 {
+            let extremum = self.derivative().root(-sign, end);
+            if self.at(extremum).to_f64() * sign < 0.0 {
                 return Some(self.root(sign, extremum));
             }
         }
@@ -162,13 +195,12 @@ struct Sum {
 impl Sum {
     /// Adds the product of two coefficients.
     #[inline(always)]
-    fn add(&mut self, a: &Series, i: usize, b: &Series, j: usize) {
-        let product = a.high[i] * b.high[j];
-        let exact =
-            ((a.head[i] * b.head[j] - product) + a.head[i] * b.tail[j] + a.tail[i] * b.head[j]) + a.tail[i] * b.tail[j];
+    fn add(&mut self, a: &Coefficient, b: &Coefficient) {
+        let product = a.high * b.high;
+        let exact = ((a.head * b.head - product) + a.head * b.tail + a.tail * b.head) + a.tail * b.tail;
         let (sum, rest) = two_sum(self.high, product);
         self.high = sum;
-        self.low += rest + (exact + (a.high[i] * b.low[j] + a.low[i] * b.high[j]));
+        self.low += rest + (exact + (a.high * b.low + a.low * b.high));
     }
 
     #[inline(always)]
