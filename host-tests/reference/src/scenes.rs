@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
-use truth::{Outcome, Scene, solve};
+use truth::{Double, Outcome, Scene, solve};
 
 /// What a random scene is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -315,39 +315,38 @@ impl Draw {
 /// The speed between capture and rebound, to rounding; `None` where the truth finds none near the speed of the scene.
 pub fn critical_speed(scene: &Scene) -> Option<f64> {
     /// How far from the speed of the scene to look.
-    const DECADES: f64 = 1e4;
-    /// Halvings after which the secant converges.
-    const HALVINGS: u32 = 12;
-    const SECANTS: u32 = 12;
+    const DECADES: f64 = 1e3;
+    /// Halvings of the logarithm after which the secant converges: the speeds then differ by a tenth.
+    const HALVINGS: u32 = 7;
+    const SECANTS: u32 = 10;
+    /// Energy left, over the initial energy, that is as good as none: f64 does not hold a nearer speed.
+    const NONE: f64 = 1e-14;
     let margin = |speed: f64| {
-        let truth = solve(&Scene { speed, tangential: 0.0, spin: 0.0, ..*scene }, STEPS);
-        match (truth.outcome, truth.margin) {
-            (_, Some(margin)) => Some((margin.to_f64() > 0.0, Some(margin.to_f64()))),
-            (Some(outcome), None) => Some((outcome == Outcome::Rebound, None)),
-            (None, None) => None,
-        }
+        let truth = solve(&Scene { speed, friction: 0.0, tangential: 0.0, spin: 0.0, ..*scene }, STEPS);
+        truth.margin.map(Double::to_f64)
     };
-    let (mut captured, mut rebounds) = (scene.speed / DECADES, scene.speed * DECADES);
-    if margin(captured)?.0 || !margin(rebounds)?.0 {
+    let at = |speed: f64| margin(speed).map(|margin| (speed, margin));
+    let (mut captured, mut rebounds) = (at(scene.speed / DECADES)?, at(scene.speed * DECADES)?);
+    if captured.1 > 0.0 || rebounds.1 < 0.0 {
         return None;
     }
-    for _ in 0..HALVINGS + 6 {
-        let middle = (captured * rebounds).sqrt();
-        if margin(middle)?.0 { rebounds = middle } else { captured = middle }
+    for _ in 0..HALVINGS {
+        let middle = at((captured.0 * rebounds.0).sqrt())?;
+        if middle.1 > 0.0 { rebounds = middle } else { captured = middle }
     }
     // The energy left is a smooth function of the speed through its root.
-    let (mut low, mut high) = ((captured, margin(captured)?.1?), (rebounds, margin(rebounds)?.1?));
+    let (mut before, mut last) = (captured, rebounds);
     for _ in 0..SECANTS {
-        if low.0 == high.0 || low.1 == high.1 {
-            break;
+        if last.1.abs() < NONE {
+            return Some(last.0);
         }
-        let next = high.0 - high.1 * (high.0 - low.0) / (high.1 - low.1);
-        (low, high) = (high, (next, margin(next)?.1?));
-        if high.1 == 0.0 || (high.0 - low.0).abs() < f64::EPSILON * high.0 {
-            break;
+        let next = last.0 - last.1 * (last.0 - before.0) / (last.1 - before.1);
+        if !(captured.0..=rebounds.0).contains(&next) {
+            return None;
         }
+        (before, last) = (last, at(next)?);
     }
-    Some(high.0)
+    None
 }
 
 /// Mass, kg.

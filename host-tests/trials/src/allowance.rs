@@ -11,6 +11,8 @@ pub struct Allowance {
     pub outputs: [f64; COUNT],
     /// Of the margin of the motion along the surface.
     pub slip: f64,
+    /// Of the margin of the outcome.
+    pub margin: f64,
 }
 
 /// Several roundings of an input, as a method makes them.
@@ -43,13 +45,14 @@ impl Allowance {
         factor: f64,
         steps: u32,
     ) -> Self {
-        let mut allowance = Self { outputs: [0.0; COUNT], slip: 0.0 };
+        let mut allowance = Self { outputs: [0.0; COUNT], slip: 0.0, margin: 0.0 };
         for (number, size) in changes {
             let changed = solve_changed(scene, number, size, steps);
             let same = changed.outcome == truth.outcome;
             for (sum, output) in allowance.outputs.iter_mut().zip(Output::ALL) {
                 *sum += factor * change(output.of(truth), output.of(&changed), same);
             }
+            allowance.margin += factor * change(truth.margin, changed.margin, true);
             allowance.slip += factor * change(truth.slip_margin, changed.slip_margin, same);
         }
         allowance

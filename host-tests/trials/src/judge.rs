@@ -41,7 +41,10 @@ pub enum Finding {
     /// The status is not *solved*.
     Unsolved,
     /// The outcome is undecided.
-    Undecided,
+    Undecided {
+        /// Although the energy left differs from none by more than twice the error that the method states.
+        needless: bool,
+    },
     /// Rebound for capture or capture for rebound.
     WrongOutcome,
     /// The right outcome.
@@ -67,8 +70,11 @@ impl Judge {
         let (found, motion, outputs) = match answer {
             Answer::Refused => return Finding::Refused,
             Answer::Unsolved => return Finding::Unsolved,
-            Answer::Solved { outcome: Outcome::Undecided, .. } => return Finding::Undecided,
-            Answer::Solved { outcome, motion, outputs } => (*outcome, motion, outputs),
+            Answer::Solved { outcome: Outcome::Undecided, stated_error, .. } => {
+                let needless = self.is_clear(solver, *stated_error);
+                return Finding::Undecided { needless };
+            }
+            Answer::Solved { outcome, motion, outputs, .. } => (*outcome, motion, outputs),
         };
         let rebounds = outcome == truth::Outcome::Rebound;
         if rebounds != (found == Outcome::Rebound) {
@@ -97,6 +103,15 @@ impl Judge {
             }
         }
         Finding::Right { wrong_class: other_motion && !near(), errors }
+    }
+
+    /// Whether the energy left differs from none by more than twice a stated error, and by more than the rounding of the
+    /// inputs accounts for.
+    fn is_clear(&self, solver: &Solver, stated_error: f64) -> bool {
+        const ALLOWED: f64 = 2.0;
+        let margin = self.truth.margin.map_or(f64::INFINITY, |margin| margin.to_f64().abs());
+        let stated = ALLOWED * stated_error;
+        margin > stated && margin > stated + self.rounding(solver.number).margin
     }
 
     /// Whether the motion along the surface is not the true one. A captured sphere is said to roll as soon as friction will

@@ -53,6 +53,8 @@ pub enum Answer {
     Solved {
         /// Rebound, capture or undecided.
         outcome: Outcome,
+        /// Error of e^2 that the method states: its tolerance, or its own estimate where that is larger.
+        stated_error: f64,
         /// How the contact point moves, by the velocities after the impact and by the slip history.
         motion: Option<(SurfaceMotion, bool)>,
         /// In the order of [`Output::ALL`](crate::Output::ALL); `None` where a quantity does not exist.
@@ -89,7 +91,7 @@ impl Solver {
         method: Result<impl Method<T> + Send + Sync + 'static, InputError>,
     ) -> Self {
         let method = method.expect("the parameters of the methods are in their ranges");
-        let solve = move |scene: &Scene| everything(scene, &method).unwrap_or(Answer::Refused);
+        let solve = move |scene: &Scene| everything(scene, &method, tolerance).unwrap_or(Answer::Refused);
         Self { name, number, tolerance, all_outputs: true, follows_captures: false, solve: Box::new(solve) }
     }
 
@@ -108,7 +110,7 @@ impl Solver {
         FixedCost<N>: Method<FixedPoint>,
     {
         let method = FixedCost::<N>::new(iterations).expect("the number of iterations is in its range");
-        let solve = move |scene: &Scene| in_fixed_point(scene, &method).unwrap_or(Answer::Refused);
+        let solve = move |scene: &Scene| in_fixed_point(scene, &method, tolerance).unwrap_or(Answer::Refused);
         Self {
             name,
             number: Number::Fixed,
@@ -170,7 +172,7 @@ const EVERYTHING: (Times, Impulses, Works, Slip) = (Times, Impulses, Works, Slip
 type Everything<T> = (ContactTimes<T>, ContactImpulses<T>, ContactWorks<T>, SlipHistory<T>);
 
 /// The answer with all outputs.
-fn everything<T: Real>(scene: &Scene, method: &impl Method<T>) -> Result<Answer, InputError> {
+fn everything<T: Real>(scene: &Scene, method: &impl Method<T>, tolerance: f64) -> Result<Answer, InputError> {
     let number = T::constant;
     let sphere = Sphere::new(number(scene.radius), number(scene.density), number(scene.gyration_ratio))?;
     let contact = Contact::hertz(sphere, Stiffness::new(number(scene.stiffness))?)
@@ -189,10 +191,14 @@ fn everything<T: Real>(scene: &Scene, method: &impl Method<T>) -> Result<Answer,
             contact.with_external_force(force)?.with_peeling(peeling)?.solve_for(&motion, method, EVERYTHING)
         }
     }?;
-    Ok(answer(&impact, &outputs))
+    Ok(answer(&impact, &outputs, tolerance))
 }
 
-fn answer<T: Real>(impact: &SimulatedImpact<T, TangentialVelocities<T>>, outputs: &Everything<T>) -> Answer {
+fn answer<T: Real>(
+    impact: &SimulatedImpact<T, TangentialVelocities<T>>,
+    outputs: &Everything<T>,
+    tolerance: f64,
+) -> Answer {
     let SimulatedImpact { normal, tangential, run } = impact;
     let (times, impulses, works, slip) = outputs;
     let Some(outcome) = normal.outcome().filter(|_| run.status == Status::Solved) else {
@@ -202,6 +208,7 @@ fn answer<T: Real>(impact: &SimulatedImpact<T, TangentialVelocities<T>>, outputs
     let some = |value: T| Some(value.to_f64());
     Answer::Solved {
         outcome,
+        stated_error: tolerance.max(run.estimated_error.to_f64()),
         motion: Some((tangential.motion(), slip.slides)),
         outputs: [
             Some(e * e),
@@ -225,7 +232,7 @@ fn answer<T: Real>(impact: &SimulatedImpact<T, TangentialVelocities<T>>, outputs
 }
 
 /// The answer in fixed point, from dimensionless numbers of single precision.
-fn in_fixed_point(scene: &Scene, method: &impl Method<FixedPoint>) -> Result<Answer, InputError> {
+fn in_fixed_point(scene: &Scene, method: &impl Method<FixedPoint>, tolerance: f64) -> Result<Answer, InputError> {
     if scene.force != 0.0 {
         return Ok(Answer::Refused);
     }
@@ -240,5 +247,5 @@ fn in_fixed_point(scene: &Scene, method: &impl Method<FixedPoint>) -> Result<Ans
     };
     let mut outputs = [None; COUNT];
     outputs[0] = Some(contact.restitution_squared.to_f64());
-    Ok(Answer::Solved { outcome, motion: None, outputs })
+    Ok(Answer::Solved { outcome, stated_error: tolerance, motion: None, outputs })
 }

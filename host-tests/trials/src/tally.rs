@@ -45,6 +45,8 @@ pub struct Tally {
     pub unsolved: u64,
     /// Undecided outcomes.
     pub undecided: u64,
+    /// Those farther from the boundary than twice the stated error.
+    pub needless: u64,
     /// Largest true distance from the boundary between capture and rebound among those, over the initial energy.
     pub largest_undecided: f64,
     /// Wrong outcomes with status *solved*.
@@ -65,6 +67,7 @@ const EXAMPLES: usize = 10;
 /// Weights above any error over its tolerance.
 const WRONG_OUTCOME: f64 = 1e300;
 const WRONG_CLASS: f64 = 1e299;
+const NEEDLESS: f64 = 1e298;
 
 impl Tally {
     /// Puts a scene to a solver, and counts what comes out.
@@ -78,9 +81,13 @@ impl Tally {
             Finding::Unknown => self.unknown += 1,
             Finding::Refused => self.refused += 1,
             Finding::Unsolved => self.unsolved += 1,
-            Finding::Undecided => {
+            Finding::Undecided { needless } => {
                 self.undecided += 1;
+                self.needless += u64::from(needless);
                 self.largest_undecided = self.largest_undecided.max(margin.abs());
+                if needless {
+                    self.keep(&judge.scene, NEEDLESS, || format!("undecided, margin {margin:.1e}"));
+                }
             }
             Finding::WrongOutcome => {
                 self.wrong_outcomes += 1;
@@ -113,6 +120,7 @@ impl Tally {
         self.refused += other.refused;
         self.unsolved += other.unsolved;
         self.undecided += other.undecided;
+        self.needless += other.needless;
         self.largest_undecided = self.largest_undecided.max(other.largest_undecided);
         self.wrong_outcomes += other.wrong_outcomes;
         self.largest_wrong = self.largest_wrong.max(other.largest_wrong);

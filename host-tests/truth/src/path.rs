@@ -73,6 +73,9 @@ pub struct Truth {
 /// Local error of a step, over the size of the state.
 const TOLERANCE: f64 = 1e-24;
 
+/// The same where only a change of the solution is of interest, by no less than the rounding of f64.
+const TOLERANCE_OF_CHANGES: f64 = 1e-20;
+
 /// A scene in units of the length L and the speed U.
 struct Dimensionless {
     /// L, m.
@@ -250,6 +253,8 @@ struct Path<'a> {
     sign: f64,
     /// Size of the velocities along the surface.
     lateral: f64,
+    /// Local error of a step, over the size of the state.
+    tolerance: f64,
     /// 1/(k + 1)
     reciprocals: [Double; ORDER],
     /// Length of the last step in sigma.
@@ -368,7 +373,7 @@ impl Path<'_> {
         if self.scene.peeling > Double::ZERO {
             limit(self.of(Q::Peripheral), self.lateral);
         }
-        step * TOLERANCE.powf(1.0 / ORDER as f64)
+        step * self.tolerance.powf(1.0 / ORDER as f64)
     }
 
     /// Goes on to the end of a step or the first event in it.
@@ -405,11 +410,15 @@ pub fn solve(scene: &Scene, most_steps: u32) -> Truth {
 pub fn solve_changed(scene: &Scene, number: usize, change: f64, most_steps: u32) -> Truth {
     let mut numbers = scene.numbers().map(Double::from);
     numbers[number] = numbers[number] * (Double::ONE + Double::from(change));
-    solve_exactly(&numbers, most_steps)
+    solve_to(TOLERANCE_OF_CHANGES, &numbers, most_steps)
 }
 
 /// The solution of a scene of numbers with 31 digits, in the order of [`INPUTS`](crate::INPUTS).
 pub fn solve_exactly(numbers: &[Double; 13], most_steps: u32) -> Truth {
+    solve_to(TOLERANCE, numbers, most_steps)
+}
+
+fn solve_to(tolerance: f64, numbers: &[Double; 13], most_steps: u32) -> Truth {
     let scene = &Dimensionless::new(numbers);
     let [.., approach, tangential, spin] = *numbers;
     let mut state = [Double::ZERO; QUANTITIES];
@@ -427,6 +436,7 @@ pub fn solve_exactly(numbers: &[Double; 13], most_steps: u32) -> Truth {
         surface: if slips { Surface::Slides } else { Surface::Rolls },
         sign: first_slip.to_f64().signum(),
         lateral: velocity.abs().max(peripheral.abs()).to_f64(),
+        tolerance,
         reciprocals: std::array::from_fn(|k| Double::ONE / (k as f64 + 1.0)),
         step: Double::ZERO,
     };
