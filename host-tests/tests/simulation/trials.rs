@@ -72,7 +72,7 @@ fn methods_that_control_their_error_solve_all_scenes() {
     assert_none(|solver| solver.follows_captures && solver.number.name() == "f64", |tally| tally.unsolved);
 }
 
-/// To ten times the tolerance, and as far as a tolerance for energies and impulses accounts for more.
+/// To ten times the tolerance, or as far as inputs that are wrong by the tolerance account for more.
 #[test]
 fn outputs_of_methods_that_control_their_error_are_within_it() {
     let unexplained = |errors: &OutputErrors| errors.unexplained;

@@ -31,11 +31,16 @@ impl Allowance {
         Self::of_changes(scene, truth, inputs.map(|number| (number, unit)), ROUNDINGS, steps)
     }
 
-    /// What a tolerance accounts for: the outputs of an impact whose energies and impulses are wrong by that much. Close to
-    /// the critical speed times change far more than the energy, and so does the end of a slip close to separation.
+    /// What a tolerance accounts for: the solution of a scene whose inputs are wrong by that much (its backward error). Close to
+    /// the critical speed times change far more than energies, and so do the end of a slip close to separation and the peak of a
+    /// sphere that nearly creeps.
     pub fn of_tolerance(scene: &Scene, truth: &Truth, tolerance: f64, steps: u32) -> Self {
-        let changes = [(SPEED, tolerance), (SPEED, -tolerance), (FRICTION, tolerance), (FRICTION, -tolerance)];
-        Self::of_changes(scene, truth, changes.into_iter(), 1.0, steps)
+        let numbers = scene.numbers();
+        let inputs = (0..INPUTS.len()).filter(|number| numbers[*number] != 0.0);
+        let upwards = inputs.map(|number| (number, tolerance));
+        // Where an outcome or a slip ends on one side alone.
+        let downwards = [(SPEED, -tolerance), (FRICTION, -tolerance)];
+        Self::of_changes(scene, truth, upwards.chain(downwards), 1.0, steps)
     }
 
     fn of_changes(

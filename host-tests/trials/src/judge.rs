@@ -27,7 +27,7 @@ pub struct Judge {
 pub struct OutputError {
     /// Less what the rounding of the inputs accounts for.
     pub size: f64,
-    /// Less also what the tolerance itself accounts for, where energies and impulses are wrong by that much.
+    /// Where it is far beyond the tolerance, less also what inputs account for that are wrong by the tolerance.
     pub unexplained: f64,
 }
 
@@ -153,7 +153,7 @@ impl Judge {
         };
         let rest = beyond(error, self.rounding(solver.number).outputs[index]);
         let size = rest / tolerance;
-        let unexplained = match size > 1.0 {
+        let unexplained = match size > FAR {
             true => beyond(rest, self.tolerated(solver.tolerance, index)) / tolerance,
             false => size,
         };
@@ -173,6 +173,9 @@ impl Judge {
         known.iter().find(|(of, _)| *of == tolerance).map_or(0.0, |(_, allowance)| allowance.outputs[index])
     }
 }
+
+/// Tolerances above which an error is far beyond.
+pub(crate) const FAR: f64 = 10.0;
 
 /// Tolerances from the boundary within which sliding may be taken for rolling.
 const FARTHEST: f64 = 10.0;

@@ -2,7 +2,7 @@
 
 use truth::{Double, Scene};
 
-use crate::judge::{Finding, Judge, OutputError};
+use crate::judge::{FAR, Finding, Judge, OutputError};
 use crate::output::{COUNT, Output};
 use crate::solver::Solver;
 
@@ -15,7 +15,7 @@ pub struct OutputErrors {
     pub beyond: u64,
     /// Those beyond ten times the tolerance.
     pub far_beyond: u64,
-    /// Those beyond ten times the tolerance that a tolerance for energies and impulses does not account for either.
+    /// Those beyond ten times the tolerance that inputs which are wrong by the tolerance do not account for either.
     pub unexplained: u64,
     /// The largest, over the tolerance.
     pub largest: f64,
@@ -144,8 +144,6 @@ impl Tally {
 
 impl OutputErrors {
     fn add(&mut self, error: OutputError) {
-        /// Tolerances that count as far.
-        const FAR: f64 = 10.0;
         self.compared += 1;
         self.beyond += u64::from(error.size > 1.0);
         self.far_beyond += u64::from(error.size > FAR);
