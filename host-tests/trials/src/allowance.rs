@@ -23,17 +23,17 @@ const FRICTION: usize = 7;
 const SPEED: usize = 10;
 
 impl Allowance {
-    /// What the rounding of the inputs accounts for: each changes by one unit of the number type, and the changes of the truth
-    /// are added.
+    /// What the rounding of the inputs accounts for: each changes by one unit of the number type, and the changes of
+    /// the truth are added.
     pub fn of_rounding(scene: &Scene, truth: &Truth, unit: f64, steps: u32) -> Self {
         let numbers = scene.numbers();
         let inputs = (0..INPUTS.len()).filter(|number| numbers[*number] != 0.0);
         Self::of_changes(scene, truth, inputs.map(|number| (number, unit)), ROUNDINGS, steps)
     }
 
-    /// What a tolerance accounts for: the solution of a scene whose inputs are wrong by that much (its backward error). Close to
-    /// the critical speed times change far more than energies, and so do the end of a slip close to separation and the peak of a
-    /// sphere that nearly creeps.
+    /// What a tolerance accounts for: the solution of a scene whose inputs are wrong by that much (its backward error).
+    /// Close to the critical speed times change far more than energies, and so do the end of a slip close to separation
+    /// and the peak of a sphere that nearly creeps.
     pub fn of_tolerance(scene: &Scene, truth: &Truth, tolerance: f64, steps: u32) -> Self {
         let numbers = scene.numbers();
         let inputs = (0..INPUTS.len()).filter(|number| numbers[*number] != 0.0);

@@ -32,7 +32,7 @@ pub struct OutputError {
 }
 
 /// What an answer is worth.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Finding {
     /// The truth does not know the outcome.
     Unknown,
@@ -52,7 +52,7 @@ pub enum Finding {
         /// Sliding for rolling or the reverse, farther from the boundary than the tolerance.
         wrong_class: bool,
         /// Of each output; `None` where it is not compared.
-        errors: [Option<OutputError>; COUNT],
+        errors: Box<[Option<OutputError>; COUNT]>,
     },
 }
 
@@ -90,7 +90,7 @@ impl Judge {
             (true, false) => Output::OF_CAPTURES,
             (false, _) => 0,
         };
-        let mut errors = [None; COUNT];
+        let mut errors = Box::new([None; COUNT]);
         for (index, output) in Output::ALL.into_iter().enumerate().take(compared) {
             let given = match output {
                 Output::RestitutionSquared => true,
@@ -105,17 +105,19 @@ impl Judge {
         Finding::Right { wrong_class: other_motion && !near(), errors }
     }
 
-    /// Whether the energy left differs from none by more than twice a stated error, and by more than the rounding of the
-    /// inputs accounts for.
+    /// Whether the energy left differs from none by more than twice a stated error, and by more than the rounding of
+    /// the inputs accounts for.
     fn is_clear(&self, solver: &Solver, stated_error: f64) -> bool {
         const ALLOWED: f64 = 2.0;
         let margin = self.truth.margin.map_or(f64::INFINITY, |margin| margin.to_f64().abs());
         let stated = ALLOWED * stated_error;
-        margin > stated && margin > stated + self.rounding(solver.number).margin
+        // Of a sphere that creeps to rest the truth has a bound, far from what rounding can change.
+        let creeps = self.truth.outcome == Some(truth::Outcome::Capture) && self.truth.turning.is_none();
+        margin > stated && (creeps || margin > stated + self.rounding(solver.number).margin)
     }
 
-    /// Whether the motion along the surface is not the true one. A captured sphere is said to roll as soon as friction will
-    /// end its slip.
+    /// Whether the motion along the surface is not the true one. A captured sphere is said to roll as soon as friction
+    /// will end its slip.
     fn is_other_motion(&self, rebounds: bool, (motion, slides): (SurfaceMotion, bool)) -> bool {
         let sliding = motion == SurfaceMotion::Sliding;
         if rebounds {
@@ -179,3 +181,93 @@ pub(crate) const FAR: f64 = 10.0;
 
 /// Tolerances from the boundary within which sliding may be taken for rolling.
 const FARTHEST: f64 = 10.0;
+
+#[cfg(test)]
+mod tests {
+    use microimpact::{Outcome, SurfaceMotion};
+    use reference::scenes::Kind;
+    use truth::Double;
+
+    use super::{Finding, Judge};
+    use crate::output::{COUNT, Output};
+    use crate::solver::{Answer, Solver, solvers};
+
+    /// A solver with a tolerance of 1e-6, and scenes with a kind of outcome.
+    fn judges(outcome: truth::Outcome) -> (Solver, impl Iterator<Item = Judge>) {
+        let solver = solvers().into_iter().find(|solver| solver.name == "Adaptive 1e-6").unwrap();
+        let scenes = (0..).map(|number| Judge::new(Kind::Mild.scene(9, number)));
+        (solver, scenes.filter(move |judge| judge.truth.outcome == Some(outcome)).take(20))
+    }
+
+    /// The answer that is right, but for one output that is wrong by a fraction of its scale.
+    fn answer(judge: &Judge, wrong: usize, error: f64) -> Answer {
+        let mut outputs = Box::new([None; COUNT]);
+        for (index, output) in Output::ALL.into_iter().enumerate() {
+            let scale = if index == wrong { output.scale(&judge.scene, &judge.truth) } else { 0.0 };
+            outputs[index] = output.of(&judge.truth).map(|value| value.to_f64() + error * scale);
+        }
+        let rebound = judge.truth.outcome == Some(truth::Outcome::Rebound);
+        let (outcome, slides) = (if rebound { Outcome::Rebound } else { Outcome::Capture }, !judge.truth.rolls);
+        let motion = if slides { SurfaceMotion::Sliding } else { SurfaceMotion::Rolling };
+        Answer::Solved { outcome, stated_error: 0.0, motion: Some((motion, slides)), outputs }
+    }
+
+    #[test]
+    fn the_right_answer_is_right_and_each_wrong_output_is_found() {
+        let (solver, judges) = judges(truth::Outcome::Rebound);
+        for judge in judges {
+            let found = |wrong, error| match judge.judge(&solver, &answer(&judge, wrong, error)) {
+                Finding::Right { wrong_class: false, errors } => errors.map(|error| error.map_or(0.0, |e| e.size)),
+                finding => panic!("{finding:?}"),
+            };
+            assert!(found(0, 0.0).iter().all(|error| *error < 1e-3), "{}", judge.scene);
+            for (wrong, output) in Output::ALL.into_iter().enumerate() {
+                // A million tolerances are more than any input accounts for.
+                let far = output.of(&judge.truth).is_none() || found(wrong, 1.0)[wrong] > 1e5;
+                assert!(far, "{}: {}", output.name(), judge.scene);
+            }
+        }
+    }
+
+    #[test]
+    fn wrong_outcomes_and_classes_are_found() {
+        for (outcome, other) in
+            [(truth::Outcome::Rebound, Outcome::Capture), (truth::Outcome::Capture, Outcome::Rebound)]
+        {
+            let (solver, judges) = judges(outcome);
+            for judge in judges {
+                let right = answer(&judge, 0, 0.0);
+                let Answer::Solved { motion, stated_error, outcome: same, outputs } = right else { unreachable!() };
+                let wrong = Answer::Solved { outcome: other, motion, stated_error, outputs: outputs.clone() };
+                assert!(matches!(judge.judge(&solver, &wrong), Finding::WrongOutcome), "{}", judge.scene);
+                if outcome == truth::Outcome::Rebound
+                    && judge.truth.slip_margin.is_some_and(|margin| margin.abs() > Double::from(0.01))
+                {
+                    let slides = judge.truth.rolls;
+                    let motion = if slides { SurfaceMotion::Sliding } else { SurfaceMotion::Rolling };
+                    let wrong = Answer::Solved { outcome: same, motion: Some((motion, slides)), stated_error, outputs };
+                    let finding = judge.judge(&solver, &wrong);
+                    assert!(matches!(finding, Finding::Right { wrong_class: true, .. }), "{}", judge.scene);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn undecided_is_needless_only_far_from_the_boundary() {
+        let (solver, judges) = judges(truth::Outcome::Capture);
+        for judge in judges {
+            let margin = judge.truth.margin.unwrap().to_f64().abs();
+            let needless = |stated_error| {
+                let answer = Answer::Solved {
+                    outcome: Outcome::Undecided,
+                    motion: None,
+                    stated_error,
+                    outputs: Default::default(),
+                };
+                matches!(judge.judge(&solver, &answer), Finding::Undecided { needless: true })
+            };
+            assert!(needless(0.4 * margin) && !needless(0.6 * margin), "{}: {margin}", judge.scene);
+        }
+    }
+}

@@ -1,5 +1,5 @@
-//! How often each method and number type is right, undecided, refused or beyond its tolerance, over random scenes, judged by
-//! an independent truth.
+//! How often each method and number type is right, undecided, refused or beyond its tolerance, over random scenes,
+//! judged by an independent truth.
 
 mod allowance;
 mod judge;

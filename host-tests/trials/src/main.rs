@@ -23,8 +23,8 @@ struct Arguments {
     /// Print the errors of each output
     #[arg(long)]
     outputs: bool,
-    /// Print so many of the worst scenes of each method: radius, density, gyration ratio, stiffness, adhesion, zeta_H, zeta_A,
-    /// friction, peeling, force, speed, tangential velocity and spin, all in SI units
+    /// Print so many of the worst scenes of each method: radius, density, gyration ratio, stiffness, adhesion, zeta_H,
+    /// zeta_A, friction, peeling, force, speed, tangential velocity and spin, all in SI units
     #[arg(long, default_value_t = 0)]
     worst: usize,
 }

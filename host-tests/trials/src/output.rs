@@ -110,7 +110,8 @@ impl Output {
         }
     }
 
-    /// The scale of an error: one for e^2, otherwise the natural size of the quantity, or its own size where that is larger.
+    /// The scale of an error: one for e^2, otherwise the natural size of the quantity, or its own size where that is
+    /// larger.
     pub fn scale(self, scene: &Scene, truth: &Truth) -> f64 {
         let time = truth.peak_time.map_or(truth.time, |peak| peak.max(truth.time)).to_f64();
         let momentum = mass(scene) * scene.speed;

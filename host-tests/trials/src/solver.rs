@@ -43,7 +43,7 @@ impl Number {
 }
 
 /// What a solver says of a scene.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Answer {
     /// The inputs are outside a range, or the scene has a term that the solver does not know.
     Refused,
@@ -58,7 +58,7 @@ pub enum Answer {
         /// How the contact point moves, by the velocities after the impact and by the slip history.
         motion: Option<(SurfaceMotion, bool)>,
         /// In the order of [`Output::ALL`](crate::Output::ALL); `None` where a quantity does not exist.
-        outputs: [Option<f64>; COUNT],
+        outputs: Box<[Option<f64>; COUNT]>,
     },
 }
 
@@ -124,8 +124,8 @@ impl Solver {
 
 /// All solvers that are compared.
 ///
-/// Methods that control their error have their tolerance. Those of fixed cost have the error that their documentation states for mild
-/// damping.
+/// Methods that control their error have their tolerance. Those of fixed cost have the error that their documentation
+/// states for mild damping.
 pub fn solvers() -> Vec<Solver> {
     use Number::{Double, Single};
     vec![
@@ -210,7 +210,7 @@ fn answer<T: Real>(
         outcome,
         stated_error: tolerance.max(run.estimated_error.to_f64()),
         motion: Some((tangential.motion(), slip.slides)),
-        outputs: [
+        outputs: Box::new([
             Some(e * e),
             normal.peak_indentation().and_then(some),
             normal.turning_indentation().and_then(some),
@@ -227,7 +227,7 @@ fn answer<T: Real>(
             some(slip.spin),
             some(slip.rotation),
             some(slip.displacement),
-        ],
+        ]),
     }
 }
 
@@ -245,7 +245,7 @@ fn in_fixed_point(scene: &Scene, method: &impl Method<FixedPoint>, tolerance: f6
     let Some(outcome) = contact.outcome.filter(|_| contact.status == Status::Solved) else {
         return Ok(Answer::Unsolved);
     };
-    let mut outputs = [None; COUNT];
+    let mut outputs = Box::new([None; COUNT]);
     outputs[0] = Some(contact.restitution_squared.to_f64());
     Ok(Answer::Solved { outcome, stated_error: tolerance, motion: None, outputs })
 }

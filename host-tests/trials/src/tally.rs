@@ -100,7 +100,7 @@ impl Tally {
                     self.wrong_classes += 1;
                     self.keep(&judge.scene, WRONG_CLASS, || format!("class, margin of the slip {slip:.1e}"));
                 }
-                for ((counts, error), output) in self.outputs.iter_mut().zip(errors).zip(Output::ALL) {
+                for ((counts, error), output) in self.outputs.iter_mut().zip(*errors).zip(Output::ALL) {
                     if let Some(error) = error {
                         counts.add(error);
                         if error.size > 1.0 {

@@ -1,7 +1,7 @@
 //! Double-double arithmetic: a number is the sum of two f64, which hold 31 digits.
 //!
-//! The crate `twofloat` 0.8 divides to 16 digits only. Products use Dekker's splitting, because a fused multiply-add is a
-//! call of the C library on processors that are not known to have one.
+//! The crate `twofloat` 0.8 divides to 16 digits only. Products use Dekker's splitting, because a fused multiply-add is
+//! a call of the C library on processors that are not known to have one.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::str::FromStr;

@@ -13,8 +13,8 @@ pub enum Outcome {
     Capture,
 }
 
-/// The solution of a scene in SI units. Velocities, works, impulses and paths are those of a rebound at separation; of a
-/// capture, those where the sphere first turns back or where the computation stopped.
+/// The solution of a scene in SI units. Velocities, works, impulses and paths are those of a rebound at separation; of
+/// a capture, those where the sphere first turns back or where the computation stopped.
 #[derive(Clone, Copy, Debug)]
 pub struct Truth {
     /// `None` where the steps did not suffice.
@@ -25,9 +25,9 @@ pub struct Truth {
     pub rolls: bool,
     /// Steps of the series.
     pub steps: u32,
-    /// Energy beyond what a rebound needs, over the initial kinetic energy; negative for a capture. If a barrier has to be
-    /// passed on arrival, the smaller of both distances. Of a sphere that creeps to rest, the energy it has where that is proven.
-    /// `None` where it is not known.
+    /// Energy beyond what a rebound needs, over the initial kinetic energy; negative for a capture. If a barrier has to
+    /// be passed on arrival, the smaller of both distances. Of a sphere that creeps to rest, the energy it has where
+    /// that is proven. `None` where it is not known.
     pub margin: Option<Double>,
     /// e^2, zero for a capture.
     pub restitution_squared: Double,
@@ -62,7 +62,8 @@ pub struct Truth {
     /// Displacement of the centre along the surface, m.
     pub displacement: Double,
     /// How far the motion along the surface is from the other kind: change of the slip that friction could still have
-    /// produced after the slip ended, over the initial slip; negative for the slip that remains. `None` where there was none.
+    /// produced after the slip ended, over the initial slip; negative for the slip that remains. `None` where there was
+    /// none.
     pub slip_margin: Option<Double>,
     /// h, damping of the materials for the unit of speed.
     pub material_group: f64,
@@ -191,8 +192,8 @@ impl Dimensionless {
 
     /// Whether a sphere at s with a speed y towards the equilibrium gets there without turning or passing it.
     ///
-    /// It stays below the line y = m (`equilibrium` - s) if on that line dy/dsigma <= -m y. With m the least damping between here
-    /// and there this holds where 2 s Q(s) <= m^2, with `pull` = (`equilibrium` - s) Q.
+    /// It stays below the line y = m (`equilibrium` - s) if on that line dy/dsigma <= -m y. With m the least damping
+    /// between here and there this holds where 2 s Q(s) <= m^2, with `pull` = (`equilibrium` - s) Q.
     fn creeps(&self, s: Double, y: Double, rebound: bool) -> bool {
         /// More than the rounding of f64.
         const MARGIN: f64 = 1e-9;
@@ -236,7 +237,7 @@ use Quantity as Q;
 
 const QUANTITIES: usize = 10;
 
-/// Slip, rolling or neither.
+/// How the contact point moves.
 #[derive(Clone, Copy, PartialEq)]
 enum Surface {
     Slides,
@@ -354,7 +355,8 @@ impl Path<'_> {
         }
     }
 
-    /// Length of the step whose last term is as small as the tolerance, from the radius of convergence that the last terms show.
+    /// Length of the step whose last term is as small as the tolerance, from the radius of convergence that the last
+    /// terms show.
     fn longest_step(&self) -> f64 {
         /// From first contact without adhesion only one in five coefficients differs from zero.
         const GAP: usize = 4;
