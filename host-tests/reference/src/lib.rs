@@ -3,6 +3,7 @@
 
 pub mod c_results;
 pub mod grids;
+pub mod scenes;
 
 use microimpact::contact::{Contact, PaperScene};
 use microimpact::{InputError, NormalMotion, PlanarMotion, Real, Sphere, Stiffness};

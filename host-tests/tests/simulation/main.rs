@@ -20,4 +20,5 @@ mod simulation_reference;
 mod solver_direct;
 mod tables;
 mod trajectory;
+mod trials;
 mod uncertainty;

@@ -1,0 +1,80 @@
+//! What every method and number type promises, over random scenes of all physics, judged by an independent truth.
+
+use std::fmt::Write;
+use std::sync::LazyLock;
+
+use reference::repetitions;
+use reference::scenes::Kind;
+use trials::{OutputErrors, Solver, Tally, run, solvers};
+
+const SEED: u64 = 1;
+
+/// All solvers with what they did over the scenes of each kind.
+struct Trials {
+    solvers: Vec<Solver>,
+    tallies: Vec<(Kind, Vec<Tally>)>,
+}
+
+static TRIALS: LazyLock<Trials> = LazyLock::new(|| {
+    let mut solvers = solvers();
+    // The paper's own method has no estimate of its error, and does not claim to decide.
+    solvers.retain(|solver| !solver.name.starts_with("RungeKuttaGill"));
+    let scenes = repetitions(1500, 40);
+    let tallies = Kind::ALL.map(|kind| (kind, run(kind, SEED, scenes, &solvers)));
+    Trials { solvers, tallies: tallies.into() }
+});
+
+/// Fails with the worst scenes of each solver of which `count` is not zero.
+fn assert_none(of: impl Fn(&Solver) -> bool, count: impl Fn(&Tally) -> u64) {
+    let mut faults = String::new();
+    for (kind, tallies) in &TRIALS.tallies {
+        for (solver, tally) in TRIALS.solvers.iter().zip(tallies) {
+            let found = if of(solver) { count(tally) } else { 0 };
+            if found > 0 {
+                let (kind, name, number) = (kind.name(), solver.name, solver.number.name());
+                let _ = writeln!(faults, "{kind}, {name} {number}: {found} of {}", tally.scenes);
+                for example in tally.worst.iter().take(2) {
+                    let _ = writeln!(faults, "    {}: {}", example.fault, example.scene);
+                }
+            }
+        }
+    }
+    assert!(faults.is_empty(), "\n{faults}");
+}
+
+/// The scenes are not all alike, and the truth knows nearly all of them.
+#[test]
+fn the_truth_knows_the_scenes() {
+    for (kind, tallies) in &TRIALS.tallies {
+        let known = tallies[0].scenes - tallies[0].unknown;
+        assert!(known * 10 >= tallies[0].scenes * 8, "{}: {known} of {}", kind.name(), tallies[0].scenes);
+    }
+}
+
+#[test]
+fn no_outcome_that_is_said_to_be_solved_is_wrong() {
+    assert_none(|_| true, |tally| tally.wrong_outcomes);
+}
+
+#[test]
+fn no_class_is_wrong() {
+    assert_none(|_| true, |tally| tally.wrong_classes);
+}
+
+#[test]
+fn only_scenes_closer_than_twice_the_stated_error_are_undecided() {
+    assert_none(|_| true, |tally| tally.needless);
+}
+
+/// In double precision.
+#[test]
+fn methods_that_control_their_error_solve_all_scenes() {
+    assert_none(|solver| solver.follows_captures && solver.number.name() == "f64", |tally| tally.unsolved);
+}
+
+/// To ten times the tolerance, or as far as inputs that are wrong by the tolerance account for more.
+#[test]
+fn outputs_of_methods_that_control_their_error_are_within_it() {
+    let unexplained = |errors: &OutputErrors| errors.unexplained;
+    assert_none(|solver| solver.follows_captures, |tally| tally.outputs.iter().map(unexplained).sum());
+}
