@@ -25,7 +25,7 @@ pub use error::CalibrationError;
 pub use restitution::RestitutionFit;
 pub use robust::{Estimate, Location};
 pub use tangential::{ImpulseRatios, friction, rolling_motion};
-pub use uncertainty::{ClassProbabilities, NormalDistribution, rebound_probability, stopped_slip};
+pub use uncertainty::{ClassProbabilities, Classifiable, NormalDistribution, Uncertain};
 
 use crate::{InputError, NormalMotion, Parameter, Real};
 
