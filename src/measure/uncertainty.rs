@@ -68,12 +68,6 @@ macro_rules! impl_normal_distribution {
 impl_normal_distribution!(f32, libm::erfcf);
 impl_normal_distribution!(f64, libm::erfc);
 
-/// Density of the standard normal distribution.
-fn density<T: Real>(x: T) -> T {
-    const FRAC_1_SQRT_2PI: f64 = 0.398_942_280_401_432_7;
-    T::constant(FRAC_1_SQRT_2PI) * (T::constant(-0.5) * x * x).exp()
-}
-
 /// Number of standard errors beyond which an outcome or a motion is certain: the probability of the other is 3e-6.
 const CERTAIN: f64 = 4.5;
 
@@ -87,39 +81,25 @@ const CERTAIN: f64 = 4.5;
 pub struct Uncertain<T> {
     value: T,
     error: T,
-    /// Bounds in standard errors from the value.
-    bounds: (T, T),
-    range: Option<(T, T)>,
+    /// Distances of the bounds from the value, in standard errors.
+    bounds: [T; 2],
 }
 
 impl<T: Real> Uncertain<T> {
     /// Creates an input.
     pub fn new(value: T, error: T) -> Result<Self, InputError> {
         let error = Parameter::StandardError.check(error)?;
-        let far = T::constant(FAR);
-        Ok(Self { value, error, bounds: (-far, far), range: None })
+        Ok(Self { value, error, bounds: [T::constant(FAR); 2] })
     }
 
     /// Bounds the input by the range of a `parameter`.
     pub fn within(self, parameter: Parameter) -> Result<Self, InputError> {
         let value = parameter.check(self.value)?;
         let (smallest, largest) = parameter.range();
-        let (smallest, largest) = (T::constant(smallest), T::constant(largest));
         let far = T::constant(FAR);
-        let distance = |bound: T| {
-            let distance = (bound - value).abs();
-            if distance < far * self.error { distance / self.error } else { far }
-        };
-        Ok(Self { bounds: (-distance(smallest), distance(largest)), range: Some((smallest, largest)), ..self })
-    }
-
-    /// The input that deviates by a number of standard errors.
-    fn at(&self, deviation: T) -> T {
-        let value = self.value + deviation * self.error;
-        match self.range {
-            Some((smallest, largest)) => value.max(smallest).min(largest),
-            None => value,
-        }
+        let bounds = [value - T::constant(smallest), T::constant(largest) - value]
+            .map(|distance| if distance < far * self.error { distance / self.error } else { far });
+        Ok(Self { bounds, ..self })
     }
 }
 
@@ -232,15 +212,23 @@ pub struct ClassProbabilities<T> {
     sliding: [T; 2],
 }
 
-/// Distance of the points of the expansion from the value, in standard errors: with it, means are exact for polynomials of
+
+/// Distance of the points of an expansion from its centre, in standard errors: with it, means are exact for polynomials of
 /// the fifth degree (Gauss and Hermite).
 const STEP: f64 = 1.732_050_807_568_877_2;
 
 /// Number of rebounds for which the stopped slip is computed.
 const REBOUNDS: usize = 3;
 
-/// The energies of these rebounds: e/R as a fraction of the largest one.
-const FRACTIONS: [f64; REBOUNDS] = [0.1, 0.55, 1.0];
+/// These rebounds: the square root of the part of the energy that remains, without the loss of the material. The last one is
+/// that of 1.7 times the critical speed.
+const REMAINDERS: [f64; REBOUNDS] = [0.08, 0.44, 0.8];
+
+/// Stopped slips: those of the rebounds, then that of a capture.
+const STOPPED: usize = REBOUNDS + 1;
+
+/// Distance of a bound, in standard errors, from which on it has no effect: the probability to be beyond is 2e-3.
+const BEYOND: f64 = 2.9;
 
 /// Largest curvature of a Cornish-Fisher expansion. With it, the expansion increases up to five standard errors.
 const LARGEST_CURVATURE: f64 = 0.1;
@@ -265,48 +253,17 @@ fn quantile<T: Real>(value: T, curvature: T) -> T {
     T::constant(2.0) * shifted / (T::ONE + root)
 }
 
-/// The points at which an input is varied, and the moments of the clipped normal variable u.
-struct Stencil<T> {
-    centre: T,
-    step: T,
-    /// Means of u and u^2 over the Hermite polynomials 1, z and (z^2 - 1)/2.
-    first: [T; 3],
-    second: [T; 3],
-}
-
-impl<T: NormalDistribution> Stencil<T> {
-    fn new((low, high): (T, T)) -> Self {
-        let half = T::constant(0.5);
-        let step = T::constant(STEP).min(half * (high - low));
-        let centre = T::ZERO.max(low + step).min(high - step);
-        let far = T::constant(FAR);
-        if low <= -far && high >= far {
-            let (zero, one) = (T::ZERO, T::ONE);
-            return Self { centre, step, first: [zero, one, zero], second: [one, zero, one] };
-        }
-        let (below, above) = (low.below(), (-high).below());
-        let (at_low, at_high) = (density(low), density(high));
-        let inside = T::ONE - below - above;
-        let square_inside = inside + low * at_low - high * at_high;
-        let first = [at_low - at_high + low * below + high * above, inside, half * (at_low - at_high)];
-        let second = [
-            square_inside + low * low * below + high * high * above,
-            T::constant(2.0) * (at_low - at_high),
-            square_inside,
-        ];
-        Self { centre, step, first, second }
-    }
-
-    /// Coefficients of 1, z and z^2 - 1 of a function, from its values at the centre less a step, the centre, and the centre
-    /// plus a step.
-    fn coefficients(&self, [below, centre, above]: [T; 3]) -> [T; 3] {
-        let (half, two) = (T::constant(0.5), T::constant(2.0));
-        let square = half * (above - two * centre + below) / (self.step * self.step);
-        let slope = half * (above - below) / self.step - two * square * self.centre;
-        let constant = centre - (slope + square * self.centre) * self.centre;
-        let [[a, b, c], [d, e, f]] = [self.first, self.second];
-        [constant + slope * a + square * d, slope * b + square * e, slope * c + square * f]
-    }
+/// Probability that a standard normal variable is below `x`, with an error of 1e-7, and its density there.
+///
+/// Both take one exponential function (Hastings 1955; Abramowitz and Stegun 26.2.17), where `erfc` takes two more.
+fn normal<T: Real>(x: T) -> (T, T) {
+    const FRAC_1_SQRT_2PI: f64 = 0.398_942_280_401_432_7;
+    const SCALE: f64 = 0.231_641_9;
+    const COEFFICIENTS: [f64; 5] = [1.330_274_429, -1.821_255_978, 1.781_477_937, -0.356_563_782, 0.319_381_530];
+    let density = T::constant(FRAC_1_SQRT_2PI) * (T::constant(-0.5) * x * x).exp();
+    let t = T::ONE / (T::ONE + T::constant(SCALE) * x.abs());
+    let tail = density * COEFFICIENTS.iter().fold(T::ZERO, |sum, c| (sum + T::constant(*c)) * t);
+    (if x < T::ZERO { tail } else { T::ONE - tail }, density)
 }
 
 /// A quantity as a sum of Hermite polynomials of the deviations z, up to the second degree.
@@ -318,18 +275,30 @@ struct Expansion<T, const N: usize> {
     square: [T; N],
 }
 
-impl<T: NormalDistribution, const N: usize> Expansion<T, N> {
+impl<T: Real, const N: usize> Expansion<T, N> {
     fn constant(mean: T) -> Self {
         Self { mean, linear: [T::ZERO; N], square: [T::ZERO; N] }
     }
 
-    /// Adds what one input contributes, given the value without deviations.
-    fn add(&mut self, input: usize, stencil: &Stencil<T>, value: T, values: [T; 3]) {
-        let [mean, linear, square] = stencil.coefficients(values);
-        self.mean = self.mean + mean - value;
-        if let (Some(l), Some(s)) = (self.linear.get_mut(input), self.square.get_mut(input)) {
-            (*l, *s) = (linear, square);
+    /// Adds the effect of an input, from its values at the deviations `centre` less `step`, `centre`, `centre` plus `step`.
+    fn add(&mut self, input: usize, centre: T, step: T, [below, middle, above]: [T; 3]) {
+        let half = T::constant(0.5);
+        let curvature = half * (above - middle - (middle - below)) / (step * step);
+        let slope = half * (above - below) / step - T::constant(2.0) * curvature * centre;
+        // From the value without deviations to the mean.
+        self.mean = self.mean + curvature;
+        if let (Some(linear), Some(square)) = (self.linear.get_mut(input), self.square.get_mut(input)) {
+            (*linear, *square) = (slope, curvature);
         }
+    }
+
+    /// The expansion for a given deviation of one input.
+    fn with(mut self, input: usize, z: T) -> Self {
+        if let (Some(linear), Some(square)) = (self.linear.get_mut(input), self.square.get_mut(input)) {
+            self.mean = self.mean + *linear * z + *square * (z * z - T::ONE);
+            (*linear, *square) = (T::ZERO, T::ZERO);
+        }
+        self
     }
 }
 
@@ -337,9 +306,212 @@ fn dot<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
     a.iter().zip(b).fold(T::ZERO, |sum, (a, b)| sum + *a * *b)
 }
 
-/// Sum of a b c.
-fn triple<T: Real, const N: usize>(a: &[T; N], b: &[T; N], c: &[T; N]) -> T {
-    a.iter().zip(b).zip(c).fold(T::ZERO, |sum, ((a, b), c)| sum + *a * *b * *c)
+/// Twice the sum of a b c: the product of two vectors with a diagonal matrix of second derivatives.
+fn bilinear<T: Real, const N: usize>(a: &[T; N], diagonal: &[T; N], b: &[T; N]) -> T {
+    let sum = a.iter().zip(b).zip(diagonal).fold(T::ZERO, |sum, ((a, b), c)| sum + *a * *b * *c);
+    sum + sum
+}
+
+/// The normal variable zeta on which the ratio of the speeds depends:
+/// zeta = direction z + bend (z^2 - 1) - curvature (zeta^2 - 1).
+struct Zeta<T, const N: usize> {
+    direction: [T; N],
+    bend: [T; N],
+    curvature: T,
+}
+
+/// A quantity X for a given zeta: its mean is `mean` + `along` zeta + `second` (zeta^2 - 1).
+struct Given<'a, T, const N: usize> {
+    zeta: &'a Zeta<T, N>,
+    mean: T,
+    along: T,
+    second: T,
+    /// Gradient of X across zeta.
+    across: [T; N],
+    /// Diagonal part of half of the second derivatives of X.
+    square: &'a [T; N],
+    /// The other part is the square of this gradient, if X is a product of powers of the inputs.
+    product: Option<&'a [T; N]>,
+}
+
+impl<'a, T: Real, const N: usize> Given<'a, T, N> {
+    fn new(zeta: &'a Zeta<T, N>, x: &'a Expansion<T, N>, is_product: bool) -> Self {
+        let half = T::constant(0.5);
+        let beta = &zeta.direction;
+        let g = &x.linear;
+        let along = dot(g, beta);
+        let mut across = *g;
+        for (across, beta) in across.iter_mut().zip(beta) {
+            *across = *across - along * *beta;
+        }
+        let (mean, product) = if is_product { (T::ONE + half * dot(g, g), Some(g)) } else { (x.mean, None) };
+        let mut given = Self { zeta, mean, along, second: T::ZERO, across, square: &x.square, product };
+        let bent = bilinear(g, &zeta.bend, beta) - T::constant(2.0) * zeta.curvature * along;
+        given.second = half * given.curved(beta, beta) + bent;
+        given
+    }
+
+    /// Second derivative of X in two directions.
+    fn curved(&self, a: &[T; N], b: &[T; N]) -> T {
+        let curved = bilinear(a, self.square, b);
+        self.product.map_or(curved, |g| curved + dot(a, g) * dot(b, g))
+    }
+
+    /// The same at constant zeta.
+    fn curved_across(&self, a: &[T; N], b: &[T; N]) -> T {
+        self.curved(a, b) - self.along * bilinear(a, &self.zeta.bend, b)
+    }
+
+    /// Covariance with Y for zeta = 0, and its derivative with respect to zeta.
+    fn covariance(&self, y: &Self) -> [T; 2] {
+        let beta = &self.zeta.direction;
+        let slope = self.curved_across(beta, &y.across) + y.curved_across(beta, &self.across);
+        [dot(&self.across, &y.across), slope + bilinear(&self.across, &self.zeta.bend, &y.across)]
+    }
+
+    /// Third cumulant of X, X and Y.
+    fn third(&self, y: &Self) -> T {
+        T::constant(2.0) * self.curved_across(&self.across, &y.across) + y.curved_across(&self.across, &self.across)
+    }
+}
+
+/// What the slip that friction stops contributes to the moments of the excess slip: the stopped slip, the three coefficients
+/// of its mean, its variance and covariance with the slip and their derivatives, and three third cumulants. All but the first
+/// are for a stopped slip of one.
+const MOMENTS: usize = 11;
+
+/// Moments of the slip less the stopped slip for a given zeta.
+struct Excess<'a, T, const N: usize> {
+    slip: Given<'a, T, N>,
+    variance: [T; 2],
+    third: T,
+}
+
+impl<'a, T: Real, const N: usize> Excess<'a, T, N> {
+    fn new(zeta: &'a Zeta<T, N>, slip: &'a Expansion<T, N>) -> Self {
+        let slip = Given::new(zeta, slip, false);
+        let (variance, third) = (slip.covariance(&slip), slip.third(&slip));
+        Self { slip, variance, third }
+    }
+
+    fn moments(&self, stopped: &Stopped<T, N>) -> [T; MOMENTS] {
+        let value = absolute(stopped.relative.mean, stopped.value);
+        let y = Given::new(self.slip.zeta, &stopped.relative, true);
+        let ([a, b], [c, d]) = (y.covariance(&y), self.slip.covariance(&y));
+        [value, y.mean, y.along, y.second, a, b, c, d, self.slip.third(&y), y.third(&self.slip), y.third(&y)]
+    }
+
+    /// Scores for both directions of the slip: the probability of sliding is that of a normal variable below the score.
+    fn scores(&self, zeta: T, multiple: T, stopped: [T; MOMENTS]) -> [T; 2] {
+        let [value, mean, along, second, y, y_slope, mixed, mixed_slope, ssy, syy, yyy] = stopped;
+        let (value, curved) = (value * multiple, zeta * zeta - T::ONE);
+        let (two, three) = (T::constant(2.0), T::constant(3.0));
+        let stopped = value * (mean + along * zeta + second * curved);
+        let slip = self.slip.mean + self.slip.along * zeta + self.slip.second * curved;
+        let [s, s_slope] = self.variance;
+        let variance = s + value * value * y;
+        let variance_slope = s_slope + value * value * y_slope;
+        [T::ONE, -T::ONE].map(|sign| {
+            let twice = sign * two * value;
+            let constant = variance - twice * mixed;
+            let variance = (constant + zeta * (variance_slope - twice * mixed_slope)).max(T::constant(0.25) * constant);
+            let third = sign * (self.third + three * value * value * syy) - value * (three * ssy + value * value * yyy);
+            score(sign * slip - stopped, variance, third)
+        })
+    }
+}
+
+/// Standard normal variable below which a variable with these moments is positive (Cornish and Fisher 1938).
+fn score<T: Real>(mean: T, variance: T, third: T) -> T {
+    let far = T::constant(FAR);
+    let error = variance.max(T::ZERO).sqrt();
+    // Beyond, no skew matters.
+    if mean.abs() >= T::constant(2.0) * far * error {
+        return if mean > T::ZERO { far } else { -far };
+    }
+    let bound = T::constant(LARGEST_CURVATURE);
+    let curvature = (third / T::constant(6.0)).saturating_div(variance * error).max(-bound).min(bound);
+    T::ZERO - quantile(T::ZERO - mean / error, curvature)
+}
+
+/// The integrand at an edge of a panel.
+struct Edge<T> {
+    zeta: T,
+    /// Probability of a smaller zeta, and density.
+    weight: (T, T),
+    /// Score, probability of sliding, and density of the score, for both directions of the slip.
+    sliding: [(T, (T, T)); 2],
+}
+
+impl<T: Real> Edge<T> {
+    fn new(zeta: T, scores: [T; 2]) -> Self {
+        let certain = T::constant(CERTAIN);
+        let sliding = scores.map(|score| {
+            if score <= -certain {
+                (-certain, (T::ZERO, T::ZERO))
+            } else if score >= certain {
+                (certain, (T::ONE, T::ZERO))
+            } else {
+                (score, normal(score))
+            }
+        });
+        Self { zeta, weight: normal(zeta), sliding }
+    }
+
+    /// Integral of the probability of sliding between this edge and the next one.
+    ///
+    /// Between the edges, the score is linear, and so is the density of zeta. The integral is exact for any slope of the
+    /// score, so that steps of the probability are integrated too.
+    fn panel(&self, next: &Self) -> T {
+        let half = T::constant(0.5);
+        let width = next.zeta - self.zeta;
+        let mass = next.weight.0 - self.weight.0;
+        // The first moment about the middle.
+        let tilt = self.weight.1 - next.weight.1 - half * (self.zeta + next.zeta) * mass;
+        let mut sum = T::ZERO;
+        for (&(x, (below, density)), &(next_x, (next_below, next_density))) in self.sliding.iter().zip(&next.sliding) {
+            let step = next_x - x;
+            let (mean, slope) = if step.abs() < T::constant(0.3) {
+                // The closed form would lose digits.
+                (half * (below + next_below), (next_below - below) / width)
+            } else {
+                // Repeated integrals of the normal distribution.
+                let once = |x: T, below: T, density: T| x * below + density;
+                let twice = |x: T, below: T, density: T| half * ((x * x + T::ONE) * below + x * density);
+                let (a, b) = (once(x, below, density), once(next_x, next_below, next_density));
+                let rise = twice(next_x, next_below, next_density) - twice(x, below, density);
+                let slope = T::constant(12.0) * (half * step * (a + b) - rise) / (step * step * width);
+                ((b - a) / step, slope)
+            };
+            sum = sum + mass * mean + tilt * slope;
+        }
+        sum
+    }
+}
+
+/// Distances in zeta of the edges of panels from the critical speed upwards. The panels are narrow where the rebound speed
+/// rises as a root.
+const REBOUND_EDGES: [f64; 9] = [0.09, 0.36, 0.8, 1.4, 2.0, 2.7, 3.6, 5.0, 9.0];
+
+/// The same from the critical speed downwards.
+const CAPTURE_EDGES: [f64; 7] = [-0.7, -1.4, -2.1, -2.9, -4.0, -6.0, -9.0];
+
+/// Integral of the probability of sliding from `zeta` on over panels.
+fn integral<T: Real>(zeta: T, distances: &[f64], scores: impl Fn(T) -> [T; 2]) -> T {
+    let limit = T::constant(CERTAIN);
+    let mut edge = Edge::new(zeta, scores(zeta));
+    let mut sum = T::ZERO;
+    for distance in distances {
+        let next = (zeta + T::constant(*distance)).max(-limit).min(limit);
+        if next == edge.zeta {
+            break;
+        }
+        let next = Edge::new(next, scores(next));
+        // A panel downwards has a negative mass.
+        sum = sum + edge.panel(&next);
+        edge = next;
+    }
+    sum.abs()
 }
 
 /// The slip that friction stops: its value without deviations, and the expansion of the [`relative`] difference to it.
@@ -349,316 +521,235 @@ struct Stopped<T, const N: usize> {
     relative: Expansion<T, N>,
 }
 
-/// The normal variable zeta on which the ratio of the speeds depends:
-/// zeta = sum of direction z + bend (z^2 - 1), less curvature (zeta^2 - 1).
-struct Margin<T, const N: usize> {
-    direction: [T; N],
-    bend: [T; N],
-    curvature: T,
+/// Expansions of what decides the class.
+#[derive(Clone, Copy)]
+struct Expanded<T, const N: usize> {
+    /// Ratio of the speed to the critical speed without deviations, and the [`relative`] difference to it.
+    ratio: T,
+    speeds: Expansion<T, N>,
+    slip: Expansion<T, N>,
+    /// For rebounds at multiples of the critical speed, divided by the multiple; then for captures at the critical speed.
+    /// `None` if friction stops every slip.
+    stopped: [Option<Stopped<T, N>>; STOPPED],
 }
 
-impl<T: NormalDistribution, const N: usize> Margin<T, N> {
-    /// A variable on which nothing depends.
-    fn none() -> Self {
-        Self { direction: [T::ZERO; N], bend: [T::ZERO; N], curvature: T::ZERO }
-    }
-
-    /// The normal variable that is above zero for slip beyond the stopped slip, in the direction of `sign`, at this zeta:
-    /// the probability of sliding in this direction is that of a standard normal variable below the score.
-    fn score(&self, zeta: T, sign: T, slip: &Expansion<T, N>, stopped: &Stopped<T, N>) -> T {
-        let (half, two) = (T::constant(0.5), T::constant(2.0));
-        let Self { direction: beta, bend, curvature } = self;
-        let relative = &stopped.relative;
-        let y = absolute(relative.mean, stopped.value);
-        // The excess is g z + z H z/2 with H = 2 h - y a a'. A product of inputs is the exponential of the sum of their
-        // logarithms, which gives a a'.
-        let a = &relative.linear;
-        let (mut g, mut h) = (slip.linear, slip.square);
-        for ((g, h), (a, d)) in g.iter_mut().zip(&mut h).zip(a.iter().zip(&relative.square)) {
-            *g = sign * *g - y * *a;
-            *h = sign * *h - y * *d;
-        }
-        let mean = sign * slip.mean - y * (T::ONE + half * dot(a, a));
-        let along = dot(&g, beta);
-        let a_along = dot(a, beta);
-        let bend_along = two * triple(bend, &g, beta) - two * *curvature * along;
-        let second = half * (two * triple(&h, beta, beta) - y * a_along * a_along) + bend_along;
-        let mut across = g;
-        for (across, beta) in across.iter_mut().zip(beta) {
-            *across = *across - along * *beta;
-        }
-        let a_across = dot(a, &across);
-        let bent = two * triple(bend, &across, &across);
-        let mixed = two * triple(&h, beta, &across) - y * a_along * a_across - along * two * triple(bend, beta, &across);
-        let constant = dot(&across, &across);
-        let variance = (constant + zeta * (two * mixed + bent)).max(T::constant(0.25) * constant);
-        let third = two * triple(&h, &across, &across) - y * a_across * a_across - along * bent;
-        let expected = mean + along * zeta + second * (zeta * zeta - T::ONE);
-        let far = T::constant(FAR);
-        let error = variance.sqrt();
-        if error <= T::ZERO {
-            return if expected > T::ZERO { far } else { -far };
-        }
-        let bound = T::constant(LARGEST_CURVATURE);
-        let skew = (half * third).saturating_div(variance * error).max(-bound).min(bound);
-        -quantile((-expected).saturating_div(error).max(-far - far).min(far + far), skew)
-    }
-
-    /// Probability of sliding in either direction.
-    fn scores(&self, zeta: T, slip: &Expansion<T, N>, stopped: &Stopped<T, N>) -> [T; 2] {
-        [T::ONE, -T::ONE].map(|sign| self.score(zeta, sign, slip, stopped))
-    }
+/// Square root of the part of the energy that remains at a multiple of the critical speed, without the loss of the material.
+fn remainder<T: Real>(multiple: T) -> T {
+    let held = T::ONE / multiple;
+    (T::ONE - held * held).max(T::ZERO).sqrt()
 }
 
-/// The integrand at an edge of a panel.
-struct Edge<T> {
-    zeta: T,
-    below: T,
-    density: T,
-    /// Score, probability below it, and density there, for both directions of the slip.
-    sliding: [(T, T, T); 2],
+/// Inverse of [`remainder`].
+fn multiple<T: Real>(remainder: T) -> T {
+    T::ONE / (T::ONE - remainder * remainder).sqrt()
 }
 
-impl<T: NormalDistribution> Edge<T> {
-    fn new(zeta: T, scores: [T; 2]) -> Self {
-        let certain = T::constant(CERTAIN);
-        let sliding = scores.map(|score| {
-            if score <= -certain {
-                (-certain, T::ZERO, T::ZERO)
-            } else if score >= certain {
-                (certain, T::ONE, T::ZERO)
-            } else {
-                (score, score.below(), density(score))
-            }
-        });
-        Self { zeta, below: zeta.below(), density: density(zeta), sliding }
-    }
-
-    /// Probability of sliding between this edge and the next one.
-    ///
-    /// Between the edges, the score is linear, and so is the density of zeta. The integral is exact for any slope of the
-    /// score, so that steps of the probability are integrated too.
-    fn panel(&self, next: &Self) -> T {
-        let width = next.zeta - self.zeta;
-        let mass = next.below - self.below;
-        // The first moment about the middle.
-        let tilt = self.density - next.density - T::constant(0.5) * (self.zeta + next.zeta) * mass;
-        let mut sum = T::ZERO;
-        for (&(x, below, density), &(next_x, next_below, next_density)) in self.sliding.iter().zip(&next.sliding) {
-            let step = next_x - x;
-            let half = T::constant(0.5);
-            if step.abs() < T::constant(0.3) {
-                // The closed form would lose digits.
-                let bend = (next_x * next_density - x * density) * T::ZERO;
-                let mean = half * (below + next_below) + step * step * bend;
-                sum = sum + mass * mean + tilt * (next_below - below) / width;
+impl<T: Real, const N: usize> Expanded<T, N> {
+    /// Expands the quantities that `quantities` computes: the speed, the slip, and the stopped slips.
+    fn new<C: Classifiable<T>>(
+        inputs: &[Uncertain<T>; N],
+        impact: &impl Fn([T; N]) -> Result<C, InputError>,
+        nominal: &C,
+        quantities: impl Fn(&C) -> Result<(Option<T>, [Option<T>; STOPPED]), InputError>,
+    ) -> Result<Self, InputError> {
+        let zero = Expansion::constant(T::ZERO);
+        let (ratio, stopped) = quantities(nominal)?;
+        let ratio = ratio.unwrap_or(T::ONE);
+        let slip = nominal.slip();
+        let mut expanded = Self {
+            ratio,
+            speeds: zero,
+            slip: Expansion::constant(slip),
+            stopped: stopped.map(|value| value.map(|value| Stopped { value, relative: zero })),
+        };
+        let values = inputs.map(|input| input.value);
+        for (input, Uncertain { value, error, bounds: [low, high] }) in inputs.iter().enumerate() {
+            let step = T::constant(STEP).min(T::constant(0.5) * (*low + *high));
+            let centre = T::ZERO.max(step - *low).min(*high - step);
+            if *error <= T::ZERO {
                 continue;
             }
-            // Repeated integrals of the normal distribution.
-            let once = |x: T, below: T, density: T| x * below + density;
-            let twice = |x: T, below: T, density: T| half * ((x * x + T::ONE) * below + x * density);
-            let (a, next_a) = (once(x, below, density), once(next_x, next_below, next_density));
-            let rise = twice(next_x, next_below, next_density) - twice(x, below, density);
-            let mean = (next_a - a) / step;
-            let slope = T::constant(12.0) * (half * step * (a + next_a) - rise) / (step * step * width);
-            sum = sum + mass * mean + tilt * slope;
+            let (mut speeds, mut slips, mut reliefs) = ([T::ZERO; 3], [slip; 3], [[T::ZERO; 3]; STOPPED]);
+            for place in 0..3 {
+                let deviation = centre + step * T::constant(place as f64 - 1.0);
+                if deviation == T::ZERO {
+                    continue;
+                }
+                let mut values = values;
+                if let Some(varied) = values.get_mut(input) {
+                    *varied = *value + deviation * *error;
+                }
+                let impact = impact(values)?;
+                let (speed, stopped) = quantities(&impact)?;
+                if let (Some(place), Some(speed)) = (speeds.get_mut(place), speed) {
+                    *place = relative(speed, ratio);
+                }
+                if let Some(place) = slips.get_mut(place) {
+                    *place = impact.slip();
+                }
+                for ((relief, expansion), stopped) in reliefs.iter_mut().zip(&expanded.stopped).zip(stopped) {
+                    if let (Some(place), Some(expansion), Some(stopped)) = (relief.get_mut(place), expansion, stopped) {
+                        *place = relative(stopped, expansion.value);
+                    }
+                }
+            }
+            expanded.speeds.add(input, centre, step, speeds);
+            expanded.slip.add(input, centre, step, slips);
+            for (expansion, relief) in expanded.stopped.iter_mut().zip(reliefs) {
+                if let Some(expansion) = expansion {
+                    expansion.relative.add(input, centre, step, relief);
+                }
+            }
         }
-        sum
+        Ok(expanded)
+    }
+
+    /// The expansions for a given deviation of one input.
+    fn with(self, input: usize, z: T) -> Self {
+        Self {
+            speeds: self.speeds.with(input, z),
+            slip: self.slip.with(input, z),
+            stopped: self.stopped.map(|stopped| {
+                stopped.map(|stopped| Stopped { relative: stopped.relative.with(input, z), ..stopped })
+            }),
+            ..self
+        }
+    }
+
+    /// The variable zeta, its value at the critical speed, and the standard error of the ratio of the speeds.
+    fn zeta(&self) -> (Zeta<T, N>, T, T) {
+        let Self { ratio, speeds, .. } = self;
+        let square = dot(&speeds.linear, &speeds.linear);
+        let error = (square + T::constant(2.0) * dot(&speeds.square, &speeds.square)).sqrt();
+        let at_critical = relative(T::ONE, *ratio) - speeds.mean;
+        let limit = T::constant(CERTAIN);
+        let none = [T::ZERO; N];
+        if square <= T::ZERO || at_critical.abs() >= T::constant(2.0) * limit * error {
+            let critical = if at_critical > T::ZERO { limit } else { -limit };
+            return (Zeta { direction: none, bend: none, curvature: T::ZERO }, critical, error);
+        }
+        let root = square.sqrt();
+        let direction = speeds.linear.map(|part| part / root);
+        let bend = speeds.square.map(|part| part / error);
+        let bound = T::constant(LARGEST_CURVATURE);
+        let curvature = (T::constant(0.5) * bilinear(&direction, &bend, &direction)).max(-bound).min(bound);
+        let critical = quantile(at_critical / error, curvature).max(-limit).min(limit);
+        (Zeta { direction, bend, curvature }, critical, error)
+    }
+
+    fn probabilities(&self) -> [T; 3] {
+        let (variable, critical, error) = self.zeta();
+        let excess = Excess::new(&variable, &self.slip);
+        let ratio_at = |zeta: T| {
+            let step = zeta + variable.curvature * (zeta * zeta - T::ONE);
+            absolute(self.speeds.mean + error * step, self.ratio)
+        };
+        let [a, b, c, captured] = self.stopped.map(|stopped| stopped.map(|stopped| excess.moments(&stopped)));
+        let (mut both, mut other) = (T::ZERO, T::ZERO);
+        if let (Some(a), Some(b), Some(c)) = (a, b, c) {
+            let [p, q, r] = REMAINDERS.map(T::constant);
+            both = integral(critical, &REBOUND_EDGES, |zeta| {
+                let ratio = ratio_at(zeta).max(T::ONE);
+                let x = remainder(ratio);
+                let (to_b, to_c) = ((x - p) / (q - p), (x - p) / (r - p));
+                let bend = (x - q) / (r - q) * to_c;
+                let first = to_b - bend * ((r - p) / (q - p));
+                let mut moments = a;
+                for ((a, b), c) in moments.iter_mut().zip(b).zip(c) {
+                    *a = *a + first * (b - *a) + bend * (c - *a);
+                }
+                excess.scores(zeta, ratio, moments)
+            });
+        }
+        if let Some(captured) = captured {
+            other = integral(critical, &CAPTURE_EDGES, |zeta| excess.scores(zeta, ratio_at(zeta), captured));
+        }
+        [normal(T::ZERO - critical).0, both, other]
+    }
+
+    /// The probabilities if the outcome is the same for all deviations.
+    fn certain(&self, outcome: Outcome) -> [T; 3] {
+        let variable = Zeta { direction: [T::ZERO; N], bend: [T::ZERO; N], curvature: T::ZERO };
+        let excess = Excess::new(&variable, &self.slip);
+        let [stopped, ..] = self.stopped;
+        let sliding = stopped.map_or(T::ZERO, |stopped| {
+            let [up, down] = excess.scores(T::ZERO, T::ONE, excess.moments(&stopped));
+            normal(up).0 + normal(down).0
+        });
+        if outcome == Outcome::Rebound { [T::ONE, sliding, T::ZERO] } else { [T::ZERO, T::ZERO, sliding] }
     }
 }
 
-/// Edges of the panels above the critical speed, as distances in zeta. They are close where the rebound speed rises as a root.
-const REBOUND_EDGES: [f64; 13] = [0.04, 0.16, 0.36, 0.64, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.5, 9.0];
-
-/// The same below the critical speed.
-const CAPTURE_EDGES: [f64; 10] = [0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.5, 9.0];
-
-/// Integral of the probability of sliding from `zeta` on over panels.
-fn integral<T: NormalDistribution>(zeta: T, steps: &[f64], sign: T, scores: impl Fn(T) -> [T; 2]) -> T {
-    let limit = T::constant(CERTAIN);
-    let mut edge = Edge::new(zeta, scores(zeta));
-    let mut sum = T::ZERO;
-    for step in steps {
-        let next = (zeta + sign * T::constant(*step)).max(-limit).min(limit);
-        let next = Edge::new(next, scores(next));
-        sum = sum + sign * if sign > T::ZERO { edge.panel(&next) } else { edge.panel(&next) };
-        if next.zeta.abs() >= limit {
-            break;
+/// Adds the effect of the bounds of the inputs.
+///
+/// Beyond its bound, an input has the value of the bound. The probability beyond it is taken from there, where two points have
+/// its mean and its variance, and given to the bound.
+fn bounded<T: Real, const N: usize>(
+    inputs: &[Uncertain<T>; N],
+    expanded: &Expanded<T, N>,
+    probabilities: impl Fn(&Expanded<T, N>) -> [T; 3],
+) -> [T; 3] {
+    let mut sum = probabilities(expanded);
+    for (input, uncertain) in inputs.iter().enumerate() {
+        let [low, high] = uncertain.bounds;
+        for (sign, distance) in [(-T::ONE, low), (T::ONE, high)] {
+            if distance >= T::constant(BEYOND) {
+                continue;
+            }
+            let (below, density) = normal(-distance);
+            let mean = density / below;
+            let spread = (T::ONE + distance * mean - mean * mean).max(T::ZERO).sqrt();
+            let half = T::constant(-0.5);
+            for (weight, z) in [(T::ONE, distance), (half, mean - spread), (half, mean + spread)] {
+                let part = probabilities(&expanded.with(input, sign * z));
+                for (sum, part) in sum.iter_mut().zip(part) {
+                    *sum = *sum + below * weight * part;
+                }
+            }
         }
-        edge = next;
     }
     sum
 }
 
-/// Ratio of the speed to the critical speed, relative to a reference.
-fn relative_speed<T: Real>(speed: T, critical: CriticalSpeed<T>, reference: T) -> T {
-    match critical {
-        CriticalSpeed::At(critical) => relative(speed.saturating_div(critical), reference),
-        CriticalSpeed::AlwaysRebounds => T::constant(2.0),
-        CriticalSpeed::NeverRebounds => T::constant(-2.0),
-    }
-}
-
-/// The inputs without deviations, except one.
-fn varied<T: Real, const N: usize>(inputs: &[Uncertain<T>; N], input: usize, deviation: T) -> [T; N] {
-    let mut count = 0;
-    inputs.map(|uncertain| {
-        let deviation = if count == input { deviation } else { T::ZERO };
-        count += 1;
-        uncertain.at(deviation)
-    })
-}
-
-impl<T: NormalDistribution> ClassProbabilities<T> {
+impl<T: Real> ClassProbabilities<T> {
     /// Computes the probabilities.
     pub fn new<const N: usize, C: Classifiable<T>>(
         inputs: &[Uncertain<T>; N],
         impact: impl Fn([T; N]) -> Result<C, InputError>,
     ) -> Result<Self, InputError> {
-        let nominal = impact(inputs.map(|input| input.at(T::ZERO)))?;
-        let (speed, slip) = (nominal.speed(), nominal.slip());
+        let nominal = impact(inputs.map(|input| input.value))?;
         let critical = match nominal.critical_speed()? {
             CriticalSpeed::At(critical) => critical,
             CriticalSpeed::AlwaysRebounds => return Self::certain(inputs, &impact, &nominal, Outcome::Rebound),
             CriticalSpeed::NeverRebounds => return Self::certain(inputs, &impact, &nominal, Outcome::Capture),
         };
-        let ratio = speed.saturating_div(critical);
-        let mut speeds = Expansion::<T, N>::constant(T::ZERO);
-        // Critical speeds at the points of the expansion.
-        let mut criticals = [[critical; 3]; N];
-        for (input, (uncertain, criticals)) in inputs.iter().zip(&mut criticals).enumerate() {
-            if uncertain.error <= T::ZERO {
-                continue;
-            }
-            let stencil = Stencil::new(uncertain.bounds);
-            let mut values = [T::ZERO; 3];
-            for (place, (value, critical)) in values.iter_mut().zip(criticals).enumerate() {
-                let deviation = stencil.centre + stencil.step * T::constant(place as f64 - 1.0);
-                if deviation == T::ZERO {
-                    continue;
-                }
-                let impact = impact(varied(inputs, input, deviation))?;
-                let speed = impact.critical_speed()?;
-                *value = relative_speed(impact.speed(), speed, ratio);
-                if let CriticalSpeed::At(speed) = speed {
-                    *critical = speed;
-                }
-            }
-            speeds.add(input, &stencil, T::ZERO, values);
-        }
-        let square = dot(&speeds.linear, &speeds.linear);
-        let deviation = (square + T::constant(2.0) * dot(&speeds.square, &speeds.square)).sqrt();
-        let outcome = if ratio > T::ONE { Outcome::Rebound } else { Outcome::Capture };
-        if square <= T::ZERO {
-            return Self::certain(inputs, &impact, &nominal, outcome);
-        }
-        let root = square.sqrt();
-        let mut margin = Margin {
-            direction: speeds.linear.map(|part| part / root),
-            bend: speeds.square.map(|part| part / deviation),
-            curvature: T::ZERO,
-        };
-        let bound = T::constant(LARGEST_CURVATURE);
-        margin.curvature = triple(&margin.direction, &margin.direction, &margin.bend).max(-bound).min(bound);
-        let at_critical = (relative(T::ONE, ratio) - speeds.mean).saturating_div(deviation);
-        let zeta = quantile(at_critical, margin.curvature);
-        let limit = T::constant(CERTAIN);
-        if zeta.abs() >= limit {
-            return Self::certain(inputs, &impact, &nominal, outcome);
-        }
-
-        let ratio_at = |zeta: T| {
-            let step = zeta + margin.curvature * (zeta * zeta - T::ONE);
-            absolute(speeds.mean + deviation * step, ratio)
-        };
-        // e/R without a microforce.
-        let remainder = |ratio: T| (T::ONE - (T::ONE / (ratio * ratio)).min(T::ONE)).sqrt();
-        let largest = remainder(ratio_at((zeta + T::ONE).max(T::constant(3.0))));
-        let fractions = FRACTIONS.map(|fraction| largest * T::constant(fraction));
-        let speeds = fractions.map(|fraction| T::ONE / (T::ONE - fraction * fraction).max(T::EPSILON).sqrt());
-        // Slip that friction stops at these multiples of the critical speed, over the multiple; then of a capture.
-        let stopped = |impact: &C, critical: T| -> Result<[Option<T>; REBOUNDS + 1], InputError> {
-            let mut slips = [None; REBOUNDS + 1];
-            for (slip, multiple) in slips.iter_mut().zip(speeds) {
+        let multiples = REMAINDERS.map(|remainder| multiple(T::constant(remainder)));
+        let expanded = Expanded::new(inputs, &impact, &nominal, |impact| {
+            let (ratio, critical) = match impact.critical_speed()? {
+                CriticalSpeed::At(critical) => (impact.speed().saturating_div(critical), critical),
+                CriticalSpeed::AlwaysRebounds => (T::ONE / T::EPSILON, critical),
+                CriticalSpeed::NeverRebounds => (T::ZERO, critical),
+            };
+            let mut slips = [None; STOPPED];
+            for (slip, multiple) in slips.iter_mut().zip(multiples) {
                 *slip = impact.stopped_slip(critical * multiple, Outcome::Rebound)?.map(|slip| slip / multiple);
             }
             if let Some(slip) = slips.last_mut() {
                 *slip = impact.stopped_slip(critical, Outcome::Capture)?;
             }
-            Ok(slips)
-        };
-        let nominal_slips = stopped(&nominal, critical)?;
-        let mut expansions =
-            nominal_slips.map(|slip| slip.map(|value| Stopped { value, relative: Expansion::<T, N>::constant(T::ZERO) }));
-        let mut slips = Expansion::<T, N>::constant(slip);
-        for (input, (uncertain, criticals)) in inputs.iter().zip(criticals).enumerate() {
-            if uncertain.error <= T::ZERO {
-                continue;
-            }
-            let stencil = Stencil::new(uncertain.bounds);
-            let mut values = [[T::ZERO; 3]; REBOUNDS + 1];
-            let mut slip_values = [slip; 3];
-            for (place, (slip, critical)) in slip_values.iter_mut().zip(criticals).enumerate() {
-                let deviation = stencil.centre + stencil.step * T::constant(place as f64 - 1.0);
-                if deviation == T::ZERO {
-                    continue;
-                }
-                let impact = impact(varied(inputs, input, deviation))?;
-                *slip = impact.slip();
-                let slips = stopped(&impact, critical)?;
-                for ((values, expansion), slip) in values.iter_mut().zip(&expansions).zip(slips) {
-                    if let (Some(value), Some(expansion), Some(slip)) = (values.get_mut(place), expansion, slip) {
-                        *value = relative(slip, expansion.value);
-                    }
-                }
-            }
-            slips.add(input, &stencil, slip, slip_values);
-            for (expansion, values) in expansions.iter_mut().zip(values) {
-                if let Some(expansion) = expansion {
-                    expansion.relative.add(input, &stencil, T::ZERO, values);
-                }
-            }
+            Ok((Some(ratio), slips))
+        })?;
+        let (_, zeta, _) = expanded.zeta();
+        if zeta.abs() >= T::constant(CERTAIN) {
+            let outcome = if zeta < T::ZERO { Outcome::Rebound } else { Outcome::Capture };
+            return Self::certain(inputs, &impact, &nominal, outcome);
         }
-        let [first, second, third, captured] = expansions;
-        let rebound = (-zeta).below();
-        let mut sliding = [T::ZERO; 2];
-        if let (Some(first), Some(second), Some(third)) = (first, second, third) {
-            let [a, b, c] = fractions;
-            let scores = |at: T| {
-                let ratio = ratio_at(at).max(T::ONE);
-                let x = remainder(ratio);
-                let weights = [
-                    (x - b) * (x - c) / ((a - b) * (a - c)),
-                    (x - a) * (x - c) / ((b - a) * (b - c)),
-                    (x - a) * (x - b) / ((c - a) * (c - b)),
-                ];
-                let [u, v, w] = weights;
-                let mix = |first: T, second: T, third: T| u * first + v * second + w * third;
-                let mut stopped = first;
-                stopped.value = ratio * mix(first.value, second.value, third.value);
-                let r = &mut stopped.relative;
-                r.mean = mix(first.relative.mean, second.relative.mean, third.relative.mean);
-                for ((part, second), third) in r.linear.iter_mut().zip(second.relative.linear).zip(third.relative.linear) {
-                    *part = mix(*part, second, third);
-                }
-                for ((part, second), third) in r.square.iter_mut().zip(second.relative.square).zip(third.relative.square) {
-                    *part = mix(*part, second, third);
-                }
-                margin.scores(at, &slips, &stopped)
-            };
-            sliding[0] = integral(zeta, &REBOUND_EDGES, T::ONE, scores);
-        }
-        if let Some(captured) = captured {
-            let scores = |at: T| {
-                let mut stopped = captured;
-                stopped.value = ratio_at(at).min(T::ONE) * captured.value;
-                margin.scores(at, &slips, &stopped)
-            };
-            sliding[1] = integral(zeta, &CAPTURE_EDGES, -T::ONE, scores);
-        }
-        let [both, other] = sliding;
-        let sliding = [both.max(T::ZERO).min(rebound), other.max(T::ZERO).min(T::ONE - rebound)];
-        Ok(Self { rebound, sliding })
+        Ok(Self::from_sums(bounded(inputs, &expanded, Expanded::probabilities)))
+    }
+
+    fn from_sums([rebound, both, other]: [T; 3]) -> Self {
+        let rebound = rebound.max(T::ZERO).min(T::ONE);
+        Self { rebound, sliding: [both.max(T::ZERO).min(rebound), other.max(T::ZERO).min(T::ONE - rebound)] }
     }
 
     /// The probabilities if the outcome is certain.
@@ -668,34 +759,11 @@ impl<T: NormalDistribution> ClassProbabilities<T> {
         nominal: &C,
         outcome: Outcome,
     ) -> Result<Self, InputError> {
-        let rebound = if outcome == Outcome::Rebound { T::ONE } else { T::ZERO };
-        let stopped = |impact: &C| impact.stopped_slip(impact.speed(), outcome);
-        let mut sliding = T::ZERO;
-        if let Some(value) = stopped(nominal)? {
-            let mut slip = Expansion::<T, N>::constant(nominal.slip());
-            let mut expansion = Stopped { value, relative: Expansion::<T, N>::constant(T::ZERO) };
-            for (input, uncertain) in inputs.iter().enumerate() {
-                if uncertain.error <= T::ZERO {
-                    continue;
-                }
-                let stencil = Stencil::new(uncertain.bounds);
-                let (mut slips, mut values) = ([nominal.slip(); 3], [T::ZERO; 3]);
-                for (place, (slip, relation)) in slips.iter_mut().zip(&mut values).enumerate() {
-                    let deviation = stencil.centre + stencil.step * T::constant(place as f64 - 1.0);
-                    if deviation == T::ZERO {
-                        continue;
-                    }
-                    let impact = impact(varied(inputs, input, deviation))?;
-                    *slip = impact.slip();
-                    *relation = relative(stopped(&impact)?.unwrap_or(value), value);
-                }
-                slip.add(input, &stencil, nominal.slip(), slips);
-                expansion.relative.add(input, &stencil, T::ZERO, values);
-            }
-            let [up, down] = Margin::none().scores(T::ZERO, &slip, &expansion);
-            sliding = (up.below() + down.below()).min(T::ONE);
-        }
-        Ok(Self { rebound, sliding: [rebound * sliding, (T::ONE - rebound) * sliding] })
+        let expanded = Expanded::new(inputs, impact, nominal, |impact| {
+            let stopped = impact.stopped_slip(impact.speed(), outcome)?;
+            Ok((None, [stopped, None, None, None]))
+        })?;
+        Ok(Self::from_sums(bounded(inputs, &expanded, |expanded| expanded.certain(outcome))))
     }
 
     /// Probability of a class. A captured sphere that rests counts as rolling, because the probability of rest is zero.
