@@ -302,14 +302,8 @@ impl<T: Real, const N: usize> Expansion<T, N> {
     }
 }
 
-fn dot<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
-    a.iter().zip(b).fold(T::ZERO, |sum, (a, b)| sum + *a * *b)
-}
-
-/// Twice the sum of a b c: the product of two vectors with a diagonal matrix of second derivatives.
-fn bilinear<T: Real, const N: usize>(a: &[T; N], diagonal: &[T; N], b: &[T; N]) -> T {
-    let sum = a.iter().zip(b).zip(diagonal).fold(T::ZERO, |sum, ((a, b), c)| sum + *a * *b * *c);
-    sum + sum
+fn squares<T: Real, const N: usize>(a: &[T; N]) -> T {
+    a.iter().fold(T::ZERO, |sum, a| sum + *a * *a)
 }
 
 /// The normal variable zeta on which the ratio of the speeds depends:
@@ -320,59 +314,15 @@ struct Zeta<T, const N: usize> {
     curvature: T,
 }
 
-/// A quantity X for a given zeta: its mean is `mean` + `along` zeta + `second` (zeta^2 - 1).
-struct Given<'a, T, const N: usize> {
-    zeta: &'a Zeta<T, N>,
-    mean: T,
-    along: T,
-    second: T,
-    /// Gradient of X across zeta.
-    across: [T; N],
-    /// Diagonal part of half of the second derivatives of X.
-    square: &'a [T; N],
-    /// The other part is the square of this gradient, if X is a product of powers of the inputs.
-    product: Option<&'a [T; N]>,
-}
-
-impl<'a, T: Real, const N: usize> Given<'a, T, N> {
-    fn new(zeta: &'a Zeta<T, N>, x: &'a Expansion<T, N>, is_product: bool) -> Self {
-        let half = T::constant(0.5);
-        let beta = &zeta.direction;
-        let g = &x.linear;
-        let along = dot(g, beta);
-        let mut across = *g;
-        for (across, beta) in across.iter_mut().zip(beta) {
-            *across = *across - along * *beta;
-        }
-        let (mean, product) = if is_product { (T::ONE + half * dot(g, g), Some(g)) } else { (x.mean, None) };
-        let mut given = Self { zeta, mean, along, second: T::ZERO, across, square: &x.square, product };
-        let bent = bilinear(g, &zeta.bend, beta) - T::constant(2.0) * zeta.curvature * along;
-        given.second = half * given.curved(beta, beta) + bent;
-        given
-    }
-
-    /// Second derivative of X in two directions.
-    fn curved(&self, a: &[T; N], b: &[T; N]) -> T {
-        let curved = bilinear(a, self.square, b);
-        self.product.map_or(curved, |g| curved + dot(a, g) * dot(b, g))
-    }
-
-    /// The same at constant zeta.
-    fn curved_across(&self, a: &[T; N], b: &[T; N]) -> T {
-        self.curved(a, b) - self.along * bilinear(a, &self.zeta.bend, b)
-    }
-
-    /// Covariance with Y for zeta = 0, and its derivative with respect to zeta.
-    fn covariance(&self, y: &Self) -> [T; 2] {
-        let beta = &self.zeta.direction;
-        let slope = self.curved_across(beta, &y.across) + y.curved_across(beta, &self.across);
-        [dot(&self.across, &y.across), slope + bilinear(&self.across, &self.zeta.bend, &y.across)]
-    }
-
-    /// Third cumulant of X, X and Y.
-    fn third(&self, y: &Self) -> T {
-        T::constant(2.0) * self.curved_across(&self.across, &y.across) + y.curved_across(&self.across, &self.across)
-    }
+/// The effect of one input.
+#[derive(Clone, Copy)]
+struct Part<T> {
+    /// Derivative of zeta, and half of the second derivative.
+    zeta: T,
+    bend: T,
+    /// Derivative of the slip for a given zeta, and the second derivative.
+    slip: T,
+    slip_bend: T,
 }
 
 /// What the slip that friction stops contributes to the moments of the excess slip: the stopped slip, the three coefficients
@@ -380,34 +330,92 @@ impl<'a, T: Real, const N: usize> Given<'a, T, N> {
 /// are for a stopped slip of one.
 const MOMENTS: usize = 11;
 
-/// Moments of the slip less the stopped slip for a given zeta.
-struct Excess<'a, T, const N: usize> {
-    slip: Given<'a, T, N>,
+/// Moments of the excess slip, the slip less the stopped slip, for a given zeta.
+///
+/// The mean of a quantity is mean + along zeta + second (zeta^2 - 1). To the second degree in the deviations, the variance is
+/// linear in zeta, and the third cumulant is constant.
+struct Excess<T, const N: usize> {
+    parts: [Part<T>; N],
+    curvature: T,
+    mean: T,
+    along: T,
+    second: T,
     variance: [T; 2],
     third: T,
 }
 
-impl<'a, T: Real, const N: usize> Excess<'a, T, N> {
-    fn new(zeta: &'a Zeta<T, N>, slip: &'a Expansion<T, N>) -> Self {
-        let slip = Given::new(zeta, slip, false);
-        let (variance, third) = (slip.covariance(&slip), slip.third(&slip));
-        Self { slip, variance, third }
+impl<T: Real, const N: usize> Excess<T, N> {
+    fn new(zeta: &Zeta<T, N>, slip: &Expansion<T, N>) -> Self {
+        let two = T::constant(2.0);
+        let mut parts = [Part { zeta: T::ZERO, bend: T::ZERO, slip: T::ZERO, slip_bend: T::ZERO }; N];
+        let mut along = T::ZERO;
+        for (((part, zeta), bend), slip) in parts.iter_mut().zip(zeta.direction).zip(zeta.bend).zip(slip.linear) {
+            (part.zeta, part.bend) = (zeta, bend);
+            along = along + zeta * slip;
+        }
+        let mut second = T::constant(-0.5) * zeta.curvature * along;
+        let (mut variance, mut slope, mut third) = (T::ZERO, T::ZERO, T::ZERO);
+        for ((part, slip), square) in parts.iter_mut().zip(slip.linear).zip(slip.square) {
+            let Part { zeta, bend, .. } = *part;
+            let across = slip - along * zeta;
+            let curved = two * (square - along * bend);
+            (part.slip, part.slip_bend) = (across, curved);
+            second = second + bend * slip * zeta + T::constant(0.25) * curved * zeta * zeta;
+            variance = variance + across * across;
+            slope = slope + across * (curved * zeta + bend * across);
+            third = third + across * curved * across;
+        }
+        let variance = [variance, two * slope];
+        Self { parts, curvature: zeta.curvature, mean: slip.mean, along, second: two * second, variance, third: T::constant(3.0) * third }
     }
 
+    /// Moments of a stopped slip, which is a product of powers of the inputs: its second derivatives are the products of the
+    /// first ones, and those of its logarithm.
     fn moments(&self, stopped: &Stopped<T, N>) -> [T; MOMENTS] {
-        let value = absolute(stopped.relative.mean, stopped.value);
-        let y = Given::new(self.slip.zeta, &stopped.relative, true);
-        let ([a, b], [c, d]) = (y.covariance(&y), self.slip.covariance(&y));
-        [value, y.mean, y.along, y.second, a, b, c, d, self.slip.third(&y), y.third(&self.slip), y.third(&y)]
+        let (half, two, three) = (T::constant(0.5), T::constant(2.0), T::constant(3.0));
+        let Expansion { mean, linear, square } = &stopped.relative;
+        let along = self.parts.iter().zip(linear).fold(T::ZERO, |sum, (part, g)| sum + part.zeta * *g);
+        let (mut bent, mut second) = (T::ZERO, T::ZERO);
+        let (mut y, mut y_slope, mut mixed, mut mixed_slope) = (T::ZERO, T::ZERO, T::ZERO, T::ZERO);
+        let (mut ssy, mut sys, mut syy, mut yys, mut yyy) = (T::ZERO, T::ZERO, T::ZERO, T::ZERO, T::ZERO);
+        for ((Part { zeta, bend, slip, slip_bend }, g), square) in self.parts.iter().zip(linear).zip(square) {
+            let across = *g - along * *zeta;
+            let curved = two * (*square - along * *bend);
+            let (by_slip, by_y) = (*slip_bend * across, curved * across);
+            bent = bent + *bend * *g * *zeta;
+            second = second + curved * *zeta * *zeta;
+            y = y + across * across;
+            y_slope = y_slope + by_y * *zeta + *bend * across * across;
+            mixed = mixed + across * *slip;
+            mixed_slope = mixed_slope + (by_slip + curved * *slip) * *zeta + two * *bend * *slip * across;
+            ssy = ssy + by_slip * *slip;
+            sys = sys + curved * *slip * *slip;
+            syy = syy + by_y * *slip;
+            yys = yys + by_slip * across;
+            yyy = yyy + by_y * across;
+        }
+        [
+            absolute(*mean, stopped.value),
+            T::ONE + half * (along * along + y),
+            along,
+            half * (second + along * along) + two * bent - self.curvature * along,
+            y,
+            two * (y_slope + along * y),
+            mixed,
+            mixed_slope + along * mixed,
+            two * ssy + sys + mixed * mixed,
+            two * (syy + y * mixed) + yys,
+            three * (yyy + y * y),
+        ]
     }
 
     /// Scores for both directions of the slip: the probability of sliding is that of a normal variable below the score.
-    fn scores(&self, zeta: T, multiple: T, stopped: [T; MOMENTS]) -> [T; 2] {
+    fn scores(&self, zeta: T, stopped: [T; MOMENTS]) -> [T; 2] {
         let [value, mean, along, second, y, y_slope, mixed, mixed_slope, ssy, syy, yyy] = stopped;
-        let (value, curved) = (value * multiple, zeta * zeta - T::ONE);
+        let curved = zeta * zeta - T::ONE;
         let (two, three) = (T::constant(2.0), T::constant(3.0));
         let stopped = value * (mean + along * zeta + second * curved);
-        let slip = self.slip.mean + self.slip.along * zeta + self.slip.second * curved;
+        let slip = self.mean + self.along * zeta + self.second * curved;
         let [s, s_slope] = self.variance;
         let variance = s + value * value * y;
         let variance_slope = s_slope + value * value * y_slope;
@@ -436,15 +444,18 @@ fn score<T: Real>(mean: T, variance: T, third: T) -> T {
 
 /// The integrand at an edge of a panel.
 struct Edge<T> {
-    zeta: T,
-    /// Probability of a smaller zeta, and density.
-    weight: (T, T),
+    /// Coordinate in which the score is nearly linear.
+    position: T,
+    /// Probability of a smaller zeta.
+    below: T,
+    /// Density of the coordinate.
+    density: T,
     /// Score, probability of sliding, and density of the score, for both directions of the slip.
     sliding: [(T, (T, T)); 2],
 }
 
 impl<T: Real> Edge<T> {
-    fn new(zeta: T, scores: [T; 2]) -> Self {
+    fn new(zeta: T, position: T, stretch: T, scores: [T; 2]) -> Self {
         let certain = T::constant(CERTAIN);
         let sliding = scores.map(|score| {
             if score <= -certain {
@@ -455,7 +466,8 @@ impl<T: Real> Edge<T> {
                 (score, normal(score))
             }
         });
-        Self { zeta, weight: normal(zeta), sliding }
+        let (below, density) = normal(zeta);
+        Self { position, below, density: density * stretch, sliding }
     }
 
     /// Integral of the probability of sliding between this edge and the next one.
@@ -464,10 +476,10 @@ impl<T: Real> Edge<T> {
     /// score, so that steps of the probability are integrated too.
     fn panel(&self, next: &Self) -> T {
         let half = T::constant(0.5);
-        let width = next.zeta - self.zeta;
-        let mass = next.weight.0 - self.weight.0;
-        // The first moment about the middle.
-        let tilt = self.weight.1 - next.weight.1 - half * (self.zeta + next.zeta) * mass;
+        let width = next.position - self.position;
+        let mass = next.below - self.below;
+        // First moment about the middle.
+        let tilt = (next.density - self.density) * width * width * T::constant(1.0 / 12.0);
         let mut sum = T::ZERO;
         for (&(x, (below, density)), &(next_x, (next_below, next_density))) in self.sliding.iter().zip(&next.sliding) {
             let step = next_x - x;
@@ -489,29 +501,41 @@ impl<T: Real> Edge<T> {
     }
 }
 
-/// Distances in zeta of the edges of panels from the critical speed upwards. The panels are narrow where the rebound speed
-/// rises as a root.
-const REBOUND_EDGES: [f64; 9] = [0.09, 0.36, 0.8, 1.4, 2.0, 2.7, 3.6, 5.0, 9.0];
+/// Distances in zeta of the edges of panels from the critical speed.
+const REBOUND_EDGES: [f64; 12] = [0.16, 0.64, 1.3, 2.0, 2.7, 3.4, 4.1, 4.8, 5.5, 6.2, 7.0, 9.0];
 
 /// The same from the critical speed downwards.
-const CAPTURE_EDGES: [f64; 7] = [-0.7, -1.4, -2.1, -2.9, -4.0, -6.0, -9.0];
+const CAPTURE_EDGES: [f64; 7] = [1.0, 2.0, 3.0, 4.2, 5.5, 7.0, 9.0];
 
-/// Integral of the probability of sliding from `zeta` on over panels.
-fn integral<T: Real>(zeta: T, distances: &[f64], scores: impl Fn(T) -> [T; 2]) -> T {
-    let limit = T::constant(CERTAIN);
-    let mut edge = Edge::new(zeta, scores(zeta));
+/// Integral of the probability of sliding from `zeta` upwards over panels. The score changes as a root at first.
+fn above<T: Real>(critical: T, scores: impl Fn(T) -> [T; 2]) -> T {
+    integral(critical, REBOUND_EDGES.map(|distance| T::constant(distance)), |distance| {
+        let root = distance.sqrt();
+        let zeta = critical + distance;
+        Edge::new(zeta, root, root + root, scores(zeta))
+    })
+}
+
+fn under<T: Real>(critical: T, scores: impl Fn(T) -> [T; 2]) -> T {
+    -integral(-critical, CAPTURE_EDGES.map(|distance| T::constant(distance)), |distance| {
+        let zeta = critical - distance;
+        Edge::new(zeta, distance, -T::ONE, scores(zeta))
+    })
+}
+
+fn integral<T: Real, const M: usize>(start: T, distances: [T; M], edge_at: impl Fn(T) -> Edge<T>) -> T {
+    let largest = T::constant(CERTAIN) - start;
+    let mut edge = edge_at(T::ZERO);
     let mut sum = T::ZERO;
     for distance in distances {
-        let next = (zeta + T::constant(*distance)).max(-limit).min(limit);
-        if next == edge.zeta {
+        let next = edge_at(distance.min(largest));
+        sum = sum + edge.panel(&next);
+        if distance >= largest {
             break;
         }
-        let next = Edge::new(next, scores(next));
-        // A panel downwards has a negative mass.
-        sum = sum + edge.panel(&next);
         edge = next;
     }
-    sum.abs()
+    sum
 }
 
 /// The slip that friction stops: its value without deviations, and the expansion of the [`relative`] difference to it.
@@ -619,8 +643,8 @@ impl<T: Real, const N: usize> Expanded<T, N> {
     /// The variable zeta, its value at the critical speed, and the standard error of the ratio of the speeds.
     fn zeta(&self) -> (Zeta<T, N>, T, T) {
         let Self { ratio, speeds, .. } = self;
-        let square = dot(&speeds.linear, &speeds.linear);
-        let error = (square + T::constant(2.0) * dot(&speeds.square, &speeds.square)).sqrt();
+        let square = squares(&speeds.linear);
+        let error = (square + T::constant(2.0) * squares(&speeds.square)).sqrt();
         let at_critical = relative(T::ONE, *ratio) - speeds.mean;
         let limit = T::constant(CERTAIN);
         let none = [T::ZERO; N];
@@ -632,7 +656,8 @@ impl<T: Real, const N: usize> Expanded<T, N> {
         let direction = speeds.linear.map(|part| part / root);
         let bend = speeds.square.map(|part| part / error);
         let bound = T::constant(LARGEST_CURVATURE);
-        let curvature = (T::constant(0.5) * bilinear(&direction, &bend, &direction)).max(-bound).min(bound);
+        let curvature = direction.iter().zip(&bend).fold(T::ZERO, |sum, (beta, bend)| sum + *beta * *beta * *bend);
+        let curvature = curvature.max(-bound).min(bound);
         let critical = quantile(at_critical / error, curvature).max(-limit).min(limit);
         (Zeta { direction, bend, curvature }, critical, error)
     }
@@ -648,9 +673,8 @@ impl<T: Real, const N: usize> Expanded<T, N> {
         let (mut both, mut other) = (T::ZERO, T::ZERO);
         if let (Some(a), Some(b), Some(c)) = (a, b, c) {
             let [p, q, r] = REMAINDERS.map(T::constant);
-            both = integral(critical, &REBOUND_EDGES, |zeta| {
-                let ratio = ratio_at(zeta).max(T::ONE);
-                let x = remainder(ratio);
+            both = above(critical, |zeta| {
+                let x = remainder(ratio_at(zeta).max(T::ONE));
                 let (to_b, to_c) = ((x - p) / (q - p), (x - p) / (r - p));
                 let bend = (x - q) / (r - q) * to_c;
                 let first = to_b - bend * ((r - p) / (q - p));
@@ -658,11 +682,11 @@ impl<T: Real, const N: usize> Expanded<T, N> {
                 for ((a, b), c) in moments.iter_mut().zip(b).zip(c) {
                     *a = *a + first * (b - *a) + bend * (c - *a);
                 }
-                excess.scores(zeta, ratio, moments)
+                excess.scores(zeta, moments)
             });
         }
         if let Some(captured) = captured {
-            other = integral(critical, &CAPTURE_EDGES, |zeta| excess.scores(zeta, ratio_at(zeta), captured));
+            other = under(critical, |zeta| excess.scores(zeta, captured));
         }
         [normal(T::ZERO - critical).0, both, other]
     }
@@ -673,7 +697,7 @@ impl<T: Real, const N: usize> Expanded<T, N> {
         let excess = Excess::new(&variable, &self.slip);
         let [stopped, ..] = self.stopped;
         let sliding = stopped.map_or(T::ZERO, |stopped| {
-            let [up, down] = excess.scores(T::ZERO, T::ONE, excess.moments(&stopped));
+            let [up, down] = excess.scores(T::ZERO, excess.moments(&stopped));
             normal(up).0 + normal(down).0
         });
         if outcome == Outcome::Rebound { [T::ONE, sliding, T::ZERO] } else { [T::ZERO, T::ZERO, sliding] }
@@ -732,10 +756,11 @@ impl<T: Real> ClassProbabilities<T> {
             };
             let mut slips = [None; STOPPED];
             for (slip, multiple) in slips.iter_mut().zip(multiples) {
-                *slip = impact.stopped_slip(critical * multiple, Outcome::Rebound)?.map(|slip| slip / multiple);
+                let speed = critical * multiple;
+                *slip = impact.stopped_slip(speed, Outcome::Rebound)?.map(|slip| slip / speed * impact.speed());
             }
             if let Some(slip) = slips.last_mut() {
-                *slip = impact.stopped_slip(critical, Outcome::Capture)?;
+                *slip = impact.stopped_slip(critical, Outcome::Capture)?.map(|slip| slip / critical * impact.speed());
             }
             Ok((Some(ratio), slips))
         })?;
