@@ -162,7 +162,7 @@ where
 
     fn stopped_slip(&self, speed: T, outcome: Outcome) -> Result<Option<T>, InputError> {
         let RigidBody { sphere, restitution, adhesion, surface, microforce } = &self.0;
-        let normal = NormalImpact::of(restitution, adhesion, microforce, &NormalMotion::new(speed)?);
+        let normal = NormalImpact::of(restitution, adhesion, microforce, &NormalMotion { speed });
         let change = if outcome == Outcome::Capture { speed } else { normal.impulse() };
         Ok(Some(rolling::stopped_slip(surface.coefficient() * change, sphere.contact_inertia())))
     }
@@ -280,13 +280,14 @@ impl<T: Real, const N: usize> Expansion<T, N> {
         Self { mean, linear: [T::ZERO; N], square: [T::ZERO; N] }
     }
 
-    /// Adds the effect of an input, from its values at the deviations `centre` less `step`, `centre`, `centre` plus `step`.
-    fn add(&mut self, input: usize, centre: T, step: T, [below, middle, above]: [T; 3]) {
+    /// Adds the effect of an input, from the `value` without deviations and the values at the deviations `centre` less `step`,
+    /// `centre`, and `centre` plus `step`.
+    fn add(&mut self, input: usize, centre: T, step: T, value: T, [below, middle, above]: [T; 3]) {
         let half = T::constant(0.5);
         let curvature = half * (above - middle - (middle - below)) / (step * step);
         let slope = half * (above - below) / step - T::constant(2.0) * curvature * centre;
-        // From the value without deviations to the mean.
-        self.mean = self.mean + curvature;
+        // The mean of the parabola.
+        self.mean = self.mean + (middle - value) - (slope + curvature * centre) * centre + curvature;
         if let (Some(linear), Some(square)) = (self.linear.get_mut(input), self.square.get_mut(input)) {
             (*linear, *square) = (slope, curvature);
         }
@@ -323,6 +324,9 @@ struct Part<T> {
     /// Derivative of the slip for a given zeta, and the second derivative.
     slip: T,
     slip_bend: T,
+    /// Products of all second derivatives of the slip with the derivatives of zeta and of the slip.
+    bent_zeta: T,
+    bent_slip: T,
 }
 
 /// What the slip that friction stops contributes to the moments of the excess slip: the stopped slip, the three coefficients
@@ -342,12 +346,23 @@ struct Excess<T, const N: usize> {
     second: T,
     variance: [T; 2],
     third: T,
+    /// Mixed second derivatives of the slip.
+    mixed: Option<[[T; N]; N]>,
+}
+
+/// Product of the mixed derivatives with a vector.
+fn product<T: Real, const N: usize>(mixed: &Option<[[T; N]; N]>, vector: [T; N]) -> [T; N] {
+    mixed.map_or([T::ZERO; N], |rows| {
+        rows.map(|row| row.iter().zip(&vector).fold(T::ZERO, |sum, (a, b)| sum + *a * *b))
+    })
 }
 
 impl<T: Real, const N: usize> Excess<T, N> {
-    fn new(zeta: &Zeta<T, N>, slip: &Expansion<T, N>) -> Self {
+    fn new(zeta: &Zeta<T, N>, slip: &Expansion<T, N>, mixed: &Option<[[T; N]; N]>) -> Self {
         let two = T::constant(2.0);
-        let mut parts = [Part { zeta: T::ZERO, bend: T::ZERO, slip: T::ZERO, slip_bend: T::ZERO }; N];
+        let zero = T::ZERO;
+        let part = Part { zeta: zero, bend: zero, slip: zero, slip_bend: zero, bent_zeta: zero, bent_slip: zero };
+        let mut parts = [part; N];
         let mut along = T::ZERO;
         for (((part, zeta), bend), slip) in parts.iter_mut().zip(zeta.direction).zip(zeta.bend).zip(slip.linear) {
             (part.zeta, part.bend) = (zeta, bend);
@@ -357,16 +372,23 @@ impl<T: Real, const N: usize> Excess<T, N> {
         let (mut variance, mut slope, mut third) = (T::ZERO, T::ZERO, T::ZERO);
         for ((part, slip), square) in parts.iter_mut().zip(slip.linear).zip(slip.square) {
             let Part { zeta, bend, .. } = *part;
-            let across = slip - along * zeta;
-            let curved = two * (square - along * bend);
-            (part.slip, part.slip_bend) = (across, curved);
-            second = second + bend * slip * zeta + T::constant(0.25) * curved * zeta * zeta;
-            variance = variance + across * across;
-            slope = slope + across * (curved * zeta + bend * across);
-            third = third + across * curved * across;
+            part.slip = slip - along * zeta;
+            part.slip_bend = two * (square - along * bend);
+            second = second + bend * slip * zeta;
+        }
+        let mixed_zeta = product(mixed, zeta.direction);
+        let mixed_slip = product(mixed, parts.map(|part| part.slip));
+        for ((part, by_zeta), by_slip) in parts.iter_mut().zip(mixed_zeta).zip(mixed_slip) {
+            let Part { zeta, bend, slip, slip_bend, .. } = *part;
+            (part.bent_zeta, part.bent_slip) = (slip_bend * zeta + by_zeta, slip_bend * slip + by_slip);
+            second = second + T::constant(0.25) * part.bent_zeta * zeta;
+            variance = variance + slip * slip;
+            slope = slope + slip * (part.bent_zeta + bend * slip);
+            third = third + slip * part.bent_slip;
         }
         let variance = [variance, two * slope];
-        Self { parts, curvature: zeta.curvature, mean: slip.mean, along, second: two * second, variance, third: T::constant(3.0) * third }
+        let (second, third) = (two * second, T::constant(3.0) * third);
+        Self { parts, curvature: zeta.curvature, mean: slip.mean, along, second, variance, third, mixed: *mixed }
     }
 
     /// Moments of a stopped slip, which is a product of powers of the inputs: its second derivatives are the products of the
@@ -378,20 +400,27 @@ impl<T: Real, const N: usize> Excess<T, N> {
         let (mut bent, mut second) = (T::ZERO, T::ZERO);
         let (mut y, mut y_slope, mut mixed, mut mixed_slope) = (T::ZERO, T::ZERO, T::ZERO, T::ZERO);
         let (mut ssy, mut sys, mut syy, mut yys, mut yyy) = (T::ZERO, T::ZERO, T::ZERO, T::ZERO, T::ZERO);
-        for ((Part { zeta, bend, slip, slip_bend }, g), square) in self.parts.iter().zip(linear).zip(square) {
-            let across = *g - along * *zeta;
+        let mut across = *linear;
+        for (across, part) in across.iter_mut().zip(&self.parts) {
+            *across = *across - along * part.zeta;
+        }
+        let mixed_y = product(&self.mixed, across);
+        for ((((part, g), square), across), mixed_y) in
+            self.parts.iter().zip(linear).zip(square).zip(across).zip(mixed_y)
+        {
+            let Part { zeta, bend, slip, slip_bend, bent_zeta, bent_slip } = part;
             let curved = two * (*square - along * *bend);
-            let (by_slip, by_y) = (*slip_bend * across, curved * across);
+            let by_y = curved * across;
             bent = bent + *bend * *g * *zeta;
             second = second + curved * *zeta * *zeta;
             y = y + across * across;
             y_slope = y_slope + by_y * *zeta + *bend * across * across;
             mixed = mixed + across * *slip;
-            mixed_slope = mixed_slope + (by_slip + curved * *slip) * *zeta + two * *bend * *slip * across;
-            ssy = ssy + by_slip * *slip;
+            mixed_slope = mixed_slope + *bent_zeta * across + curved * *slip * *zeta + two * *bend * *slip * across;
+            ssy = ssy + *bent_slip * across;
             sys = sys + curved * *slip * *slip;
             syy = syy + by_y * *slip;
-            yys = yys + by_slip * across;
+            yys = yys + (*slip_bend * across + mixed_y) * across;
             yyy = yyy + by_y * across;
         }
         [
@@ -552,9 +581,58 @@ struct Expanded<T, const N: usize> {
     ratio: T,
     speeds: Expansion<T, N>,
     slip: Expansion<T, N>,
+    /// Mixed second derivatives of the slip, if two inputs have any.
+    mixed: Option<[[T; N]; N]>,
     /// For rebounds at multiples of the critical speed, divided by the multiple; then for captures at the critical speed.
     /// `None` if friction stops every slip.
     stopped: [Option<Stopped<T, N>>; STOPPED],
+}
+
+/// Mixed second derivatives of the slip with respect to the deviations of the inputs. `None` if all are zero.
+///
+/// The slip is a difference, so that no function of it is nearly a sum of functions of the inputs.
+fn mixed_derivatives<T: Real, const N: usize>(
+    inputs: &[Uncertain<T>; N],
+    expansion: &Expansion<T, N>,
+    slip: T,
+    slip_at: impl Fn([T; N]) -> Result<T, InputError>,
+) -> Result<Option<[[T; N]; N]>, InputError> {
+    let values = inputs.map(|input| input.value);
+    let mut derivatives = [[T::ZERO; N]; N];
+    let mut any = false;
+    // Deviation in the direction of the farther bound, and the change of the slip with it.
+    let single = |index: usize| {
+        let (Uncertain { value, error, bounds: [low, high] }, linear, square) =
+            (inputs.get(index)?, *expansion.linear.get(index)?, *expansion.square.get(index)?);
+        let z = if high < low { -T::ONE } else { T::ONE };
+        (linear != T::ZERO).then_some((z, *value + z * *error, linear * z + square))
+    };
+    for first in 0..N {
+        let Some((z, value, change)) = single(first) else { continue };
+        for second in first + 1..N {
+            let Some((other_z, other_value, other_change)) = single(second) else { continue };
+            let mut values = values;
+            if let Some(place) = values.get_mut(first) {
+                *place = value;
+            }
+            if let Some(place) = values.get_mut(second) {
+                *place = other_value;
+            }
+            let together = slip_at(values)? - slip;
+            let mixed = (together - change - other_change) * z * other_z;
+            // Not more than rounding.
+            if mixed.abs() <= T::constant(64.0) * T::EPSILON * (together.abs() + slip.abs()) {
+                continue;
+            }
+            any = true;
+            for (row, column) in [(first, second), (second, first)] {
+                if let Some(entry) = derivatives.get_mut(row).and_then(|row| row.get_mut(column)) {
+                    *entry = mixed;
+                }
+            }
+        }
+    }
+    Ok(any.then_some(derivatives))
 }
 
 /// Square root of the part of the energy that remains at a multiple of the critical speed, without the loss of the material.
@@ -584,6 +662,7 @@ impl<T: Real, const N: usize> Expanded<T, N> {
             ratio,
             speeds: zero,
             slip: Expansion::constant(slip),
+            mixed: None,
             stopped: stopped.map(|value| value.map(|value| Stopped { value, relative: zero })),
         };
         let values = inputs.map(|input| input.value);
@@ -617,22 +696,40 @@ impl<T: Real, const N: usize> Expanded<T, N> {
                     }
                 }
             }
-            expanded.speeds.add(input, centre, step, speeds);
-            expanded.slip.add(input, centre, step, slips);
+            expanded.speeds.add(input, centre, step, T::ZERO, speeds);
+            expanded.slip.add(input, centre, step, slip, slips);
             for (expansion, relief) in expanded.stopped.iter_mut().zip(reliefs) {
                 if let Some(expansion) = expansion {
-                    expansion.relative.add(input, centre, step, relief);
+                    expansion.relative.add(input, centre, step, T::ZERO, relief);
                 }
             }
         }
+        expanded.mixed = mixed_derivatives(inputs, &expanded.slip, slip, |values| Ok(impact(values)?.slip()))?;
         Ok(expanded)
     }
 
     /// The expansions for a given deviation of one input.
     fn with(self, input: usize, z: T) -> Self {
+        let mut slip = self.slip.with(input, z);
+        let mixed = self.mixed.map(|mut rows| {
+            if let Some(row) = rows.get_mut(input) {
+                for (linear, mixed) in slip.linear.iter_mut().zip(row) {
+                    *linear = *linear + *mixed * z;
+                    *mixed = T::ZERO;
+                }
+            }
+            for entry in rows.iter_mut().filter_map(|row| row.get_mut(input)) {
+                *entry = T::ZERO;
+            }
+            rows
+        });
+        if let Some(linear) = slip.linear.get_mut(input) {
+            *linear = T::ZERO;
+        }
         Self {
             speeds: self.speeds.with(input, z),
-            slip: self.slip.with(input, z),
+            slip,
+            mixed,
             stopped: self.stopped.map(|stopped| {
                 stopped.map(|stopped| Stopped { relative: stopped.relative.with(input, z), ..stopped })
             }),
@@ -664,7 +761,7 @@ impl<T: Real, const N: usize> Expanded<T, N> {
 
     fn probabilities(&self) -> [T; 3] {
         let (variable, critical, error) = self.zeta();
-        let excess = Excess::new(&variable, &self.slip);
+        let excess = Excess::new(&variable, &self.slip, &self.mixed);
         let ratio_at = |zeta: T| {
             let step = zeta + variable.curvature * (zeta * zeta - T::ONE);
             absolute(self.speeds.mean + error * step, self.ratio)
@@ -694,7 +791,7 @@ impl<T: Real, const N: usize> Expanded<T, N> {
     /// The probabilities if the outcome is the same for all deviations.
     fn certain(&self, outcome: Outcome) -> [T; 3] {
         let variable = Zeta { direction: [T::ZERO; N], bend: [T::ZERO; N], curvature: T::ZERO };
-        let excess = Excess::new(&variable, &self.slip);
+        let excess = Excess::new(&variable, &self.slip, &self.mixed);
         let [stopped, ..] = self.stopped;
         let sliding = stopped.map_or(T::ZERO, |stopped| {
             let [up, down] = excess.scores(T::ZERO, excess.moments(&stopped));
@@ -704,10 +801,32 @@ impl<T: Real, const N: usize> Expanded<T, N> {
     }
 }
 
-/// Adds the effect of the bounds of the inputs.
+/// Probability that a normal variable is beyond a bound at this distance, and weights with which the value at the bound takes
+/// the place of the mean of a function beyond it.
 ///
-/// Beyond its bound, an input has the value of the bound. The probability beyond it is taken from there, where two points have
-/// its mean and its variance, and given to the bound.
+/// The mean is that of a rule by Gauss and Radau: the bound and two more points, with the right first four moments.
+fn beyond<T: Real>(distance: T) -> (T, [(T, T); 3]) {
+    let (half, two, three) = (T::constant(0.5), T::constant(2.0), T::constant(3.0));
+    let (below, density) = normal(T::ZERO - distance);
+    // Means of the powers of the distance from the bound.
+    let first = density / below - distance;
+    let second = T::ONE - distance * first;
+    let third = two * first - distance * second;
+    let fourth = three * second - distance * third;
+    // The points are the roots of x^2 - 2 middle x + product, which is orthogonal to x and x^2.
+    let determinant = first * third - second * second;
+    let middle = half * (first * fourth - second * third) / determinant;
+    let product = (second * fourth - third * third) / determinant;
+    let spread = (middle * middle - product).max(T::ZERO).sqrt();
+    let (near, far) = (middle - spread, middle + spread);
+    // Weights that have the first two moments.
+    let weight = |x: T, other: T| (second - other * first) / (x * (x - other));
+    let (at_near, at_far) = (weight(near, far), weight(far, near));
+    let nodes = [(at_near + at_far, distance), (-at_near, distance + near), (-at_far, distance + far)];
+    (below, nodes)
+}
+
+/// Adds the effect of the bounds of the inputs: beyond its bound, an input has the value of the bound.
 fn bounded<T: Real, const N: usize>(
     inputs: &[Uncertain<T>; N],
     expanded: &Expanded<T, N>,
@@ -720,14 +839,11 @@ fn bounded<T: Real, const N: usize>(
             if distance >= T::constant(BEYOND) {
                 continue;
             }
-            let (below, density) = normal(-distance);
-            let mean = density / below;
-            let spread = (T::ONE + distance * mean - mean * mean).max(T::ZERO).sqrt();
-            let half = T::constant(-0.5);
-            for (weight, z) in [(T::ONE, distance), (half, mean - spread), (half, mean + spread)] {
+            let (beyond, nodes) = beyond(distance);
+            for (weight, z) in nodes {
                 let part = probabilities(&expanded.with(input, sign * z));
                 for (sum, part) in sum.iter_mut().zip(part) {
-                    *sum = *sum + below * weight * part;
+                    *sum = *sum + beyond * weight * part;
                 }
             }
         }
