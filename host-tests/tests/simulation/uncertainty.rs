@@ -351,7 +351,6 @@ fn classes_of_the_simulation() -> Result<(), InputError> {
             Ok((scene, motion, &exact))
         })?;
         let found = probabilities(found);
-        println!("{seed} {:.4} {found:.3?} {expected:.3?}", difference(found, expected));
         assert!(difference(found, expected) < ACCURACY.max(noise), "{seed} {scene:?}: {found:?} {expected:?}");
     }
     Ok(())

@@ -8,8 +8,8 @@ use super::panels::{CAPTURE_EDGES, Edge, REBOUND_EDGES, integral};
 use crate::{Outcome, Real};
 
 /// Rebounds for which the stopped slip is computed: the square root of the part of the energy that remains, without the loss of
-/// the material. The last one is that of 1.7 times the critical speed.
-pub(super) const REMAINDERS: [f64; REBOUNDS] = [0.08, 0.44, 0.8];
+/// the material. The last one is that of 1.3 times the critical speed.
+pub(super) const REMAINDERS: [f64; REBOUNDS] = [0.08, 0.35, 0.65];
 
 /// Distance of a bound, in standard errors, from which on it has no effect: the probability to be beyond is 2e-3.
 const BEYOND: f64 = 2.9;
