@@ -114,7 +114,7 @@ parameters! {
         /// Standard error of the measured velocities.
         VelocityError: "velocity error", "m/s", 0.0 to 1e6;
         /// Standard error of any input, in the unit of that input.
-        StandardError: "standard error", "in the unit of its quantity", 0.0 to 1e30;
+        StandardError: "standard error", "in the unit of its quantity", 0.0 to 1e18;
         /// Kinetic restitution R, without adhesion.
         Restitution: "restitution", "1", 0.0 to 1.0;
         /// Speed k of the restitution law R = k/(k + v).

@@ -44,7 +44,7 @@ use crate::{
 pub struct Contact<T, L, S = NoFriction> {
     sphere: Sphere<T>,
     law: L,
-    surface: S,
+    pub(crate) surface: S,
 }
 
 impl<T: Real, L> Contact<T, L> {

@@ -5,10 +5,8 @@
 //!   bounded number of steps. [`estimate`] adds the standard error, from derivatives.
 //! * **Many impacts** determine the restitution law and the work of adhesion ([`RestitutionFit`]), the friction coefficient
 //!   ([`friction`]) or the spin ([`rolling_motion`]), each with its standard error. Outliers do not change the result.
-//! * **Uncertain inputs** give [probabilities of the classes](ClassProbabilities). The margins of a class are assumed to be
-//!   normally distributed about their values. Their standard errors and their correlation follow from the derivatives of a
-//!   [`Dual`](crate::Dual) computation. If both margins are within a standard error of zero, where they are least linear, the
-//!   error of the probabilities is a few hundredths.
+//! * **Uncertain inputs** give [probabilities of the classes](ClassProbabilities), of the rigid body and of the simulation. With
+//!   standard errors of up to 10 %, the error of a probability is below 0.01.
 //!
 //! If a measurement does not determine a parameter, the result is a [`CalibrationError`] with the reason.
 
@@ -25,7 +23,7 @@ pub use error::CalibrationError;
 pub use restitution::RestitutionFit;
 pub use robust::{Estimate, Location};
 pub use tangential::{ImpulseRatios, friction, rolling_motion};
-pub use uncertainty::{ClassProbabilities, NormalDistribution, rebound_probability, stopped_slip};
+pub use uncertainty::{ClassProbabilities, Classifiable, NormalDistribution, Uncertain};
 
 use crate::{InputError, NormalMotion, Parameter, Real};
 

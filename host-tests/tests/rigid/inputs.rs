@@ -2,12 +2,12 @@
 
 use microimpact::contact::{Adaptive, Collocation, Contact, DimensionlessImpact, FixedCost, RestCriterion};
 use microimpact::measure::ring_strength;
-use microimpact::measure::{NormalDistribution, rebound_probability};
+use microimpact::measure::{NormalDistribution, Uncertain};
 use microimpact::rigid::{AdhesionCoefficient, Departure, WorkOfAdhesion, infer, infer_with_spins};
 use microimpact::table::{BoundaryTable, RestitutionTable, Single, TableRebound};
 use microimpact::{
-    ConstantRestitution, Coulomb, CriticalSpeed, Dual, Fault, ImpactError, InFixedPoint, InputError, Material,
-    NormalMotion, Parameter, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
+    ConstantRestitution, Coulomb, CriticalSpeed, Fault, ImpactError, InFixedPoint, InputError, Material, NormalMotion,
+    Parameter, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
 };
 
 type Checked = Result<(), ImpactError>;
@@ -108,9 +108,7 @@ fn supply<T: Single + NormalDistribution + Into<f64>>(parameter: Parameter, valu
             let sphere = sphere::<T>();
             ring_strength(&sphere, stiffness(), value * sphere.radius()).map(drop)
         }
-        Parameter::StandardError => {
-            rebound_probability(Dual::variables([T::ONE])[0], &CriticalSpeed::AlwaysRebounds, &[value]).map(drop)
-        }
+        Parameter::StandardError => Uncertain::new(T::ONE, value).map(drop),
         Parameter::RestEnergy => RestCriterion::new(value, 100).map(drop),
         Parameter::CriticalSpeed => BoundaryTable::<1>::new(c(1e-6), |_| Ok(CriticalSpeed::At(value))).map(drop),
         Parameter::SpeedRatio => restitution_table(value, T::ONE),

@@ -10,7 +10,7 @@ use super::phase::Phase;
 use super::rest::{RestCriterion, Settling};
 use super::split::{FirstPart, find_end_of_slip};
 use crate::contact::law::ContactLaw;
-use crate::{InputError, Parameter, Real};
+use crate::{InputError, Real};
 
 /// The method to use where code size does not matter. It controls its error, and chooses what is fastest for a scene and a
 /// tolerance.

@@ -7,9 +7,10 @@ use microimpact::measure::{
     CalibrationError, ImpulseRatios, Location, MeasuredRebound, RestitutionFit, adhesion_damping, estimate, friction,
     material_damping, parameter, ring_strength, rolling_motion,
 };
-use microimpact::measure::{ClassProbabilities, NormalDistribution, rebound_probability, stopped_slip};
+use microimpact::measure::{ClassProbabilities, NormalDistribution, Uncertain};
 use microimpact::{
-    Approach, Class, Coulomb, CriticalSpeed, Dual, InputError, NormalMotion, Parameter, Real, Sphere, Stiffness,
+    Class, CriticalSpeed, Dual, InputError, NormalMotion, Parameter, Real, RigidBody, SpeedRestitution, Sphere,
+    Stiffness,
 };
 
 use super::contact::AnyNodes;
@@ -76,16 +77,32 @@ fn duals<T: AnyNodes>() -> Result<(), InputError> {
     Ok(())
 }
 
-fn probabilities<T: NormalDistribution>() -> Result<(), InputError> {
-    keep((any::<T>().below(), any::<T>().both_below(any(), any())));
-    let [speed, slip] = Dual::variables([any::<T>(), any()]);
-    let sphere = Sphere::solid(Dual::fixed(any()), Dual::fixed(any()))?;
-    let stopped = stopped_slip(&sphere, &Coulomb::new(Dual::fixed(any()))?, speed);
-    let motion = NormalMotion::new(speed)?.with_tangential(slip)?;
-    let critical = CriticalSpeed::At(Dual::fixed(any()));
-    let errors = [any(), any()];
-    keep(rebound_probability(motion.normal().speed(), &critical, &errors));
-    let probabilities = ClassProbabilities::new(&motion, &critical, stopped, &errors)?;
-    keep((probabilities.of(black_box(Class::CapturedSliding)), probabilities.rebound()));
+fn probabilities<T: AnyNodes + NormalDistribution>() -> Result<(), InputError> {
+    keep(any::<T>().below());
+    let inputs = [
+        Uncertain::new(any::<T>(), any())?.within(black_box(Parameter::ApproachSpeed))?,
+        Uncertain::new(any(), any())?,
+        Uncertain::new(any(), any())?.within(Parameter::WorkOfAdhesion)?,
+        Uncertain::new(any(), any())?.within(Parameter::Friction)?,
+    ];
+    let rigid_body = ClassProbabilities::new(&inputs, |[speed, slip, work, friction]| {
+        let scene = RigidBody::new(Sphere::solid(any(), any())?, SpeedRestitution::new(any())?);
+        let motion = NormalMotion::new(speed)?.with_tangential(slip)?;
+        Ok((scene.with_work_of_adhesion(work)?.with_friction(friction)?, motion))
+    })?;
+    keep((rigid_body.of(black_box(Class::CapturedSliding)), rigid_body.rebound()));
+    let method = Collocation::<5, T>::new(any())?;
+    let contact = ClassProbabilities::new(&inputs, |[speed, slip, strength, friction]| {
+        let scene = Contact::hertz(Sphere::solid(any(), any())?, Stiffness::new(any())?)
+            .with_damping(any())?
+            .with_ring(strength, any())?
+            .with_friction(friction)?;
+        Ok((scene, NormalMotion::new(speed)?.with_tangential(slip)?, &method))
+    })?;
+    keep(contact.of(black_box(Class::ReboundSliding)));
+    let normal = ClassProbabilities::new(&inputs, |[speed, critical, ..]| {
+        Ok((NormalMotion::new(speed)?, CriticalSpeed::At(critical)))
+    })?;
+    keep(normal.rebound());
     Ok(())
 }

@@ -1,0 +1,153 @@
+//! Probabilities from the expansions.
+
+use super::Uncertain;
+use super::excess::{Excess, Zeta};
+use super::expansion::{Expanded, REBOUNDS, absolute, relative, squares};
+use super::normal::{CERTAIN, LARGEST_CURVATURE, normal, quantile};
+use super::panels::{CAPTURE_EDGES, Edge, REBOUND_EDGES, integral};
+use crate::{Outcome, Real};
+
+/// Rebounds for which the stopped slip is computed: the square root of the part of the energy that remains, without the loss of
+/// the material. The last one is that of 1.3 times the critical speed.
+pub(super) const REMAINDERS: [f64; REBOUNDS] = [0.08, 0.35, 0.65];
+
+/// Distance of a bound, in standard errors, from which on it has no effect: the probability to be beyond is 2e-3.
+const BEYOND: f64 = 2.9;
+
+/// Square root of the part of the energy that remains at a multiple of the critical speed, without the loss of the material.
+pub(super) fn remainder<T: Real>(multiple: T) -> T {
+    let held = T::ONE / multiple;
+    (T::ONE - held * held).max(T::ZERO).sqrt()
+}
+
+/// Inverse of [`remainder`].
+pub(super) fn multiple<T: Real>(remainder: T) -> T {
+    T::ONE / (T::ONE - remainder * remainder).sqrt()
+}
+
+impl<T: Real, const N: usize> Expanded<T, N> {
+    /// The variable zeta, its value at the critical speed, and the standard error of the ratio of the speeds.
+    pub(super) fn zeta(&self) -> (Zeta<T, N>, T, T) {
+        let Self { ratio, speeds, .. } = self;
+        let square = squares(&speeds.linear);
+        let error = (square + T::constant(2.0) * squares(&speeds.square)).sqrt();
+        let at_critical = relative(T::ONE, *ratio) - speeds.mean;
+        let limit = T::constant(CERTAIN);
+        let none = [T::ZERO; N];
+        if square <= T::ZERO || at_critical.abs() >= T::constant(2.0) * limit * error {
+            let critical = if at_critical > T::ZERO { limit } else { -limit };
+            return (Zeta { direction: none, bend: none, curvature: T::ZERO }, critical, error);
+        }
+        let root = square.sqrt();
+        let direction = speeds.linear.map(|part| part / root);
+        let bend = speeds.square.map(|part| part / error);
+        let bound = T::constant(LARGEST_CURVATURE);
+        let curvature = direction.iter().zip(&bend).fold(T::ZERO, |sum, (beta, bend)| sum + *beta * *beta * *bend);
+        let curvature = curvature.max(-bound).min(bound);
+        let critical = quantile(at_critical / error, curvature).max(-limit).min(limit);
+        (Zeta { direction, bend, curvature }, critical, error)
+    }
+
+    pub(super) fn probabilities(&self) -> [T; 3] {
+        let (variable, critical, error) = self.zeta();
+        let excess = Excess::new(&variable, &self.slip, &self.mixed);
+        let ratio_at = |zeta: T| {
+            let step = zeta + variable.curvature * (zeta * zeta - T::ONE);
+            let speed = self.speeds.mean + error * step;
+            let ratio = absolute(speed, self.ratio);
+            let two = T::constant(2.0);
+            // d ratio/d speed is (ratio + reference)^2/(4 reference).
+            let sum = ratio + self.ratio;
+            let slope = sum * sum * T::constant(0.25) / self.ratio * error * (T::ONE + two * variable.curvature * zeta);
+            (ratio, slope)
+        };
+        let [a, b, c, captured] = self.stopped.map(|stopped| stopped.map(|stopped| excess.moments(&stopped)));
+        let (mut both, mut other) = (T::ZERO, T::ZERO);
+        if let (Some(a), Some(b), Some(c)) = (a, b, c) {
+            let [p, q, r] = REMAINDERS.map(T::constant);
+            both = integral(critical, T::ONE, &REBOUND_EDGES, |zeta| {
+                let (ratio, slope) = ratio_at(zeta);
+                let x = remainder(ratio.max(T::ONE));
+                let (to_b, to_c) = ((x - p) / (q - p), (x - p) / (r - p));
+                let bend = (x - q) / (r - q) * to_c;
+                let first = to_b - bend * ((r - p) / (q - p));
+                let mut moments = a;
+                for ((a, b), c) in moments.iter_mut().zip(b).zip(c) {
+                    *a = *a + first * (b - *a) + bend * (c - *a);
+                }
+                // The score is nearly linear in x, which rises as a root: d zeta/d x = ratio^3 x/(d ratio/d zeta).
+                let stretch = (ratio * ratio * ratio * x).saturating_div(slope.max(T::SMALLEST));
+                let (position, stretch) = if error > T::ZERO { (x, stretch) } else { (zeta, T::ONE) };
+                Edge::new(zeta, position, stretch, excess.scores(zeta, moments))
+            });
+        }
+        if let Some(captured) = captured {
+            other = integral(critical, -T::ONE, &CAPTURE_EDGES, |zeta| {
+                Edge::new(zeta, zeta, T::ONE, excess.scores(zeta, captured))
+            });
+        }
+        [normal(T::ZERO - critical).0, both, other]
+    }
+
+    /// The probabilities if the outcome is the same for all deviations.
+    pub(super) fn certain(&self, outcome: Outcome) -> [T; 3] {
+        let variable = Zeta { direction: [T::ZERO; N], bend: [T::ZERO; N], curvature: T::ZERO };
+        let excess = Excess::new(&variable, &self.slip, &self.mixed);
+        let [stopped, ..] = self.stopped;
+        let sliding = stopped.map_or(T::ZERO, |stopped| {
+            let [up, down] = excess.scores(T::ZERO, excess.moments(&stopped));
+            up.probability() + down.probability()
+        });
+        if outcome == Outcome::Rebound { [T::ONE, sliding, T::ZERO] } else { [T::ZERO, T::ZERO, sliding] }
+    }
+}
+
+/// Probability that a normal variable is beyond a bound at this distance, and weights with which the value at the bound takes
+/// the place of the mean of a function beyond it.
+///
+/// The mean is that of a rule by Gauss and Radau: the bound and two more points, with the right first four moments.
+pub(super) fn beyond<T: Real>(distance: T) -> (T, [(T, T); 3]) {
+    let (half, two, three) = (T::constant(0.5), T::constant(2.0), T::constant(3.0));
+    let (below, density) = normal(T::ZERO - distance);
+    // Means of the powers of the distance from the bound.
+    let first = density / below - distance;
+    let second = T::ONE - distance * first;
+    let third = two * first - distance * second;
+    let fourth = three * second - distance * third;
+    // The points are the roots of x^2 - 2 middle x + product, which is orthogonal to x and x^2.
+    let determinant = first * third - second * second;
+    let middle = half * (first * fourth - second * third) / determinant;
+    let product = (second * fourth - third * third) / determinant;
+    let spread = (middle * middle - product).max(T::ZERO).sqrt();
+    let (near, far) = (middle - spread, middle + spread);
+    // Weights that have the first two moments.
+    let weight = |x: T, other: T| (second - other * first) / (x * (x - other));
+    let (at_near, at_far) = (weight(near, far), weight(far, near));
+    let nodes = [(at_near + at_far, distance), (-at_near, distance + near), (-at_far, distance + far)];
+    (below, nodes)
+}
+
+/// Adds the effect of the bounds of the inputs: beyond its bound, an input has the value of the bound.
+pub(super) fn bounded<T: Real, const N: usize>(
+    inputs: &[Uncertain<T>; N],
+    expanded: &Expanded<T, N>,
+    probabilities: impl Fn(&Expanded<T, N>) -> [T; 3],
+) -> [T; 3] {
+    let mut sum = probabilities(expanded);
+    for (input, uncertain) in inputs.iter().enumerate() {
+        let [low, high] = uncertain.bounds;
+        for (sign, distance) in [(-T::ONE, low), (T::ONE, high)] {
+            if distance >= T::constant(BEYOND) {
+                continue;
+            }
+            let (beyond, nodes) = beyond(distance);
+            for (weight, z) in nodes {
+                let part = probabilities(&expanded.with(input, sign * z));
+                for (sum, part) in sum.iter_mut().zip(part) {
+                    *sum = *sum + beyond * weight * part;
+                }
+            }
+        }
+    }
+    sum
+}
