@@ -85,6 +85,7 @@ C = [
     ("ERROR_MARGIN", "16", "`fixed_cost`: `run`", "makes a bound of the estimate of what the nodes do not resolve"),
     ("ROUNDINGS", "8 ε; path 16 ε; gill 64 ε", "`fixed_cost`: `run`; path: `energy_bound`; gill", "of the largest energy on the way, in the error bound"),
     ("LARGEST_ERROR", "0.003", "`fixed_cost`: `run`", "larger bounds count as not solved"),
+    ("LARGEST_LOSS_ERROR", "0.1", "`fixed_cost`: `run`", "bound of the error of the energy, in units of the impact, with which a capture counts"),
     ("UNSTEADY", "0.01", "`fixed_cost`", "change of the energy above which old reciprocals slow the iteration"),
     ("STRONGEST", "8", "`fixed_cost`", "loss over speed at the peak: wrong captures begin at 12.7"),
     ("LARGEST_SLOWNESS, BARRIER_MARGIN", "0.01, 0.1", "`fixed_cost`: `run`", "close to a barrier the sphere is slow in the middle of its way, where no polynomial is exact"),

@@ -242,8 +242,8 @@ where
         phase.describe(law, false);
     })?;
     let peak = phase.peak;
-    let tails = phase.tails(energy);
-    let mut error = tails.error_of_energy();
+    let tails = phase.tails();
+    let mut error = tails.error_of_energy() / energy;
     let judge = |error: T| match error {
         _ if error <= tolerance => Ok(()),
         _ if error <= T::constant(NEARLY) * tolerance => Err(Failed::ByLittle),
@@ -256,21 +256,21 @@ where
         T::constant(IMPULSE_WEIGHT) * least.max(T::constant(TIME_TAIL_ERROR) * unresolved * unresolved)
     };
     if O::TIMED {
-        error = error.max(timed(&approach, tails.error_of_times()));
+        error = error.max(timed(&approach, tails.error_of_times(energy)));
     }
     judge(error)?;
     let before = phase.clone();
     phase.turn(law);
     let gained = iterate(&mut phase, &mut |_, _| {})?;
-    let tails = phase.tails(energy);
-    error = error.max(tails.error_of_energy());
+    let tails = phase.tails();
+    error = error.max(tails.error_of_energy() / energy);
     let left = at_peak + gained;
     if left <= T::ZERO && O::TO_TURNING_POINT {
         return Err(Failed::ByFar);
     }
     let rebound = O::OBSERVES.then(|| phase.samples::<M>(law, true));
     if O::TIMED {
-        error = error.max(timed(&rebound, tails.error_of_times()));
+        error = error.max(timed(&rebound, tails.error_of_times(energy)));
     }
     judge(error)?;
     // Of a law in its own units no speed exceeds one.

@@ -91,6 +91,10 @@ const LARGEST_ERROR: f64 = 3e-3;
 /// renewed: below it their error changes the energy by less than its square.
 const UNSTEADY: f64 = 0.01;
 
+/// Largest error of the energy lost, over the largest kinetic energy without losses, twice, with which a capture is certain: iterations
+/// that diverge lose more than there is.
+const LARGEST_LOSS_ERROR: f64 = 0.1;
+
 /// Largest part of the reciprocal speed that the nodes may leave unresolved where there can be a barrier.
 const LARGEST_SLOWNESS: f64 = 0.01;
 
@@ -115,18 +119,22 @@ where
             return NormalPath::unsupported(energy);
         }
         self.run::<T, L, O>(law, energy, |phase: &Phase<T, N>, rebound| {
-            if O::OBSERVES {
-                let tolerance = T::constant(END_OF_SLIP).max(T::EPSILON);
-                show(law, phase, &phase.samples::<M>(law, rebound), rebound, tolerance, observer);
+            if !O::OBSERVES {
+                return T::ZERO;
             }
+            let whole = phase.samples::<M>(law, rebound);
+            let error = if O::DEMANDS { observer.error(law, &whole) } else { T::ZERO };
+            let tolerance = T::constant(END_OF_SLIP).max(T::EPSILON);
+            show(law, phase, &whole, rebound, tolerance, observer);
+            error
         })
     }
 }
 
 impl<const N: usize, const M: usize> FixedCost<N, M> {
-    /// Approach and rebound, each shown to `observe` when it is solved.
+    /// Approach and rebound, each shown to `observe` when it is solved, which returns an error of its own.
     #[inline]
-    fn run<T, L, O>(&self, law: &L, energy: T, mut observe: impl FnMut(&Phase<T, N>, bool)) -> NormalPath<T>
+    fn run<T, L, O>(&self, law: &L, energy: T, mut observe: impl FnMut(&Phase<T, N>, bool) -> T) -> NormalPath<T>
     where
         T: PhaseNodes<N>,
         L: ContactLaw<T>,
@@ -149,11 +157,11 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             moved = lost - before;
             at_peak = phase.correct_peak(law, energy, lost);
         }
-        let mut error = moved.abs() / energy;
-        let approach = phase.tails(energy);
+        let changed = moved.abs();
+        let approach = phase.tails();
         // Where the approach comes to a stand before its peak, there is another one.
         let mut represented = phase.is_represented(STRONGEST) && phase.is_moving();
-        observe(&phase, false);
+        let mut observed = observe(&phase, false);
         phase.turn(law);
         let mut gained = T::ZERO;
         moved = energy;
@@ -167,37 +175,33 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             gained = phase.iterate::<false>().0;
             moved = gained - before;
         }
-        error = error + moved.abs() / energy;
-        let rebound = phase.tails(energy);
-        observe(&phase, true);
+        let rebound = phase.tails();
+        observed = observed.max(observe(&phase, true));
+        represented &= phase.is_represented(STRONGEST) && phase.peak > T::ZERO;
         // The iterates of the losses lie on both sides of the solution, or gain on it faster from one to the next: it is no
         // farther from the last than that was from the one before. The nodes and rounding add their part.
-        error = error + T::constant(ERROR_MARGIN) * (approach.error_of_energy() + rebound.error_of_energy());
-        error = error + T::constant(ROUNDINGS) * T::EPSILON / energy;
-        represented &= phase.is_represented(STRONGEST) && phase.peak > T::ZERO;
-        // In front of a barrier the sphere may be slowest on its way, where no polynomial is exact, and the potential may be so flat
-        // that one step for the peak leaves an error.
+        let mut uncertain = changed + moved.abs() + T::constant(ROUNDINGS) * T::EPSILON;
+        let unresolved = approach.error_of_energy() + rebound.error_of_energy();
+        uncertain = uncertain + T::constant(ERROR_MARGIN) * unresolved.min(T::ONE);
+        // Where the potential is flat one step for the peak leaves an error.
+        uncertain = uncertain + (law.potential(phase.peak) - at_peak).abs();
         if law.may_have_barrier() {
+            // In front of a barrier the sphere may be slowest on its way, where no polynomial is exact.
             represented &= approach.slowness.max(rebound.slowness) <= T::constant(LARGEST_SLOWNESS);
-            error = error + (law.potential(phase.peak) - at_peak).abs() / energy;
         }
-        let exact = |error: T| error <= T::constant(LARGEST_ERROR);
-        let timely = !O::TIMED || exact(approach.error_of_times().max(rebound.error_of_times()));
+        let largest = T::constant(LARGEST_ERROR);
+        let mut timely = !O::TIMED || approach.error_of_times(energy).max(rebound.error_of_times(energy)) <= largest;
+        timely &= observed <= largest;
         let left = at_peak + gained;
-        let uncertain = error * energy;
         // A sphere that comes slower than a barrier is high, or loses so much on its way there, never meets the peak computed here.
         let (_, escape) = barrier(law);
-        let passes = if law.may_have_barrier() {
-            at_peak - escape > T::constant(BARRIER_MARGIN) * energy
-        } else {
-            energy > uncertain
-        };
+        let passes = !law.may_have_barrier() || at_peak - escape > T::constant(BARRIER_MARGIN) * energy;
         let excess = left - escape;
         let end = if !(represented && passes) {
             End::Budget
-        } else if excess < -uncertain {
+        } else if excess < -uncertain && uncertain <= T::constant(LARGEST_LOSS_ERROR) {
             End::Capture
-        } else if !(exact(error) && timely) {
+        } else if !(uncertain <= largest * energy && timely) {
             End::Budget
         } else if excess <= uncertain {
             End::Undecided
@@ -206,6 +210,7 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         } else {
             End::Budget
         };
+        let error = uncertain.saturating_div(energy);
         let statistics =
             Statistics { intervals: 2, refused: 0, iterations: 2 * self.iterations, nodes: N as u32, error };
         NormalPath { end, energy: left, peak: phase.peak, turning: T::ZERO, error_bound: error, statistics }

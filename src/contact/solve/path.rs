@@ -464,7 +464,9 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         if self.is_held() {
             Ok(T::ZERO)
         } else {
-            Err(if surplus > uncertain { End::Separation } else { End::Undecided })
+            // Where the potential has no minimum nothing holds the sphere, however little energy remains.
+            let separates = surplus > uncertain || self.equilibrium().is_none();
+            Err(if separates { End::Separation } else { End::Undecided })
         }
     }
 
@@ -473,7 +475,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let (surplus, uncertain) = self.surplus();
         let farther = (self.at.s - self.barrier.0).max(T::ZERO);
         let loss = self.law.loss(self.at.s, true) * self.at.speed_squared.max(T::ZERO).sqrt() * farther;
-        surplus.abs() <= uncertain && loss <= uncertain
+        surplus.abs() <= uncertain && loss <= uncertain && self.equilibrium().is_some()
     }
 
     /// The first interval of the rebound, no deeper than `deepest`; its depth.

@@ -48,27 +48,31 @@ pub(crate) struct Phase<T, const N: usize> {
     pub(crate) estimate: T,
 }
 
-/// Relative energy loss of a phase, and estimates of the parts that its nodes do not resolve.
+/// Energy that a phase loses, and estimates of the parts that its nodes do not resolve.
 pub(crate) struct Tails<T> {
     pub(crate) lost: T,
-    /// Of the losses, over the energy.
+    /// Of the lost energy.
     pub(crate) power: T,
-    /// Of the reciprocal speed, over itself.
+    /// Of the reciprocal speed, as a fraction of it.
     pub(crate) slowness: T,
 }
 
 impl<T: Real> Tails<T> {
-    /// Estimated error of e^2.
+    /// Estimated error of the energy after the phase.
     pub(crate) fn error_of_energy(&self) -> T {
-        let power = self.power * self.power / (self.lost + T::SMALLEST);
-        let slowness = T::constant(SLOWNESS_ERROR) * self.lost * self.slowness * self.slowness;
-        T::constant(ENERGY_ERROR) * power.max(slowness)
+        // Beyond one there is nothing to estimate, and fixed point would overflow.
+        let (fraction, slowness) =
+            (self.power.saturating_div(self.lost + T::SMALLEST).min(T::ONE), self.slowness.min(T::ONE));
+        let slow = T::constant(SLOWNESS_ERROR) * self.lost * slowness * slowness;
+        T::constant(ENERGY_ERROR) * (self.power * fraction).max(slow)
     }
 
-    /// Estimated relative error of integrals over time, if the quadrature itself is exact.
-    pub(crate) fn error_of_times(&self) -> T {
+    /// Estimated relative error of integrals over time, if the quadrature itself is exact, for a sphere that arrives with a kinetic
+    /// energy.
+    pub(crate) fn error_of_times(&self, energy: T) -> T {
         let square = self.slowness * self.slowness;
-        (T::constant(TIME_ERROR_OF_LOSSES) * self.power).max(T::constant(TIME_ERROR_OF_SLOWNESS) * square * square)
+        let losses = T::constant(TIME_ERROR_OF_LOSSES) * self.power.saturating_div(energy);
+        losses.max(T::constant(TIME_ERROR_OF_SLOWNESS) * square * square)
     }
 }
 
@@ -185,9 +189,8 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         energy - (lost - growth * step)
     }
 
-    /// The unresolved parts of the losses, over the energy, and of the reciprocal speed, which is smooth except near the slow
-    /// end of a phase.
-    pub(crate) fn tails(&self, energy: T) -> Tails<T> {
+    /// The unresolved parts of the losses, and of the reciprocal speed, which is smooth except near the slow end of a phase.
+    pub(crate) fn tails(&self) -> Tails<T> {
         let (mut power_tail, mut lost, mut slowness_tail, mut slowness) = (T::ZERO, T::ZERO, T::ZERO, T::ZERO);
         for k in 0..N {
             // As good as the reciprocal of the present speed: it is as smooth.
@@ -198,8 +201,8 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
             slowness = slowness + T::WEIGHTS[k] * inverse;
         }
         let half = T::constant(0.5);
-        let lost = half * lost.abs() / energy;
-        Tails { lost, power: half * power_tail.abs() / energy, slowness: slowness_tail.abs() / slowness }
+        let slowness = slowness_tail.abs().saturating_div(slowness);
+        Tails { lost: half * lost.abs(), power: half * power_tail.abs(), slowness }
     }
 
     /// Whether damping is so mild that iterations converge to the solution.

@@ -288,7 +288,8 @@ mod tests {
         for turning in [0.05_f64, 0.3, 0.5, 0.547] {
             let energy = law.potential(turning);
             let at = Point { s: turning, energy, speed_squared: 0.0 };
-            let mut path = NormalPath { end: End::Capture, energy, peak: 1.0, turning, statistics: Statistics::NONE };
+            let (end, statistics) = (End::Capture, Statistics::NONE);
+            let mut path = NormalPath { end, energy, peak: 1.0, turning, error_bound: 0.0, statistics };
             let mut observer = ();
             let mut follower = Follower::from(&law, control, &mut observer, at);
             let settling = follower.settle::<12>(&mut path, &RestCriterion::new(1e-12, 1001)?);
