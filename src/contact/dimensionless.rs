@@ -77,7 +77,7 @@ const LEAST_ITERATIONS: u32 = 2;
 const PHASES: u32 = 2;
 
 // Terms of the error bound in fixed point: errors of twice the energy that remains, in the units of the impact. The tests
-// find errors of up to 0.7 of the sum of the terms, over the whole range of the groups.
+// find errors of up to three quarters of the bound, over the whole range of the groups.
 
 /// Rounding errors that each node adds, in steps of the number type.
 const ROUNDINGS: f64 = 4.0;
