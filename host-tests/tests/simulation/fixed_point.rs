@@ -85,6 +85,10 @@ impl Record {
         let (bound, square) = (contact.error_of_square.to_f64(), contact.restitution_squared.to_f64());
         let what = || format!("{groups:?}, {N} nodes, {iterations} iterations: {contact:?}, e^2 {exact:?}");
         self.solved += u32::from(contact.status == Status::Solved);
+        if contact.outcome.is_some() {
+            let (stated, step) = (stated_bound(groups, N, iterations), FixedPoint::EPSILON.to_f64() / (1.0 - p));
+            assert!((bound - stated).abs() <= 0.03 * stated + 4.0 * step, "stated {stated:e}, {}", what());
+        }
         match contact.outcome {
             Some(Outcome::Rebound) => {
                 let error = (square - exact.unwrap_or_else(|| panic!("{}", what()))).abs();
@@ -99,6 +103,14 @@ impl Record {
             None => assert!(contact.status == Status::BudgetSpent && square == 0.0 && bound == 0.0, "{}", what()),
         }
     }
+}
+
+/// The bound that the documentation of `FixedPoint` states.
+fn stated_bound([p, h, g]: [f64; 3], nodes: usize, iterations: u32) -> f64 {
+    let d = h + p * g;
+    let unresolved = 1.2e-4 * 2_f64.powi(4 - nodes as i32) * d;
+    let unconverged = 8e-3 * 8_f64.powi(2 - iterations as i32) * d.powi(3);
+    (2.4e-7 * nodes as f64 + unresolved) / (1.0 - p) + (unconverged / (1.0 - p)).min(1.5e-3)
 }
 
 /// Square of the restitution to 1e-12; `None` for a capture.
