@@ -136,10 +136,16 @@ pub struct RestitutionTable<T, const N: usize, const R: usize, const S: usize> {
 /// error of the polynomials of three or four nodes.
 const LEAST_PLACES: usize = 12;
 
-/// Places between two neighbouring nodes of a table, one of the nodes included.
+/// Places from one node of a table to the next, one of the nodes included.
 const fn places_per_cell(nodes: usize) -> usize {
     let places = LEAST_PLACES.div_ceil(nodes - 1);
     if places > 2 { places } else { 2 }
+}
+
+/// The same for radii: an odd number, since in the middle of a cell one parabola takes the place of another, whose error may
+/// be larger. So there are places on both sides of the middle.
+const fn rows_per_cell(nodes: usize) -> usize {
+    places_per_cell(nodes) | 1
 }
 
 /// Columns below the first node at which a table is compared with its source. The polynomials extrapolate there, to the
@@ -179,8 +185,8 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
     ///
     /// The `source` computes restitution and impulse for a radius (m) and a speed (m/s). It is called at the `R` times `S`
     /// nodes and, to find the errors, on a grid of places at nodes, on the lines between them and inside the cells. The
-    /// grid divides each cell in two, or finer if there are few cells, so that it has at least 13 by 15 places, also close
-    /// to the critical speed. In all there are about four calls for each node, and at least 195.
+    /// grid divides each cell in three by two, or finer if there are few cells, so that it has at least 13 by 15 places, also
+    /// close to the critical speed. In all there are about six calls for each node, and at least 195.
     ///
     /// The bounds of the interpolation error, [`error`](Self::error) and [`impulse_error`](Self::impulse_error), are twice
     /// the largest differences found, plus rounding. They hold if between the places the difference is nowhere more than twice
@@ -254,7 +260,7 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
     ) -> Result<TableRebound<T>, InputError> {
         let count = |number: usize| T::constant(number as f64);
         let (half, margin) = (T::constant(0.5), octaves::<T>(self.boundary.margin as i32));
-        let (across, along) = const { (places_per_cell(R), places_per_cell(S)) };
+        let (across, along) = const { (rows_per_cell(R), places_per_cell(S)) };
         let nearest = (T::constant(MARGINS_FROM_BOUNDARY) * margin).sqrt() * self.per_root - half;
         let uncertain = [half * margin * slopes.restitution, half * margin * slopes.impulse];
         let mut largest = TableRebound { restitution: T::ZERO, impulse: T::ZERO };

@@ -373,7 +373,7 @@ impl Found {
             }
         };
         self.tables += 1;
-        assert!(calls >= 195 && calls <= 195.max(4 * R * S) + 6 * (R + S), "{R} x {S} nodes: {calls} calls");
+        assert!(calls >= 195 && calls <= 300.max(6 * R * S), "{R} x {S} nodes: {calls} calls");
         let (smallest, end) = table.boundary().radii::<f64>();
         for reading in 0..readings {
             let rows = (R - 1) as f64;
