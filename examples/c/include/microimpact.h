@@ -240,7 +240,7 @@ typedef struct MicroimpactBoundaryTable {
 // Room for a table of restitution over two octaves of radii and a range of speeds, which microimpact_restitution_make makes.
 typedef struct MicroimpactRestitutionTable {
   // What is in it concerns the library alone.
-  uint32_t words[164];
+  uint32_t words[165];
 } MicroimpactRestitutionTable;
 
 // What a restitution table says of an impact.

@@ -125,7 +125,7 @@ pub unsafe extern "C" fn microimpact_boundary_classify(
 #[derive(Clone, Copy, Debug)]
 pub struct RestitutionTable {
     /// What is in it concerns the library alone.
-    pub words: [u32; 164],
+    pub words: [u32; 165],
 }
 
 /// What is in the room.

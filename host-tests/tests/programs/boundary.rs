@@ -11,6 +11,9 @@ use microimpact::{
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{RngSeed, TestRunner};
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+use reference::repetitions;
 
 use crate::microimpact;
 
@@ -307,14 +310,17 @@ fn certificate_of_the_restitution_holds() {
     let (mut of_bound, mut far, mut impulse, mut read) = (0.0_f64, 0.0_f64, 0.0_f64, 0);
     for (radius, speed) in places(&table, 70) {
         let exact = rebound(&PAPER, radius, speed).unwrap();
-        match table.look_up(radius, &NormalMotion::new(speed).unwrap()) {
+        let lookup = table.look_up(radius, &NormalMotion::new(speed).unwrap());
+        match lookup {
             Lookup::Rebound { rebound: found, error } => {
                 let off = (found.restitution - exact.restitution).abs();
                 of_bound = of_bound.max(off / error);
+                let of_impulse = (found.impulse - exact.impulse).abs();
+                assert!(of_impulse <= table.impulse_error_of(&lookup).unwrap(), "{radius:e}, {speed}: {of_impulse:e}");
                 if speed > 1.02 * PAPER.exact(radius) {
                     far = far.max(off);
+                    impulse = impulse.max(of_impulse);
                 }
-                impulse = impulse.max((found.impulse - exact.impulse).abs());
                 read += 1;
             }
             other => assert_eq!(other, Lookup::TooCloseToCall, "{radius:e}, {speed}"),
@@ -326,6 +332,113 @@ fn certificate_of_the_restitution_holds() {
     assert!(impulse <= table.impulse_error(), "{impulse:e} of {:e}", table.impulse_error());
     // Bounds that are far from the errors would be of little use.
     assert!(of_bound >= 0.2 && impulse >= 0.2 * table.impulse_error(), "{of_bound}, {impulse:e}");
+}
+
+/// What readings of random tables found.
+#[derive(Default)]
+struct Found {
+    tables: u32,
+    readings: u32,
+    /// Errors over the stated ones.
+    restitution: f64,
+    impulse: f64,
+}
+
+impl Found {
+    /// Makes a table of a random material and a random range of speeds, and reads it at random places: anywhere, at the edges
+    /// of cells, in the middle of cells, close to the critical speed and close to the largest speed.
+    fn read<const N: usize, const R: usize, const S: usize>(&mut self, random: &mut StdRng, readings: u32) {
+        let mut decades = |from: f64, to: f64| 10_f64.powf(random.random_range(from..to));
+        let material = Material {
+            density: decades(2.7, 4.0),
+            stiffness: decades(9.0, 11.5),
+            adhesion: decades(0.0, 3.0),
+            zeta_h: decades(-1.0, 1.5),
+            zeta_a: decades(-1.0, 1.5),
+        };
+        let (smallest, ratio) = (decades(-7.0, -4.0), decades(0.1, 2.5));
+        let mut calls = 0;
+        let made = material.table::<N>(smallest).and_then(|boundary| {
+            RestitutionTable::<f64, N, R, S>::new(boundary, ratio, |radius, speed| {
+                calls += 1;
+                rebound(&material, radius, speed)
+            })
+        });
+        let table = match made {
+            Ok(table) => table,
+            Err(error) => {
+                let known = [Parameter::CriticalSpeed, Parameter::BoundaryMargin, Parameter::ApproachSpeed];
+                assert!(known.contains(&error.parameter), "{material:?}: {error}");
+                return;
+            }
+        };
+        self.tables += 1;
+        assert!(calls >= 195 && calls <= 300.max(6 * R * S), "{R} x {S} nodes: {calls} calls");
+        let (smallest, end) = table.boundary().radii::<f64>();
+        for reading in 0..readings {
+            let rows = (R - 1) as f64;
+            let row = match reading % 3 {
+                0 => random.random_range(0.0..rows),
+                1 => random.random_range(0.0..rows).floor(),
+                _ => random.random_range(0.0..rows).floor() + 0.5,
+            };
+            let radius = smallest * (end / smallest).powf(row / rows);
+            // Nodes are half a step from the critical speed, where the root is zero.
+            let columns = S as f64 - 0.5;
+            let column = match reading % 5 {
+                0 => random.random_range(0.0..columns),
+                1 => random.random_range(0.0..columns).round() - 0.5,
+                2 => random.random_range(0.0..columns).floor(),
+                3 => random.random_range(0.0..0.7_f64).powi(2),
+                _ => columns - random.random_range(0.0..0.5),
+            };
+            let root = ratio.log2().sqrt() * column.max(0.0) / columns;
+            let speed = material.exact(radius) * (root * root).exp2();
+            let exact = rebound(&material, radius, speed).unwrap();
+            let what =
+                || format!("{material:?}, {R} x {S} nodes, ratio {ratio}, row {row}, column {column}: {exact:?}");
+            let lookup = table.look_up(radius, &NormalMotion::new(speed).unwrap());
+            match lookup {
+                Lookup::Rebound { rebound: found, error } => {
+                    assert!((0.0..=1.0).contains(&found.restitution), "{found:?}, {}", what());
+                    let restitution = (found.restitution - exact.restitution).abs() / error;
+                    let impulse = (found.impulse - exact.impulse).abs() / table.impulse_error_of(&lookup).unwrap();
+                    assert!(restitution <= 1.0 && impulse <= 1.0, "{restitution} {impulse} {found:?}, {}", what());
+                    self.restitution = self.restitution.max(restitution);
+                    self.impulse = self.impulse.max(impulse);
+                    self.readings += 1;
+                }
+                other => {
+                    assert!([Lookup::TooCloseToCall, Lookup::OutsideTable].contains(&other), "{other:?}, {}", what())
+                }
+            }
+        }
+    }
+}
+
+/// Poor and fine resolutions, over a quarter of an octave of radii to eight octaves.
+#[test]
+fn certificates_hold_for_random_tables() {
+    let mut random = StdRng::seed_from_u64(1995);
+    let mut found: [Found; 7] = Default::default();
+    for _ in 0..repetitions(200, 8) {
+        found[0].read::<1, 3, 4>(&mut random, 150);
+        found[1].read::<4, 3, 4>(&mut random, 150);
+        found[2].read::<12, 3, 4>(&mut random, 150);
+        found[3].read::<8, 4, 6>(&mut random, 150);
+        found[4].read::<31, 8, 7>(&mut random, 150);
+        found[5].read::<12, 7, 10>(&mut random, 150);
+        found[6].read::<4, 5, 24>(&mut random, 150);
+    }
+    for (number, found) in found.iter().enumerate() {
+        let Found { tables, readings, restitution, impulse } = found;
+        let numbers = format!("shape {number}: {tables} tables, {readings} readings, {restitution:.2} {impulse:.2}");
+        println!("{numbers} of the stated errors");
+        assert!(*readings >= 100 * tables && *tables >= 5, "{numbers}");
+        // Bounds that are far from the errors would be of little use.
+        let least = if number == 6 { 0.1 } else { 0.3 };
+        assert!(restitution.min(*impulse) >= least, "{numbers}");
+    }
 }
 
 /// Sliding or rolling, and the velocities, are those of the simulation wherever the elastic impulse decides it clearly.

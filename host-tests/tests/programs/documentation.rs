@@ -4,7 +4,8 @@ use std::sync::LazyLock;
 
 use boards::REFERENCE_CORE;
 use boards::figures::{Quantity, Stored, largest};
-use microimpact::contact::Collocation;
+use microimpact::contact::{Collocation, Contact, FixedCost};
+use microimpact::{NormalMotion, Sphere, Stiffness};
 
 const README: &str = include_str!("../../../README.md");
 static STORED: LazyLock<Stored> = LazyLock::new(|| Stored::read(&Stored::path()).unwrap());
@@ -88,6 +89,19 @@ fn instructions_in_fixed_point_are_current() {
     let count = |core: &str| measured_on(core, "simulation/fixed-point", Quantity::Classify);
     let (larger, smaller) = (count("Cortex-M3"), count("Cortex-M0"));
     let statement = format!("takes {larger} instructions on a Cortex-M3 and {smaller} on a Cortex-M0");
+    assert!(words().contains(&statement), "README.md lacks: {statement}");
+}
+
+/// The error bound of the paper's figure 6 at 2.8 m/s, by four nodes and two iterations.
+#[test]
+fn error_bound_in_fixed_point_is_current() {
+    let sphere = Sphere::solid(5.06e-6_f32, 2600.0).unwrap();
+    let scene = Contact::hertz(sphere, Stiffness::new(7.5e10).unwrap()).with_damping(10.5).unwrap();
+    let scene = scene.with_ring(250.0, 6.25).unwrap();
+    let impact = scene.dimensionless(&NormalMotion::new(2.8).unwrap()).unwrap().in_fixed_point().unwrap();
+    let bound = impact.solve(&FixedCost::<4>::new(2).unwrap()).error_of_square.to_f64();
+    // Rounded up.
+    let statement = format!("a bound of the error of e^2: {:.1}e-4 for the scene", (bound * 1e5).ceil() / 10.0);
     assert!(words().contains(&statement), "README.md lacks: {statement}");
 }
 

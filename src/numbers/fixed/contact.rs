@@ -8,7 +8,7 @@ use crate::contact::{DimensionlessImpact, PhaseNodes};
 use crate::{InputError, Parameter, Real, lift_tables};
 
 impl<T: Real> DimensionlessImpact<T> {
-    /// Converts the impact to fixed point.
+    /// Converts the impact to fixed point, for [`FixedCost`](crate::contact::FixedCost). [`FixedPoint`] states the error.
     ///
     /// # Errors
     /// The adhesion or the damping is outside its range for [`FixedPoint`].

@@ -50,6 +50,7 @@ fn restitution<const N: usize, const R: usize, const S: usize, T: Single>() -> R
     let friction = Coulomb::new(any::<T>())?;
     for reading in [table.look_up(any(), &normal), table.look_up(any(), &oblique), table.look_up(any(), &planar)] {
         keep(reading);
+        keep(table.impulse_error_of(&reading));
         if let Lookup::Rebound { rebound, .. } = reading {
             keep(rebound.separation(&friction, any(), &oblique));
             keep(rebound.separation(&friction, any(), &planar));

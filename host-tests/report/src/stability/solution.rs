@@ -65,14 +65,19 @@ pub(super) fn by_the_paper(impact: &Impact) -> Result<Found, InputError> {
     solve::<f64>(impact, &RungeKuttaGill::new(STEPS))
 }
 
-/// Fixed point and, by the same method, double precision.
+/// Fixed point and, by the same method, double precision; neither where one leaves the outcome undecided.
 pub(super) fn in_fixed_point(impact: &Impact) -> Result<(Found, Found), InputError> {
     let groups = impact.scene::<f32>()?.dimensionless(&impact.motion::<f32>()?)?;
     let method = FixedCost::<4>::new(2)?;
     let narrow = groups.in_fixed_point()?.solve(&method);
     let wide = impact.scene::<f64>()?.dimensionless(&impact.motion::<f64>()?)?.solve(&method);
+    let undecided = [narrow.outcome, wide.outcome].contains(&Some(Outcome::Undecided));
     let found = |outcome: Option<Outcome>, square: f64| Found {
-        solution: outcome.map(|outcome| Solution { rebounds: outcome == Outcome::Rebound, square, peak: None }),
+        solution: outcome.filter(|_| !undecided).map(|outcome| Solution {
+            rebounds: outcome == Outcome::Rebound,
+            square,
+            peak: None,
+        }),
         steps: 2,
         residual: None,
     };

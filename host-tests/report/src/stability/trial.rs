@@ -88,7 +88,8 @@ pub(super) enum Assessment {
     /// A capture for a rebound or the reverse, by more than the bound.
     WrongOutcome,
     NoSolution,
-    /// No solution in fixed point and none in double precision: damped too strongly for a method of fixed cost.
+    /// No solution in fixed point and none in double precision: damped too strongly for a method of fixed cost, or too close
+    /// to the critical speed to decide.
     Declined,
     TooManySteps,
 }
