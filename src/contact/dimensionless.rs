@@ -56,78 +56,20 @@ pub struct DimensionlessImpact<T> {
 pub struct DimensionlessContact<T> {
     /// Whether the method has come to a solution.
     pub status: Status,
-    /// Rebound or capture; in fixed point [`Undecided`](Outcome::Undecided) where the error bound exceeds the size of e^2.
-    /// `None` where the method has not come to a solution.
+    /// Rebound, capture or, where the error bound exceeds the size of e^2, [`Undecided`](Outcome::Undecided). `None` where the
+    /// method has not come to a solution.
     pub outcome: Option<Outcome>,
     /// Square of the overall restitution e; zero unless the outcome is a rebound.
     pub restitution_squared: T,
-    /// Error of the square. In fixed point it is a bound, which `FixedPoint` describes, and zero where there is no solution;
-    /// in floating point it is the estimate of the method. The error of e is at most this divided by e.
-    pub error_of_square: T,
+    /// Bound of the error of e^2. The error of e is at most this divided by e.
+    pub error_bound: T,
 }
-
-/// Smallest and largest number of nodes for which the error bound in fixed point was measured.
-const LEAST_NODES: u32 = 4;
-const MOST_NODES: u32 = 9;
-
-/// Smallest number of iterations for each phase. A single one hardly ever converges.
-const LEAST_ITERATIONS: u32 = 2;
-
-/// Approach and rebound, which the method of fixed cost does not divide.
-const PHASES: u32 = 2;
-
-// Terms of the error bound in fixed point: errors of twice the energy that remains, in the units of the impact. The tests
-// find errors of up to three quarters of the bound, over the whole range of the groups.
-
-/// Rounding errors that each node adds, in steps of the number type.
-const ROUNDINGS: f64 = 4.0;
-
-/// Error of what four nodes do not resolve, over the damping d = h + p g. Each further node at least halves it.
-const UNRESOLVED: f64 = 1.0 / 8192.0;
-const NODE_FACTOR: f64 = 0.5;
-
-/// Error that remains after two iterations, over d^3. Each further iteration reduces it to an eighth.
-const UNCONVERGED: f64 = 1.0 / 128.0;
-const ITERATION_FACTOR: f64 = 1.0 / 8.0;
-
-/// Largest error of e^2 that remains after the iterations where the method reports a solution: half of the 0.003 that its
-/// last iterations may change e^2 by.
-const MOST_UNCONVERGED: f64 = 1.5e-3;
-
-/// Iterations after which the factor is below one rounding.
-const MOST_FACTORS: u32 = 9;
 
 impl<T: Real> DimensionlessContact<T> {
     #[inline]
-    fn new(path: &NormalPath<T>, impact: &DimensionlessImpact<T>) -> Self {
-        let contact = Self {
-            status: Status::of(path),
-            outcome: path.outcome(),
-            restitution_squared: path.restitution_squared(impact.energy),
-            error_of_square: path.statistics.error,
-        };
-        // The same steps for numbers of every size: fixed point.
-        if T::SMALLEST == T::EPSILON { contact.within_bound(path, impact) } else { contact }
-    }
-
-    /// The same contact in fixed point, with a bound of the error. The outcome is undecided where the bound exceeds the
-    /// remaining energy, and there is no solution where there is no bound.
-    #[inline]
-    fn within_bound(self, path: &NormalPath<T>, impact: &DimensionlessImpact<T>) -> Self {
-        let (nodes, iterations) = (path.statistics.nodes, path.statistics.iterations / PHASES);
-        // Methods other than that of fixed cost do not iterate on two phases.
-        let phases = path.statistics.intervals == PHASES && iterations >= LEAST_ITERATIONS;
-        let bounded = phases && (LEAST_NODES..=MOST_NODES).contains(&nodes);
-        if self.outcome.is_none() || !bounded {
-            let status = if bounded { self.status } else { Status::Unsupported };
-            return Self { status, outcome: None, restitution_squared: T::ZERO, error_of_square: T::ZERO };
-        }
-        let error = impact.energy_error(nodes, iterations);
-        let error_of_square = error / (impact.energy + impact.energy);
-        if path.energy.abs() + path.energy.abs() > error {
-            return Self { error_of_square, ..self };
-        }
-        Self { outcome: Some(Outcome::Undecided), restitution_squared: T::ZERO, error_of_square, ..self }
+    fn new(path: &NormalPath<T>, energy: T) -> Self {
+        let (status, outcome, error_bound) = (Status::of(path), path.outcome(), path.error_bound);
+        Self { status, outcome, restitution_squared: path.restitution_squared(energy), error_bound }
     }
 
     /// Overall restitution e; zero unless the outcome is a rebound.
@@ -167,25 +109,6 @@ impl<T: Real> DimensionlessImpact<T> {
         })
     }
 
-    /// Bound of the error of the remaining energy, doubled, by the method of fixed cost in fixed point.
-    #[inline]
-    fn energy_error(&self, nodes: u32, iterations: u32) -> T {
-        let damping = self.material_damping + self.adhesion * self.adhesion_damping;
-        let mut unresolved = T::constant(UNRESOLVED) * damping;
-        let mut rounding = T::ZERO;
-        for node in 0..nodes {
-            rounding = rounding + T::constant(ROUNDINGS) * T::EPSILON;
-            if node >= LEAST_NODES {
-                unresolved = unresolved * T::constant(NODE_FACTOR);
-            }
-        }
-        let mut unconverged = T::constant(UNCONVERGED) * damping * damping * damping;
-        for _ in LEAST_ITERATIONS..iterations.min(MOST_FACTORS) {
-            unconverged = unconverged * T::constant(ITERATION_FACTOR);
-        }
-        rounding + unresolved + unconverged.min(T::constant(MOST_UNCONVERGED) * (self.energy + self.energy))
-    }
-
     /// The impact, solved by a method.
     ///
     /// With groups in the ranges of [`new`](Self::new) and by [`FixedCost`](super::FixedCost), every value on the way,
@@ -208,7 +131,7 @@ impl<T: Real> DimensionlessImpact<T> {
             adhesion: Ring { strength: self.adhesion, damping: self.adhesion_damping },
             force: NoForce,
         };
-        DimensionlessContact::new(&method.solve(&law, self.energy, &mut ()), self)
+        DimensionlessContact::new(&method.solve(&law, self.energy, &mut ()), self.energy)
     }
 }
 

@@ -290,7 +290,8 @@ impl<T: Real, const N: usize> Observer<T> for Recorder<T, N> {
         thinning.now = begin + duration;
         let (s, y) = (interval.end.s, interval.end.speed_squared.max(T::ZERO).sqrt());
         thinning.add(samples, Sample::of(law, thinning.now, s, y, rebound));
-        if !interval.forward && !rebound && thinning.peak.is_none() {
+        // An interval that is written against time leads to a turning point, or is a part of one that does.
+        if interval.end.speed_squared <= T::ZERO && !rebound && thinning.peak.is_none() {
             thinning.peak = thinning.mark(samples, T::ZERO);
         }
     }

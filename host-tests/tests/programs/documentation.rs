@@ -99,7 +99,7 @@ fn error_bound_in_fixed_point_is_current() {
     let scene = Contact::hertz(sphere, Stiffness::new(7.5e10).unwrap()).with_damping(10.5).unwrap();
     let scene = scene.with_ring(250.0, 6.25).unwrap();
     let impact = scene.dimensionless(&NormalMotion::new(2.8).unwrap()).unwrap().in_fixed_point().unwrap();
-    let bound = impact.solve(&FixedCost::<4>::new(2).unwrap()).error_of_square.to_f64();
+    let bound = impact.solve(&FixedCost::<4>::new(2).unwrap()).error_bound.to_f64();
     // Rounded up.
     let statement = format!("a bound of the error of e^2: {:.1}e-4 for the scene", (bound * 1e5).ceil() / 10.0);
     assert!(words().contains(&statement), "README.md lacks: {statement}");

@@ -374,7 +374,7 @@ fn swings_are_recorded() {
         let evenness = gaps.fold(0.0, f64::max) / rest.time * samples.len() as f64;
         // Thinning takes every other sample at most: it leaves half the room, but for gaps between nodes.
         let count = samples.len();
-        assert!(rest.turning_points < 10 || (count > 56 && evenness < 2.5), "{scene:?}: {count}, {evenness}");
+        assert!(rest.turning_points < 10 || (count > 48 && evenness < 2.5), "{scene:?}: {count}, {evenness}");
     }
 }
 

@@ -9,7 +9,7 @@ use super::path::{End, Method, NormalPath, Statistics};
 use super::phase::Phase;
 use super::well::barrier;
 use crate::contact::law::ContactLaw;
-use crate::{InputError, Parameter};
+use crate::{InputError, Parameter, Real};
 
 /// A method that costs about the same for every impact: `N` nodes and a fixed number of iterations for each phase, and `M`
 /// nodes for outputs.
@@ -78,11 +78,8 @@ impl<const N: usize> FixedCost<N> {
 /// Nodes beyond those of a phase that the end of sliding needs: the square of the speed is that much a higher polynomial.
 const NODES_OF_EVENTS: usize = 4;
 
-/// Bound of the error of e^2 over its estimate from the unresolved parts of both phases, which is right to an order of magnitude.
-const ERROR_MARGIN: f64 = 16.0;
-
-/// Roundings of the energies of an impact that its remaining energy may be off by.
-const ROUNDINGS: f64 = 8.0;
+/// Roundings that each node adds to the remaining energy.
+const ROUNDINGS: f64 = 2.0;
 
 /// Largest bound of the error of e^2, and of the relative error of times, with which a result counts as solved.
 const LARGEST_ERROR: f64 = 3e-3;
@@ -90,6 +87,9 @@ const LARGEST_ERROR: f64 = 3e-3;
 /// Change of the remaining energy by an iteration, over the energy before, above which the reciprocals of the speeds are
 /// renewed: below it their error changes the energy by less than its square.
 const UNSTEADY: f64 = 0.01;
+
+/// Largest bound with which an outcome counts as undecided.
+const LARGEST_UNDECIDED: f64 = 0.05;
 
 /// Largest error of the energy lost, over the largest kinetic energy without losses, twice, with which a capture is certain: iterations
 /// that diverge lose more than there is.
@@ -108,6 +108,21 @@ const STRONGEST: f64 = 8.0;
 
 /// Tolerance to which the end of sliding is found within a phase, for outputs that need it.
 const END_OF_SLIP: f64 = 1e-9;
+
+/// Bound of the error that iterations leave, over the last change and the fraction by which it is smaller than the one before,
+const CHANGE_MARGIN: f64 = 2.0;
+
+/// and over the last change alone: at least, since a change may be small by chance, and at most.
+const LEAST_MARGIN: f64 = 0.5;
+const LARGEST_MARGIN: f64 = 1.5;
+
+/// Bound of the error that iterations leave, from the changes by the last and the one before. They converge superlinearly.
+#[inline]
+fn unconverged<T: Real>(last: T, before: T) -> T {
+    let fraction = last.abs().saturating_div(before.abs() + T::SMALLEST);
+    let margin = T::constant(CHANGE_MARGIN) * fraction.min(T::ONE);
+    last.abs() * margin.max(T::constant(LEAST_MARGIN)).min(T::constant(LARGEST_MARGIN))
+}
 
 impl<T, const N: usize, const M: usize> Method<T> for FixedCost<N, M>
 where
@@ -144,7 +159,7 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         let mut phase = Phase::<T, N>::approach(law, energy);
         let mut lost = phase.estimate;
         // Change of the energy lost by the last iteration; before the first as large as takes the reciprocals.
-        let (mut moved, mut at_peak) = (energy, energy);
+        let (mut moved, mut earlier, mut at_peak) = (energy, energy, energy);
         for iteration in 0..self.iterations {
             if iteration > 0 {
                 phase.describe(law, false);
@@ -154,10 +169,10 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             }
             let before = lost;
             lost = phase.iterate::<false>().0;
-            moved = lost - before;
+            (earlier, moved) = (moved, lost - before);
             at_peak = phase.correct_peak(law, energy, lost);
         }
-        let changed = moved.abs();
+        let mut uncertain = unconverged(moved, earlier);
         let approach = phase.tails();
         // Where the approach comes to a stand before its peak, there is another one.
         let mut represented = phase.is_represented(STRONGEST) && phase.is_moving();
@@ -173,16 +188,14 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             }
             let before = gained;
             gained = phase.iterate::<false>().0;
-            moved = gained - before;
+            (earlier, moved) = (moved, gained - before);
         }
         let rebound = phase.tails();
         observed = observed.max(observe(&phase, true));
         represented &= phase.is_represented(STRONGEST) && phase.peak > T::ZERO;
-        // The iterates of the losses lie on both sides of the solution, or gain on it faster from one to the next: it is no
-        // farther from the last than that was from the one before. The nodes and rounding add their part.
-        let mut uncertain = changed + moved.abs() + T::constant(ROUNDINGS) * T::EPSILON;
-        let unresolved = approach.error_of_energy() + rebound.error_of_energy();
-        uncertain = uncertain + T::constant(ERROR_MARGIN) * unresolved.min(T::ONE);
+        uncertain = uncertain + unconverged(moved, earlier);
+        uncertain = uncertain + T::constant(ROUNDINGS * N as f64) * T::EPSILON;
+        uncertain = uncertain + approach.bound_with(&rebound).min(T::ONE);
         // Where the potential is flat one step for the peak leaves an error.
         uncertain = uncertain + (law.potential(phase.peak) - at_peak).abs();
         if law.may_have_barrier() {
@@ -199,12 +212,12 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         let excess = left - escape;
         let end = if !(represented && passes) {
             End::Budget
-        } else if excess < -uncertain && uncertain <= T::constant(LARGEST_LOSS_ERROR) {
+        } else if excess < -(uncertain + uncertain) && uncertain <= T::constant(LARGEST_LOSS_ERROR) {
             End::Capture
+        } else if excess <= uncertain && uncertain <= T::constant(LARGEST_UNDECIDED) * energy {
+            End::Undecided
         } else if !(uncertain <= largest * energy && timely) {
             End::Budget
-        } else if excess <= uncertain {
-            End::Undecided
         } else if phase.is_moving() && left - energy <= uncertain {
             End::Separation
         } else {

@@ -62,6 +62,10 @@ impl RungeKuttaGill {
 
 impl<T: Real> Method<T> for RungeKuttaGill {
     fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
+        if T::SMALLEST == T::EPSILON {
+            // Fixed point has no digits for the small changes in a step.
+            return NormalPath::unsupported(energy);
+        }
         let step = law.duration(energy) / T::constant(f64::from(self.steps));
         let most = self.steps.saturating_mul(Self::LONGEST_RUN);
         // What half as many steps change is a bound of the error.

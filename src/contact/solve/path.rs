@@ -411,7 +411,16 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         } else {
             self.at.s - outermost
         };
+        // An interval ends on a barrier, where the energy decides; beyond it nothing holds the sphere.
+        let mut passed = false;
         while self.at.s > outermost {
+            if !passed && self.barrier.0 > outermost && self.at.s <= self.barrier.0 {
+                let (surplus, uncertain) = self.surplus();
+                if surplus <= uncertain {
+                    return if self.is_held() { Ok(T::ZERO) } else { Err(End::Undecided) };
+                }
+                passed = true;
+            }
             if self.is_held() {
                 if !to_turning_point || self.creeps(self.at.s, self.at.speed_squared.sqrt(), Course::REBOUND) {
                     return Ok(T::ZERO);
@@ -449,7 +458,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 if length <= T::EPSILON * T::EPSILON {
                     return if self.is_held() { Ok(T::ZERO) } else { Err(self.stuck(Course::REBOUND)) };
                 }
-                if self.is_undecided() {
+                if !passed && self.is_undecided() {
                     return Err(End::Undecided);
                 }
                 // Where the forces left are hardly more than their rounding, errors are, squared, what that makes of them: no
@@ -465,7 +474,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             Ok(T::ZERO)
         } else {
             // Where the potential has no minimum nothing holds the sphere, however little energy remains.
-            let separates = surplus > uncertain || self.equilibrium().is_none();
+            let separates = passed || surplus > uncertain || well::well(self.law).is_none();
             Err(if separates { End::Separation } else { End::Undecided })
         }
     }
@@ -475,7 +484,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let (surplus, uncertain) = self.surplus();
         let farther = (self.at.s - self.barrier.0).max(T::ZERO);
         let loss = self.law.loss(self.at.s, true) * self.at.speed_squared.max(T::ZERO).sqrt() * farther;
-        surplus.abs() <= uncertain && loss <= uncertain && self.equilibrium().is_some()
+        surplus.abs() <= uncertain && loss <= uncertain && well::well(self.law).is_some()
     }
 
     /// The first interval of the rebound, no deeper than `deepest`; its depth.

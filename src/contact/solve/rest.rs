@@ -13,6 +13,9 @@ use crate::{InputError, Parameter, Real};
 /// Excess of the energy at rest, in roots of a rounding: a creeping sphere stops just there.
 const REST_ROUNDING: f64 = 3.0;
 
+/// Energy by which a creeping sphere may pass its place of rest, over the energy there and in roots of a rounding.
+const OVERSHOOT: f64 = 30.0;
+
 /// Intervals of a creeping sphere that may be shortened to end where it comes to rest.
 const MOST_SEARCHES: u32 = 20;
 
@@ -148,6 +151,8 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
     where
         T: Nodes<N>,
     {
+        // Forces that all but balance have no digits for more.
+        self.control.times = T::ONE;
         let indentation = self.law.indentation(self.at.s);
         let mut settling = Settling { turning_points: 0, creeps: false, indentation, at_rest: false };
         let Some(bottom) = self.equilibrium() else {
@@ -223,7 +228,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
             self.leave_turning_point::<N>(along(well.bottom - self.at.s), course)?;
         }
         let (mut length, mut searches) = (T::ONE, 0);
-        let least = well.rest * (T::ONE - T::constant(REST_ROUNDING) * T::EPSILON.sqrt());
+        let least = well.rest * (T::ONE - T::constant(OVERSHOOT) * T::EPSILON.sqrt());
         loop {
             if !*creeps {
                 let arrival = self.arrive::<N>(beyond, course);

@@ -19,16 +19,10 @@ pub use rigid::InFixedPoint;
 /// It returns an error, which names the quantity, for a value that does not fit.
 ///
 /// * [`DimensionlessImpact::in_fixed_point`](crate::contact::DimensionlessImpact::in_fixed_point) converts the simulation
-///   of the normal motion, for the method [`FixedCost`](crate::contact::FixedCost) with four to nine nodes and at least two
-///   iterations; otherwise the status is [`Unsupported`](crate::contact::Status::Unsupported). The strength p of adhesion may
-///   be up to 0.999 (above that, hardly any energy remains to resolve), and the dampings h of the materials and g of adhesion
-///   up to 0.5. Other groups are refused. With d = h + p g, N nodes and n iterations, the error of e^2 is at most
-///   (2.4e-7 N + 1.2e-4 2^(4-N) d)/(1 - p), plus the smaller of 8e-3 8^(2-n) d^3/(1 - p) and 1.5e-3. The result contains
-///   this [bound](crate::contact::DimensionlessContact::error_of_square). It was found by comparison with a solution to
-///   1e-12 for random groups over the whole range. The error of e is at most that of e^2 divided by e, so it grows towards
-///   the critical speed. Where the bound exceeds the size of e^2, the outcome is
-///   [`Undecided`](crate::Outcome::Undecided); then e is below the root of twice the bound. Where the iterations do not
-///   converge, the status is [`BudgetSpent`](crate::contact::Status::BudgetSpent).
+///   of the normal motion, for the method [`FixedCost`](crate::contact::FixedCost) with four to nine nodes. The strength of
+///   adhesion may be up to 0.999 (above that, hardly any energy remains to resolve), and the dampings up to 0.5; other values
+///   are refused. The result contains a [bound](crate::contact::DimensionlessContact::error_bound) of the error of e^2, rounding
+///   included. The error of e is at most that bound divided by e.
 /// * [`InFixedPoint`] converts the rigid-body model. Approach speeds may be 0.004 to 8 units, other velocities up to 8 units
 ///   and friction coefficients up to 7. For gyration ratios from 0.2, the error of velocities is below 1e-5 units, and a
 ///   rebound slower than 1e-6 units may be classified as a capture. The relative error of the speed margin is below 1e-4, for
@@ -49,7 +43,7 @@ pub use rigid::InFixedPoint;
 ///     .with_ring(250.0, 6.25)?;
 /// let impact = scene.dimensionless(&NormalMotion::new(2.8)?)?.in_fixed_point()?;
 /// let contact = impact.solve(&FixedCost::<4>::new(2)?);
-/// let (e, error) = (contact.overall_restitution().to_f64(), contact.error_of_square.to_f64());
+/// let (e, error) = (contact.overall_restitution().to_f64(), contact.error_bound.to_f64());
 /// assert!((e * e - 0.746193_f64.powi(2)).abs() <= error && error < 2.1e-4);
 /// // A product that is too large does not wrap.
 /// let large = FixedPoint::nearest(100.0);
