@@ -113,7 +113,7 @@ C = [
     ("**Along the surface**",),
     ("SLOW", "1", "along/relaxation", "decay on an interval up to which an exponential is as smooth as the rest"),
     ("MOST_PARTS", "16", "along/relaxation", "faster decays are over within a node"),
-    ("FAST, FAST_ERROR, SLOW_ERROR", "6, 1e-3, 0.1", "along/motion: `error`", "decay that nodes may miss; error of the rotation over the tail, and over its square"),
+    ("FAST, FAST_ERROR, SLOW_ERROR", "6, 5e-4, 0.1", "along/motion: `error`", "decay that nodes may miss; error of the rotation over the tail, and over its square"),
     ("NEAR_TURNING_POINT", "0.3", "split", "in $z$: the tails of an interval of that length are $0.3^N$ times as large"),
     ("MOST_SPLITS", "40", "split", "Newton steps, halvings included, for the end of sliding"),
     ("CLOSE_TO_END_OF_SLIP", "0.03", "split: `find_end_of_slip`", "times the root of the tolerance: the last step is applied to first order"),

@@ -11,7 +11,7 @@ use reference::{Case, cases, repetitions};
 const LARGEST: f64 = 3.0;
 
 /// Largest error in a family that counts as wasted, over the tolerance.
-const SMALLEST: f64 = 0.01;
+const SMALLEST: f64 = 0.001;
 
 const TOLERANCES: [f64; 9] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
 

@@ -62,6 +62,14 @@ fn errors<const N: usize, T: Nodes<N>>(tolerance: f64, double: impl Fn(T) -> f64
         let (impact, (.., slip)) = &solved;
         let rebounds = case.text("outcome") == "rebound";
         let rolls = case.text("motion") == "rolling";
+        if impact.normal.outcome() == Some(Outcome::Undecided) {
+            // Where e^2 is within twice its bound; of a capture, near the critical speed.
+            let near = case.number("restitution").powi(2) <= 2.0 * double(impact.run.error_bound);
+            if !near || case.text("family") != "near_critical" {
+                wrong.push(format!("{name}: undecided, {:?}", impact.run));
+            }
+            continue;
+        }
         let found = impact.normal.outcome() == Some(Outcome::Rebound);
         if impact.run.status != Status::Solved || found != rebounds {
             wrong.push(format!("{name}: {:?}, {:?}", impact.normal.outcome(), impact.run));

@@ -16,9 +16,7 @@ struct Trials {
 }
 
 static TRIALS: LazyLock<Trials> = LazyLock::new(|| {
-    let mut solvers = solvers();
-    // The paper's own method has no estimate of its error, and does not claim to decide.
-    solvers.retain(|solver| !solver.name.starts_with("RungeKuttaGill"));
+    let solvers = solvers();
     let scenes = repetitions(1500, 40);
     let tallies = Kind::ALL.map(|kind| (kind, run(kind, SEED, scenes, &solvers)));
     Trials { solvers, tallies: tallies.into() }

@@ -208,7 +208,7 @@ fn answer<T: Real>(
     let some = |value: T| Some(value.to_f64());
     Answer::Solved {
         outcome,
-        stated_error: tolerance.max(run.estimated_error.to_f64()),
+        stated_error: tolerance.max(run.error_bound.to_f64()),
         motion: Some((tangential.motion(), slip.slides)),
         outputs: Box::new([
             Some(e * e),

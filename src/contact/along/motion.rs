@@ -27,7 +27,7 @@ const SLIP_ROOT_ACCURACY: f64 = 1e-6;
 const FAST: f64 = 6.0;
 
 /// estimated error over the unresolved part where the decay is not slow,
-const FAST_ERROR: f64 = 1e-3;
+const FAST_ERROR: f64 = 5e-4;
 
 /// and over its square where it is.
 const SLOW_ERROR: f64 = 0.1;
@@ -296,15 +296,16 @@ impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
             if self.slides() { self.slide(law, interval).peripheral } else { self.slowed(law, interval).0 };
         let fraction = if self.slides() { T::ONE } else { self.gyration_ratio / (T::ONE + self.gyration_ratio) };
         let decay = self.decay(law, interval, fraction).1;
-        let (mut tail, mut largest) = (T::ZERO, self.peripheral.abs());
+        let mut tail = T::ZERO;
         for j in 0..N {
             tail = tail + T::HIGHEST_COEFFICIENT[j] * interval.rate[j] * peripheral[j];
-            largest = largest.max(peripheral[j].abs());
         }
         let tail = tail.abs() / (self.scale * dot(&T::WEIGHTS, &interval.rate) + T::SMALLEST);
         if decay > T::constant(FAST) {
-            // What decays between two nodes does not show in the tail.
-            T::constant(FAST_ERROR) * tail.max(largest / (self.scale + T::SMALLEST))
+            // What decays before the first node does not show in the tail.
+            let first = if interval.forward { peripheral[0] } else { peripheral[N - 2] };
+            let missed = (self.peripheral - first).abs();
+            T::constant(FAST_ERROR) * tail.max(missed / (self.scale + T::SMALLEST))
         } else if decay > T::constant(SLOW) {
             T::constant(FAST_ERROR) * tail
         } else {
