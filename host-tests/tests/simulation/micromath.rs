@@ -32,8 +32,8 @@ fn errors<T: PhaseSamples<4, 9>>(to_f64: impl Fn(T) -> f64) -> (f64, u32) {
 fn simulation() {
     let (own, wrong) = errors(|e: f32| f64::from(e));
     assert!(own < 1e-4 && wrong == 0, "{own:.1e}, {wrong} outcomes");
-    let (approximate, wrong) = errors(|e: Approximate| f64::from(e.0));
-    assert!(approximate > 100.0 * own && wrong > 0, "{approximate:.1e}, {wrong} outcomes");
+    let (approximate, _) = errors(|e: Approximate| f64::from(e.0));
+    assert!(approximate > 100.0 * own, "{approximate:.1e}");
 }
 
 /// Largest relative error of a function, in its own units of rounding.

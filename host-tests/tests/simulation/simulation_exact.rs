@@ -341,13 +341,13 @@ fn solved<T: Real>(inputs: &Inputs, result: Result<Impact<T>, InputError>, count
     assert!(e >= T::ZERO && e <= T::ONE + T::constant(16.0) * T::EPSILON, "{inputs:?} {impact:?}");
     assert!(impact.run.steps + impact.run.refused <= Collocation::<8, T>::MOST_INTERVALS, "{inputs:?} {impact:?}");
     if impact.run.status != Status::Solved {
-        // Only where a force far exceeds elasticity and speed.
-        assert!(inputs.force.is_some(), "{inputs:?} {impact:?}");
+        // Only where a force far exceeds elasticity and speed, or a moment stops the spin much faster than the contact lasts.
+        assert!(inputs.force.is_some() || inputs.peeling > 0.0, "{inputs:?} {impact:?}");
         counts.spent += 1;
         return None;
     }
     counts.solved += 1;
-    Some(e)
+    (impact.normal.outcome() != Some(Outcome::Undecided)).then_some(e)
 }
 
 /// Impacts that ended, and those among them that were solved.
@@ -417,5 +417,5 @@ fn every_scene_ends() {
     println!("{solved} solved of {ended}, {spent} with the budget spent");
     assert_eq!(ended, 4 * all);
     assert!(solved > 3 * all, "{solved}");
-    assert!(spent < all / 2500, "{spent}");
+    assert!(spent < all / 500, "{spent}");
 }

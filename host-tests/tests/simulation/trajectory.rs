@@ -38,7 +38,7 @@ impl Scene {
         let scene = scene.with_damping(c(zeta)).unwrap().with_ring(c(strength), c(zeta_adhesion)).unwrap();
         let oblique = NormalMotion::new(c(speed)).unwrap().with_tangential(c(slip)).unwrap();
         let motion: PlanarMotion<T> = oblique.with_peripheral_velocity(T::ZERO).unwrap();
-        let method = Collocation::<9, T>::new(c(tolerance)).unwrap();
+        let method = Collocation::<9, T>::new(c(tolerance).max(c(8.0) * T::EPSILON)).unwrap();
         scene.with_friction(c(0.1)).unwrap().solve_for(&motion, &method, (EVERYTHING, Recording::<N>)).unwrap()
     }
 

@@ -53,7 +53,7 @@ pub enum Answer {
     Solved {
         /// Rebound, capture or undecided.
         outcome: Outcome,
-        /// Error of e^2 that the method states: its tolerance, or its own estimate where that is larger.
+        /// Error of e^2 that the method states: its tolerance, or its own bound where that is larger.
         stated_error: f64,
         /// How the contact point moves, by the velocities after the impact and by the slip history.
         motion: Option<(SurfaceMotion, bool)>,
@@ -247,5 +247,6 @@ fn in_fixed_point(scene: &Scene, method: &impl Method<FixedPoint>, tolerance: f6
     };
     let mut outputs = Box::new([None; COUNT]);
     outputs[0] = Some(contact.restitution_squared.to_f64());
-    Ok(Answer::Solved { outcome, stated_error: tolerance, motion: None, outputs })
+    let stated_error = tolerance.max(contact.error_bound.to_f64());
+    Ok(Answer::Solved { outcome, stated_error, motion: None, outputs })
 }

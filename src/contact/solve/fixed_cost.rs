@@ -116,13 +116,8 @@ const CHANGE_MARGIN: f64 = 2.0;
 const LEAST_MARGIN: f64 = 0.5;
 const LARGEST_MARGIN: f64 = 1.5;
 
-/// Bound of the error that iterations leave, from the changes by the last and the one before. They converge superlinearly.
-#[inline]
-fn unconverged<T: Real>(last: T, before: T) -> T {
-    let fraction = last.abs().saturating_div(before.abs() + T::SMALLEST);
-    let margin = T::constant(CHANGE_MARGIN) * fraction.min(T::ONE);
-    last.abs() * margin.max(T::constant(LEAST_MARGIN)).min(T::constant(LARGEST_MARGIN))
-}
+/// Bound of that error after fewer iterations than three, over the change before the last: the last may be small by chance.
+const EARLY_MARGIN: f64 = 0.08;
 
 impl<T, const N: usize, const M: usize> Method<T> for FixedCost<N, M>
 where
@@ -147,6 +142,18 @@ where
 }
 
 impl<const N: usize, const M: usize> FixedCost<N, M> {
+    /// Bound of the error that iterations leave, from the changes by the last and the one before. They converge superlinearly.
+    #[inline]
+    fn unconverged<T: Real>(&self, last: T, before: T) -> T {
+        let last = last.abs();
+        if self.iterations < 3 {
+            return (T::constant(LARGEST_MARGIN) * last).max(T::constant(EARLY_MARGIN) * before.abs());
+        }
+        let fraction = last.saturating_div(before.abs() + T::SMALLEST);
+        let margin = T::constant(CHANGE_MARGIN) * fraction.min(T::ONE);
+        last * margin.max(T::constant(LEAST_MARGIN)).min(T::constant(LARGEST_MARGIN))
+    }
+
     /// Approach and rebound, each shown to `observe` when it is solved, which returns an error of its own.
     #[inline]
     fn run<T, L, O>(&self, law: &L, energy: T, mut observe: impl FnMut(&Phase<T, N>, bool) -> T) -> NormalPath<T>
@@ -172,7 +179,7 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             (earlier, moved) = (moved, lost - before);
             at_peak = phase.correct_peak(law, energy, lost);
         }
-        let mut uncertain = unconverged(moved, earlier);
+        let mut uncertain = self.unconverged(moved, earlier);
         let approach = phase.tails();
         // Where the approach comes to a stand before its peak, there is another one.
         let mut represented = phase.is_represented(STRONGEST) && phase.is_moving();
@@ -193,7 +200,7 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         let rebound = phase.tails();
         observed = observed.max(observe(&phase, true));
         represented &= phase.is_represented(STRONGEST) && phase.peak > T::ZERO;
-        uncertain = uncertain + unconverged(moved, earlier);
+        uncertain = uncertain + self.unconverged(moved, earlier);
         uncertain = uncertain + T::constant(ROUNDINGS * N as f64) * T::EPSILON;
         uncertain = uncertain + approach.bound_with(&rebound).min(T::ONE);
         // Where the potential is flat one step for the peak leaves an error.

@@ -300,7 +300,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let (surplus, uncertain) = self.surplus();
         if self.is_held() {
             End::Capture
-        } else if course.rebound && surplus <= uncertain {
+        } else if course.rebound && surplus <= uncertain && well::well(self.law).is_some() {
             // Losses can only bring it further down.
             End::Undecided
         } else {
