@@ -83,7 +83,7 @@ C = [
     ("the ladder of nodes", "see above", "adaptive: `solve`", "tolerance that most scenes reach with a number of nodes"),
     ("**`FixedCost`**",),
     ("LOSSES_BOUND, SLOWNESS_BOUND, UNCANCELLED", "1.5, 0.75, 0.1", "phase: `bound_with`", "make a bound of the estimate of what the nodes do not resolve"),
-    ("CHANGE_MARGIN, LEAST_MARGIN, LARGEST_MARGIN, EARLY_MARGIN", "2, 0.5, 1.5, 0.08", "`fixed_cost`: `unconverged`", "error that iterations leave, over the last change"),
+    ("CHANGE_MARGIN, LEAST_MARGIN, LARGEST_MARGIN, EARLY_MARGIN", "2, 0.5, 1.5, 2", "`fixed_cost`: `unconverged`", "error that iterations leave, over the last change"),
     ("ROUNDINGS", "2 N ε; path 16 ε; gill 64 ε", "`fixed_cost`: `run`; path: `energy_bound`; gill", "of the largest energy on the way, in the error bound"),
     ("LARGEST_ERROR", "0.003", "`fixed_cost`: `run`", "larger bounds count as not solved"),
     ("LARGEST_UNDECIDED", "0.05", "`fixed_cost`: `run`", "larger bounds say nothing, not even that"),

@@ -116,8 +116,8 @@ const CHANGE_MARGIN: f64 = 2.0;
 const LEAST_MARGIN: f64 = 0.5;
 const LARGEST_MARGIN: f64 = 1.5;
 
-/// Bound of that error after fewer iterations than three, over the change before the last: the last may be small by chance.
-const EARLY_MARGIN: f64 = 0.08;
+/// The same after fewer iterations than three, when changes say little of the next.
+const EARLY_MARGIN: f64 = 2.0;
 
 impl<T, const N: usize, const M: usize> Method<T> for FixedCost<N, M>
 where
@@ -147,7 +147,7 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
     fn unconverged<T: Real>(&self, last: T, before: T) -> T {
         let last = last.abs();
         if self.iterations < 3 {
-            return (T::constant(LARGEST_MARGIN) * last).max(T::constant(EARLY_MARGIN) * before.abs());
+            return T::constant(EARLY_MARGIN) * last;
         }
         let fraction = last.saturating_div(before.abs() + T::SMALLEST);
         let margin = T::constant(CHANGE_MARGIN) * fraction.min(T::ONE);

@@ -31,7 +31,7 @@ pub use rigid::InFixedPoint;
 ///
 /// SI values, from 1e-10 m to 1e16 Pa, do not fit into a fixed-point number. So the constructors of [`Sphere`](crate::Sphere)
 /// and [`NormalMotion`](crate::NormalMotion) refuse this type. If products were rounded down and not to the nearest number,
-/// the rounding error of e would be more than 1.5 times as large.
+/// the rounding error of e would be more than 1.4 times as large.
 ///
 /// ```
 /// use microimpact::contact::{Contact, FixedCost};
