@@ -5,8 +5,13 @@ use std::time::Duration;
 
 use super::process;
 
+const INSTALL: &[&str] = &["install", "-y", "--no-install-recommends"];
+
 /// Never at the price of a package that is there: Debian's compilers exclude each other.
-const INSTALL: &[&str] = &["install", "-y", "--no-remove", "--no-install-recommends"];
+const KEEP: &[&str] = &["--no-remove"];
+
+/// But for parts of an emulator from another release, which exclude those of this one.
+const REPLACEABLE: &str = "qemu-";
 const LIMIT: Duration = Duration::from_secs(900);
 
 /// Whether this run may change what is installed on the machine.
@@ -44,7 +49,20 @@ pub fn install(packages: &[&str], permission: Permission) -> Result<(), String> 
     }
     eprintln!("installing Debian packages: {} ...", packages.join(" "));
     apt_get(&["update"])?;
+    let kept = apt_get(&[INSTALL, KEEP, packages].concat());
+    if kept.is_ok() || !replaces_emulators_only(packages) {
+        return kept;
+    }
     apt_get(&[INSTALL, packages].concat())
+}
+
+/// Whether an installation removes packages, and no others than those of an emulator.
+fn replaces_emulators_only(packages: &[&str]) -> bool {
+    let simulated = Command::new("apt-get").arg("--simulate").args(INSTALL).args(packages).output();
+    let Ok(simulated) = simulated else { return false };
+    let text = String::from_utf8_lossy(&simulated.stdout);
+    let mut removed = text.lines().filter_map(|line| line.strip_prefix("Remv ")).peekable();
+    removed.peek().is_some() && removed.all(|package| package.starts_with(REPLACEABLE))
 }
 
 fn apt_get(arguments: &[&str]) -> Result<(), String> {
