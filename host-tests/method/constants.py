@@ -40,7 +40,7 @@ C = [
     ("LENGTH_GROWTH, LENGTH_SHRINK", "1.2, 0.85", "path: `length_factor`", "steps of the root, without a logarithm"),
     ("LENGTH_STEPS", "6", "path: `length_factor`", "factors from 0.34 to 2.7"),
     ("REFUSED_SHRINK", "0.7", "path: `approach`, `rebound`, `leave_turning_point`; critical: `step`; rest: `swing`", "largest factor after a refusal"),
-    ("MOST_INTERVALS", "160", "path", "rebounds of the reference take eleven at most"),
+    ("MOST_INTERVALS", "320", "path", "rebounds of the reference take eleven at most"),
     ("SHORTEST_INTERVAL", "ε²", "path: `approach`, `rebound`, `leave_turning_point`; critical: `step`; rest: `swing`", "no interval is short enough: the forces are rounding"),
     ("**Choice of lengths**",),
     ("FIRST_LENGTH", "0.5", "path: `approach`, `first_length`", "half of the undamped peak"),

@@ -82,9 +82,9 @@ impl<C> Signal<C> for NoLines {
 ///     }
 /// }
 ///
-/// let mut lines = ClassLines::new([Line(false), Line(true)]);
+/// let mut lines = ClassLines::new([Line(false), Line(true), Line(false)]);
 /// assert!(lines.show(Some(Outcome::Rebound)).is_ok());
-/// assert_eq!(lines.release(), [Line(true), Line(false)]);
+/// assert_eq!(lines.release(), [Line(true), Line(false), Line(false)]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

@@ -12,7 +12,7 @@ use crate::{Approach, Real};
 /// let scene = RigidBody::new(Sphere::solid(5.06e-6_f32, 2600.0)?, SpeedRestitution::new(130.0)?)
 ///     .with_work_of_adhesion(2.22e-12)?
 ///     .with_friction(0.1)?;
-/// let mut instrument: Instrument<_, _, _, 5, 3> = Instrument::new(scene, NoLines, SpeedBins::new([1.0, 3.0, 10.0])?);
+/// let mut instrument: Instrument<_, _, _, 6, 3> = Instrument::new(scene, NoLines, SpeedBins::new([1.0, 3.0, 10.0])?);
 ///
 /// let mut queue = Queue::<PlanarReading<f32>, 16>::new();
 /// let (mut interrupt, mut main_loop) = queue.split();
@@ -43,7 +43,7 @@ impl<C, S, T: Real, const CLASSES: usize, const BINS: usize> Instrument<C, S, T,
     /// use microimpact::{ConstantRestitution, RigidBody, Sphere};
     ///
     /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.9)?);
-    /// let instrument: Instrument<_, _, f64, 2, 1> = Instrument::new(scene, NoLines, SpeedBins::new([10.0])?);
+    /// let instrument: Instrument<_, _, f64, 3, 1> = Instrument::new(scene, NoLines, SpeedBins::new([10.0])?);
     /// assert_eq!(instrument.tally().classified(), 0);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
@@ -62,7 +62,7 @@ impl<C, S, T: Real, const CLASSES: usize, const BINS: usize> Instrument<C, S, T,
     /// use microimpact::{ConstantRestitution, Outcome, RigidBody, Sphere};
     ///
     /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.9)?);
-    /// let mut instrument: Instrument<_, _, _, 2, 1> = Instrument::new(scene, NoLines, SpeedBins::new([10.0])?);
+    /// let mut instrument: Instrument<_, _, _, 3, 1> = Instrument::new(scene, NoLines, SpeedBins::new([10.0])?);
     /// let verdict = instrument.process(&NormalReading { approach: 1.0 });
     /// assert_eq!(verdict, Ok(Verdict { class: Outcome::Rebound, restitution: Some(0.9) }));
     /// assert!(instrument.process(&NormalReading { approach: 0.0 }).is_err());
@@ -105,7 +105,7 @@ impl<C, S, T: Real, const CLASSES: usize, const BINS: usize> Instrument<C, S, T,
     /// use microimpact::{ConstantRestitution, RigidBody, Sphere};
     ///
     /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.9)?);
-    /// let instrument: Instrument<_, _, f64, 2, 1> = Instrument::new(scene, NoLines, SpeedBins::new([10.0])?);
+    /// let instrument: Instrument<_, _, f64, 3, 1> = Instrument::new(scene, NoLines, SpeedBins::new([10.0])?);
     /// assert_eq!(instrument.tally().rejections().total(), 0);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
@@ -121,7 +121,7 @@ impl<C, S, T: Real, const CLASSES: usize, const BINS: usize> Instrument<C, S, T,
     /// use microimpact::{ConstantRestitution, RigidBody, Sphere};
     ///
     /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.9)?);
-    /// let instrument: Instrument<_, _, f64, 2, 1> = Instrument::new(scene, NoLines, SpeedBins::new([10.0])?);
+    /// let instrument: Instrument<_, _, f64, 3, 1> = Instrument::new(scene, NoLines, SpeedBins::new([10.0])?);
     /// assert_eq!(instrument.classifier(), &scene);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```

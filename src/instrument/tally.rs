@@ -128,7 +128,7 @@ impl Rejections {
 /// use microimpact::Outcome;
 /// use microimpact::instrument::{SpeedBins, Tally, Verdict};
 ///
-/// let mut tally = Tally::<f32, 2, 2>::new(SpeedBins::new([1.0, 10.0])?);
+/// let mut tally = Tally::<f32, 3, 2>::new(SpeedBins::new([1.0, 10.0])?);
 /// tally.record(0.5, &Verdict { class: Outcome::Capture, restitution: Some(0.0) });
 /// tally.record(2.0, &Verdict { class: Outcome::Rebound, restitution: Some(0.7) });
 /// assert_eq!((tally.count(Outcome::Rebound), tally.count(Outcome::Capture)), (1, 1));
@@ -159,7 +159,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
     /// ```
     /// use microimpact::instrument::{SpeedBins, Tally};
     ///
-    /// let tally = Tally::<f32, 5, 1>::new(SpeedBins::new([10.0])?);
+    /// let tally = Tally::<f32, 6, 1>::new(SpeedBins::new([10.0])?);
     /// assert_eq!(tally.classified(), 0);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
@@ -180,7 +180,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
     /// use microimpact::Outcome;
     /// use microimpact::instrument::{SpeedBins, Tally, Verdict};
     ///
-    /// let mut tally = Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?);
+    /// let mut tally = Tally::<f32, 3, 1>::new(SpeedBins::new([10.0])?);
     /// tally.record(2.0, &Verdict { class: Outcome::Rebound, restitution: None });
     /// assert_eq!((tally.count(Outcome::Rebound), tally.restitution()[0].count()), (1, 0));
     /// # Ok::<(), microimpact::InputError>(())
@@ -201,7 +201,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
     /// ```
     /// use microimpact::instrument::{Rejection, SpeedBins, Tally};
     ///
-    /// let mut tally = Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?);
+    /// let mut tally = Tally::<f32, 3, 1>::new(SpeedBins::new([10.0])?);
     /// tally.reject(&Rejection::Unsolved);
     /// assert_eq!(tally.rejections().unsolved, 1);
     /// # Ok::<(), microimpact::InputError>(())
@@ -219,7 +219,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
     /// ```
     /// use microimpact::instrument::{SpeedBins, Tally};
     ///
-    /// let mut tally = Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?);
+    /// let mut tally = Tally::<f32, 3, 1>::new(SpeedBins::new([10.0])?);
     /// tally.fail_signal();
     /// assert_eq!(tally.signal_failures(), 1);
     /// # Ok::<(), microimpact::InputError>(())
@@ -234,7 +234,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
     /// use microimpact::Outcome;
     /// use microimpact::instrument::{SpeedBins, Tally};
     ///
-    /// assert_eq!(Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?).count(Outcome::Capture), 0);
+    /// assert_eq!(Tally::<f32, 3, 1>::new(SpeedBins::new([10.0])?).count(Outcome::Capture), 0);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn count<C: ClassSet>(&self, class: C) -> u64 {
@@ -247,7 +247,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
     /// ```
     /// use microimpact::instrument::{SpeedBins, Tally};
     ///
-    /// assert_eq!(Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?).classified(), 0);
+    /// assert_eq!(Tally::<f32, 3, 1>::new(SpeedBins::new([10.0])?).classified(), 0);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn classified(&self) -> u64 {
@@ -259,7 +259,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
     /// ```
     /// use microimpact::instrument::{SpeedBins, Tally};
     ///
-    /// assert_eq!(Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?).bins().edges(), &[10.0]);
+    /// assert_eq!(Tally::<f32, 3, 1>::new(SpeedBins::new([10.0])?).bins().edges(), &[10.0]);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     #[inline]
@@ -272,7 +272,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
     /// ```
     /// use microimpact::instrument::{SpeedBins, Tally};
     ///
-    /// assert_eq!(Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?).restitution()[0].count(), 0);
+    /// assert_eq!(Tally::<f32, 3, 1>::new(SpeedBins::new([10.0])?).restitution()[0].count(), 0);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     #[inline]
@@ -286,7 +286,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
     /// use microimpact::Outcome;
     /// use microimpact::instrument::{SpeedBins, Tally, Verdict};
     ///
-    /// let mut tally = Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?);
+    /// let mut tally = Tally::<f32, 3, 1>::new(SpeedBins::new([10.0])?);
     /// tally.record(20.0, &Verdict { class: Outcome::Rebound, restitution: Some(0.9) });
     /// assert_eq!(tally.restitution_beyond().count(), 1);
     /// # Ok::<(), microimpact::InputError>(())
@@ -301,7 +301,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
     /// ```
     /// use microimpact::instrument::{SpeedBins, Tally};
     ///
-    /// assert_eq!(Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?).rejections().total(), 0);
+    /// assert_eq!(Tally::<f32, 3, 1>::new(SpeedBins::new([10.0])?).rejections().total(), 0);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     #[inline]
@@ -314,7 +314,7 @@ impl<T: Real, const CLASSES: usize, const BINS: usize> Tally<T, CLASSES, BINS> {
     /// ```
     /// use microimpact::instrument::{SpeedBins, Tally};
     ///
-    /// assert_eq!(Tally::<f32, 2, 1>::new(SpeedBins::new([10.0])?).signal_failures(), 0);
+    /// assert_eq!(Tally::<f32, 3, 1>::new(SpeedBins::new([10.0])?).signal_failures(), 0);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     #[inline]

@@ -55,10 +55,10 @@ fn expected(reading: &PlanarReading<f64>) -> Result<Class, Parameter> {
 proptest! {
     #[test]
     fn every_reading_is_counted_once(readings in prop::collection::vec(readings(), 1..200), room in 1usize..64) {
-        let mut instrument: Instrument<_, _, _, 5, 3> = Instrument::new(scene(), NoLines, bins());
+        let mut instrument: Instrument<_, _, _, 6, 3> = Instrument::new(scene(), NoLines, bins());
         let mut queue = Queue::<PlanarReading<f64>, 32>::new();
         let (mut interrupt, mut main_loop) = queue.split();
-        let (mut classes, mut rejected, mut lost, mut fast) = ([0; 5], 0, 0, 0);
+        let (mut classes, mut rejected, mut lost, mut fast) = ([0; 6], 0, 0, 0);
         for burst in readings.chunks(room) {
             for (sent, reading) in burst.iter().enumerate() {
                 // 31 find room.
@@ -255,7 +255,7 @@ fn what_cannot_be_solved_is_rejected_by_name() {
     let sphere = Sphere::solid(1e-6, 1000.0).unwrap();
     let scene = Contact::hertz(sphere, Stiffness::new(1e10).unwrap()).with_damping(1e4).unwrap();
     let overdamped = Simulated { scene, method: FixedCost::<5>::new(3).unwrap() };
-    let mut instrument: Instrument<_, _, _, 2, 3> = Instrument::new(overdamped, NoLines, bins());
+    let mut instrument: Instrument<_, _, _, 3, 3> = Instrument::new(overdamped, NoLines, bins());
     assert_eq!(instrument.process(&NormalReading { approach: 1.0 }), Err(Rejection::Unsolved));
     let error = instrument.process(&NormalReading { approach: f64::NAN }).unwrap_err();
     assert!(matches!(error, Rejection::Input(error) if error.fault == Fault::NotFinite), "{error}");
@@ -269,10 +269,11 @@ fn one_line_is_high_for_the_latest_class() {
     let stuck = || Transaction::set(State::Low).with_error(MockError::Io(std::io::ErrorKind::Other));
     let mut rebound = Mock::new(&[high(), low(), low(), stuck()]);
     let mut capture = Mock::new(&[low(), high(), low()]);
-    let lines = ClassLines::new([rebound.clone(), capture.clone()]);
+    let mut undecided = Mock::new(&[low(), low(), low(), low()]);
+    let lines = ClassLines::new([rebound.clone(), capture.clone(), undecided.clone()]);
     let sphere = Sphere::solid(5.06e-6, 2600.0).unwrap();
     let body = RigidBody::new(sphere, SpeedRestitution::new(130.0).unwrap()).with_work_of_adhesion(2.22e-12).unwrap();
-    let mut instrument: Instrument<_, _, _, 2, 3> = Instrument::new(body, lines, bins());
+    let mut instrument: Instrument<_, _, _, 3, 3> = Instrument::new(body, lines, bins());
     let mut class = |approach| instrument.process(&NormalReading { approach }).ok().map(|verdict| verdict.class);
     assert_eq!(class(2.8), Some(Outcome::Rebound));
     assert_eq!(class(0.5), Some(Outcome::Capture));
@@ -282,6 +283,7 @@ fn one_line_is_high_for_the_latest_class() {
     assert_eq!(instrument.tally().signal_failures(), 1);
     rebound.done();
     capture.done();
+    undecided.done();
 }
 
 /// f32 against f64, for a thousand million numbers (a tenth without MICROIMPACT_EXHAUSTIVE): sixty times as many as f32 can
@@ -357,14 +359,14 @@ proptest! {
 
 #[test]
 fn a_tally_survives_a_restart_and_its_bins_are_checked() {
-    let mut tally = Tally::<f64, 2, 3>::new(bins());
+    let mut tally = Tally::<f64, 3, 3>::new(bins());
     tally.record(2.0, &Verdict { class: Outcome::Rebound, restitution: Some(0.7) });
     tally.reject(&Rejection::Unsolved);
     let text = serde_json::to_string(&tally).unwrap();
-    assert_eq!(serde_json::from_str::<Tally<f64, 2, 3>>(&text).unwrap(), tally);
+    assert_eq!(serde_json::from_str::<Tally<f64, 3, 3>>(&text).unwrap(), tally);
     let descending = text.replace("[1.0,3.0,10.0]", "[1.0,3.0,2.0]");
     assert_ne!(descending, text);
-    let error = serde_json::from_str::<Tally<f64, 2, 3>>(&descending).unwrap_err();
+    let error = serde_json::from_str::<Tally<f64, 3, 3>>(&descending).unwrap_err();
     assert!(error.to_string().contains("approach speed"), "{error}");
 }
 

@@ -237,12 +237,12 @@ where
         Err(Failed::ByFar)
     };
     let mut at_peak = energy;
-    iterate(&mut phase, &mut |phase, lost| {
+    let lost = iterate(&mut phase, &mut |phase, lost| {
         at_peak = phase.correct_peak(law, energy, lost);
         phase.describe(law, false);
     })?;
     let peak = phase.peak;
-    let tails = phase.tails();
+    let tails = phase.tails(lost);
     let mut error = tails.error_of_energy() / energy;
     let judge = |error: T| match error {
         _ if error <= tolerance => Ok(()),
@@ -262,7 +262,7 @@ where
     let before = phase.clone();
     phase.turn(law);
     let gained = iterate(&mut phase, &mut |_, _| {})?;
-    let tails = phase.tails();
+    let tails = phase.tails(gained);
     error = error.max(tails.error_of_energy() / energy);
     let left = at_peak + gained;
     if left <= T::ZERO && O::TO_TURNING_POINT {

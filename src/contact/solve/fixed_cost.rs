@@ -180,9 +180,9 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             at_peak = phase.correct_peak(law, energy, lost);
         }
         let mut uncertain = self.unconverged(moved, earlier);
-        let approach = phase.tails();
+        let approach = phase.tails(lost);
         // Where the approach comes to a stand before its peak, there is another one.
-        let mut represented = phase.is_represented(STRONGEST) && phase.is_moving();
+        let mut represented = phase.is_represented(STRONGEST) && (!law.may_have_barrier() || phase.is_moving());
         let mut observed = observe(&phase, false);
         phase.turn(law);
         let mut gained = T::ZERO;
@@ -197,7 +197,7 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             gained = phase.iterate::<false>().0;
             (earlier, moved) = (moved, gained - before);
         }
-        let rebound = phase.tails();
+        let rebound = phase.tails(gained);
         observed = observed.max(observe(&phase, true));
         represented &= phase.is_represented(STRONGEST) && phase.peak > T::ZERO;
         uncertain = uncertain + self.unconverged(moved, earlier);

@@ -116,7 +116,7 @@ impl<T: Real> Statistics<T> {
 }
 
 /// Intervals that a motion may take, refused ones included.
-pub(crate) const MOST_INTERVALS: u32 = 160;
+pub(crate) const MOST_INTERVALS: u32 = 320;
 
 /// First length of an interval: half the way from first contact to the undamped peak.
 const FIRST_LENGTH: f64 = 0.5;

@@ -210,19 +210,19 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     }
 
     /// The unresolved parts of the losses, and of the reciprocal speed, which is smooth except near the slow end of a phase.
-    pub(crate) fn tails(&self) -> Tails<T> {
-        let (mut power_tail, mut lost, mut slowness_tail, mut slowness) = (T::ZERO, T::ZERO, T::ZERO, T::ZERO);
+    ///
+    /// `gained` is what the last iteration returned.
+    pub(crate) fn tails(&self, gained: T) -> Tails<T> {
+        let (mut power_tail, mut slowness_tail, mut slowness) = (T::ZERO, T::ZERO, T::ZERO);
         for k in 0..N {
             // As good as the reciprocal of the present speed: it is as smooth.
-            let (power, inverse) = (self.loss[k] * self.speed[k], self.half_inverse[k]);
-            power_tail = power_tail + T::HIGHEST_COEFFICIENT[k] * power;
-            lost = lost + T::WEIGHTS[k] * power;
+            let inverse = self.half_inverse[k];
+            power_tail = power_tail + T::HIGHEST_COEFFICIENT[k] * (self.loss[k] * self.speed[k]);
             slowness_tail = slowness_tail + T::HIGHEST_COEFFICIENT[k] * inverse;
             slowness = slowness + T::WEIGHTS[k] * inverse;
         }
-        let half = T::constant(0.5);
         let slowness = slowness_tail.abs().saturating_div(slowness);
-        Tails { lost: half * lost.abs(), power: half * power_tail.abs(), slowness }
+        Tails { lost: gained.abs(), power: T::constant(0.5) * power_tail.abs(), slowness }
     }
 
     /// Whether damping is so mild that iterations converge to the solution.

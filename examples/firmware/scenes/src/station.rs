@@ -17,7 +17,7 @@ pub type ToInstrument = Request<Event>;
 pub type ToHost = Reply<f32, Class>;
 
 /// Number of classes.
-pub const CLASSES: usize = 5;
+pub const CLASSES: usize = 6;
 /// Number of bins of speed.
 pub const BINS: usize = 6;
 /// Bytes for the longest message to the instrument and its checksum.

@@ -32,11 +32,11 @@ pub(super) fn call_all<T: AnyNodes + Single>() -> Result<(), InputError> {
     let exact = Simulated { scene: simulation.with_friction(any())?, method: Collocation::<5, T>::new(any())? };
     keep(Classified::class(&body.classify(&normal.motion()?)));
     keep(Classified::class(&friction.classify(&oblique.motion()?)));
-    process::<T, _, _, 2>(body, &normal, lines())?;
-    process::<T, _, _, 5>(friction, &oblique, lines())?;
-    process::<T, _, _, 5>(friction, &planar, lines())?;
-    process::<T, _, _, 2>(fixed, &normal, lines())?;
-    process::<T, _, _, 5>(exact, &oblique, lines())?;
+    process::<T, _, _, 3>(body, &normal, lines())?;
+    process::<T, _, _, 6>(friction, &oblique, lines())?;
+    process::<T, _, _, 6>(friction, &planar, lines())?;
+    process::<T, _, _, 3>(fixed, &normal, lines())?;
+    process::<T, _, _, 6>(exact, &oblique, lines())?;
     let boundary = BoundaryTable::<2>::new(any::<T>(), |_| Ok(black_box(CriticalSpeed::At(any::<T>()))))?;
     let source = |_, _| Ok(TableRebound { restitution: any::<T>(), impulse: any() });
     let table = RestitutionTable::<T, 2, 3, 4>::new(boundary, any(), source)?;
@@ -113,7 +113,7 @@ fn statistics<T: Real>() -> Result<(), InputError> {
     statistics.add(any());
     statistics.merge(&black_box(statistics));
     keep((statistics.count(), statistics.mean(), statistics.variance()));
-    let mut tally = Tally::<T, 2, 1>::new(SpeedBins::new([any()])?);
+    let mut tally = Tally::<T, 3, 1>::new(SpeedBins::new([any()])?);
     tally.record(any(), &Verdict { class: black_box(Outcome::Rebound), restitution: Some(any()) });
     keep(tally);
     Ok(())
