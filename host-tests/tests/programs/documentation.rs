@@ -110,8 +110,8 @@ fn error_bound_in_fixed_point_is_current() {
 fn promise_of_the_adaptive_method_is_the_tested_one() {
     let test = include_str!("../simulation/adaptive.rs");
     for (bound, words) in [
-        ("const LARGEST: f64 = 3.0;", "between 0.01 and 3 times the tolerance"),
-        ("const SMALLEST: f64 = 0.01;", "between 0.01 and 3 times the tolerance"),
+        ("const LARGEST: f64 = 3.0;", "between 0.001 and 3 times the tolerance"),
+        ("const SMALLEST: f64 = 0.001;", "between 0.001 and 3 times the tolerance"),
         ("[f64; 9] = [1e-4,", "from 1e-4 to 1e-12"),
     ] {
         assert!(test.contains(bound) && README.contains(words), "{bound}, {words}");

@@ -150,7 +150,13 @@ fn what_a_method_does_not_know_is_empty() {
         let output = simulated(arguments, THREE);
         let found = Written::read(&output.stdout, b',');
         assert_eq!(found.text(0, "outcome"), "rebound", "{arguments}");
-        assert_eq!((found.text(1, "outcome"), found.text(1, "restitution")), ("capture", "0"), "{arguments}");
+        let decided = (found.text(1, "outcome"), found.text(1, "restitution"));
+        if decided == ("", "") && !solved {
+            // The method says no more than that it does not know.
+            assert!(!found.text(1, "error").is_empty(), "{arguments}");
+            continue;
+        }
+        assert_eq!(decided, ("capture", "0"), "{arguments}");
         for column in AT_END {
             assert!(!found.text(0, column).is_empty(), "{arguments}, {column}");
             assert_eq!(!found.text(1, column).is_empty(), follows, "{arguments}, {column}");

@@ -202,7 +202,8 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         represented &= phase.is_represented(STRONGEST) && phase.peak > T::ZERO;
         uncertain = uncertain + self.unconverged(moved, earlier);
         uncertain = uncertain + T::constant(ROUNDINGS * N as f64) * T::EPSILON;
-        uncertain = uncertain + approach.bound_with(&rebound).min(T::ONE);
+        let (losses, slow_end) = approach.bound_with(&rebound);
+        uncertain = uncertain + losses.min(T::ONE);
         // Where the potential is flat one step for the peak leaves an error.
         uncertain = uncertain + (law.potential(phase.peak) - at_peak).abs();
         if law.may_have_barrier() {
@@ -217,9 +218,13 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         let (_, escape) = barrier(law);
         let passes = !law.may_have_barrier() || at_peak - escape > T::constant(BARRIER_MARGIN) * energy;
         let excess = left - escape;
+        // A captured sphere turns back before the slow end, whose error counts once for it.
+        let slow_end = slow_end.min(T::ONE);
+        let captured = excess + slow_end < -(uncertain + uncertain) && uncertain <= T::constant(LARGEST_LOSS_ERROR);
+        uncertain = uncertain + slow_end;
         let end = if !(represented && passes) {
             End::Budget
-        } else if excess < -(uncertain + uncertain) && uncertain <= T::constant(LARGEST_LOSS_ERROR) {
+        } else if captured {
             End::Capture
         } else if excess <= uncertain && uncertain <= T::constant(LARGEST_UNDECIDED) * energy {
             End::Undecided

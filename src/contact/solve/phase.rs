@@ -70,12 +70,14 @@ impl<T: Real> Tails<T> {
         T::constant(ENERGY_ERROR) * losses.max(T::constant(SLOWNESS_ERROR) * slow)
     }
 
-    /// A bound of the error of the energy after an approach and the rebound `after` it. What the nodes do not resolve of damping in
-    /// the materials is about the same on both, and cancels but for a tenth.
-    pub(crate) fn bound_with(&self, after: &Self) -> T {
+    /// A bound of the error of the energy after an approach and the rebound `after` it, in two parts: by the losses, and by the slow
+    /// end of the rebound, which a captured sphere does not reach. What the nodes do not resolve of damping in the materials is about
+    /// the same on both, and cancels but for a tenth.
+    pub(crate) fn bound_with(&self, after: &Self) -> (T, T) {
         let ((losses_in, slow_in), (losses_out, slow_out)) = (self.squares(), after.squares());
         let difference = (losses_out - losses_in).abs() + T::constant(UNCANCELLED) * (losses_in + losses_out);
-        T::constant(LOSSES_BOUND) * difference + T::constant(SLOWNESS_BOUND) * (slow_in + slow_out)
+        let slow = T::constant(SLOWNESS_BOUND);
+        (T::constant(LOSSES_BOUND) * difference + slow * slow_in, slow * slow_out)
     }
 
     /// Squares of both unresolved parts over the lost energy, times it.
