@@ -261,7 +261,15 @@ fn strength<T: Real, L: ContactLaw<T>, S>(
     let strongest = T::constant(limits.range().1);
     let mut value = T::constant(1e-2);
     for _ in 0..MOST_STEPS {
-        let stronger = (value, search.excess(value)?);
+        let excess = match search.excess(value) {
+            // Beyond what the method solves: a smaller step may do.
+            Err(CalibrationError::NotConverged) if weaker.0 > T::ZERO => {
+                value = (weaker.0 * value).sqrt();
+                continue;
+            }
+            excess => excess?,
+        };
+        let stronger = (value, excess);
         if stronger.1 <= T::ZERO {
             return search.between(weaker, stronger);
         }

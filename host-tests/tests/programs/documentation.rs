@@ -178,8 +178,8 @@ fn numbers_in_prose_are_the_tested_ones() {
         ),
         (
             include_str!("../simulation/simulation_exact.rs"),
-            "assert!(spent < all / 2500,",
-            "fewer than one in ten thousand",
+            "assert!(spent < all / 500,",
+            "fewer than one in two thousand",
         ),
         (include_str!("../rigid/table1.rs"), "(spin / 4.16e4 - 1.0).abs() < 0.004", "except the final spin (0.4 %)"),
     ] {
