@@ -641,7 +641,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 Some(z) => self.split(interval, course, turning_point, z),
                 None => self.observer.observe(self.law, interval, course.rebound),
             }
-            let middle = interval.y[N / 2];
+            let middle = interval.y.get(N / 2).copied().unwrap_or(T::ZERO);
             let largest = interval.end.speed_squared.max(middle * middle);
             self.largest = self.largest.max(T::constant(0.5) * largest);
             self.at = interval.end;
