@@ -40,8 +40,8 @@ pub(crate) fn is_calibration(scene: &str) -> bool {
 pub(crate) fn of(scene: &str, quantity: Quantity) -> Option<f64> {
     match quantity {
         Quantity::Classify if scene == "simulation/fixed-class" => Some(1600.0),
-        Quantity::Classify if scene == "simulation/fixed-1e-5" => Some(2000.0),
-        Quantity::Classify if scene == "simulation/fixed-1e-6" => Some(2600.0),
+        Quantity::Classify if scene == "simulation/fixed-1e-5" => Some(2200.0),
+        Quantity::Classify if scene == "simulation/fixed-1e-6" => Some(2950.0),
         Quantity::Classify if scene == "simulation/fixed-oblique-1e-5" => Some(3100.0),
         Quantity::Classify if scene == "simulation/fixed-oblique-1e-6" => Some(4100.0),
         Quantity::Classify if scene == "simulation/fixed-point" => Some(9000.0),
