@@ -176,7 +176,7 @@ where
 ///     .with_ring(250.0, 6.25)?;
 /// let classifier = Simulated { scene, method: FixedCost::<7>::new(4)? };
 /// assert!(classifier.verdict(&NormalMotion::new(8.0)?).is_ok_and(|verdict| verdict.class == Outcome::Rebound));
-/// assert!(classifier.verdict(&NormalMotion::new(5.0)?).is_ok_and(|verdict| verdict.class == Outcome::Capture));
+/// assert!(classifier.verdict(&NormalMotion::new(3.0)?).is_ok_and(|verdict| verdict.class == Outcome::Capture));
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
