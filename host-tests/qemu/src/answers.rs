@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::{self, Display};
 
-use microimpact_scenes::contacts::{REFUSED, UNDECIDED, visit_contacts};
+use microimpact_scenes::contacts::{REFUSED, visit_contacts};
+use microimpact_scenes::scenes::UNDECIDED;
 use microimpact_scenes::scenes::{Answer, Number, Scene, Visitor, visit_scenes};
 use microimpact_scenes::variants::{visit_collocations, visit_recordings, visit_variants};
 

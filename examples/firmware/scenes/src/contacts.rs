@@ -10,14 +10,11 @@ use microimpact::contact::{
 use microimpact::{Class, Coulomb, InputError, NormalMotion, Outcome, PlanarMotion, Sphere, Stiffness};
 
 use super::impacts::{CONTACTS, Impact};
-use super::scenes::{Answer, Measured, Number, Scene, Visitor, given};
+use super::scenes::{Answer, Measured, Number, Scene, UNDECIDED, Visitor, given};
 use super::table_1::{DENSITY_KG_M3, FRICTION, MATERIAL_DAMPING, RADIUS_M, RING_DAMPING, RING_N_M, STIFFNESS_PA};
 
 /// The class of an impact that the library refuses.
 pub const REFUSED: &str = "refused";
-
-/// The class where a method comes to no solution.
-pub const UNDECIDED: &str = "undecided";
 
 /// A method and how exactly it is to solve a scene.
 pub trait Setting: Sized {

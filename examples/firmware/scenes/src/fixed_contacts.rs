@@ -10,9 +10,9 @@ use microimpact::{
     SpeedRestitution,
 };
 
-use super::contacts::{UNDECIDED, exact_restitution, surface};
+use super::contacts::{exact_restitution, surface};
 use super::impacts::{CONTACTS, Impact};
-use super::scenes::{Answer, Measured, Normal, Planar, Scene, Visitor};
+use super::scenes::{Answer, Measured, Normal, Planar, Scene, UNDECIDED, Visitor};
 
 /// Unit of speed of the rigid bodies.
 const UNIT_M_S: f32 = 4.0;

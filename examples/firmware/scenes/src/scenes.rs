@@ -12,7 +12,7 @@ use microimpact::{
 };
 
 use super::approximate::Approximate;
-use super::contacts::{NormalContacts, UNDECIDED};
+use super::contacts::NormalContacts;
 use super::fixed_contacts::visit_fixed_contacts;
 use super::impacts::{IMPACTS, Impact};
 use super::table_1::{
@@ -196,6 +196,9 @@ pub(super) fn sphere<T: Number>() -> Result<Sphere<T>, InputError> {
 pub(super) fn given<T: Number>(number: f64) -> T {
     black_box(T::constant(number))
 }
+
+/// The class where a method comes to no solution.
+pub const UNDECIDED: &str = "undecided";
 
 impl<T> From<Classification<T, ()>> for Answer<T> {
     fn from(verdict: Classification<T, ()>) -> Self {
