@@ -54,10 +54,10 @@ pub struct DimensionlessImpact<T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DimensionlessContact<T> {
-    /// Whether the method has come to a solution.
+    /// Whether the method converged.
     pub status: Status,
     /// Rebound, capture or, where the error bound exceeds the size of e^2, [`Undecided`](Outcome::Undecided). `None` where the
-    /// method has not come to a solution.
+    /// method did not converge.
     pub outcome: Option<Outcome>,
     /// Square of the overall restitution e; zero unless the outcome is a rebound.
     pub restitution_squared: T,

@@ -206,12 +206,18 @@ impl<T: Real, const PEELS: bool> TangentialMotion<T, PEELS> {
         Slide { velocity, peripheral, velocity_after, peripheral_after }
     }
 
+    /// Part of the peeling rate that slows a rolling sphere.
+    #[inline]
+    fn rolling_fraction(&self) -> T {
+        self.gyration_ratio / (T::ONE + self.gyration_ratio)
+    }
+
     /// Velocities over an interval, and after it, of a rolling sphere that the peeling moment slows.
     fn slowed<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>) -> ([T; N], T)
     where
         T: Nodes<N>,
     {
-        let fraction = self.gyration_ratio / (T::ONE + self.gyration_ratio);
+        let fraction = self.rolling_fraction();
         let (decay, whole_decay) = self.decay(law, interval, fraction);
         if whole_decay > T::constant(SLOW) {
             let rates = self.decay_rates(law, interval, fraction);
@@ -294,7 +300,7 @@ impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
         }
         let peripheral =
             if self.slides() { self.slide(law, interval).peripheral } else { self.slowed(law, interval).0 };
-        let fraction = if self.slides() { T::ONE } else { self.gyration_ratio / (T::ONE + self.gyration_ratio) };
+        let fraction = if self.slides() { T::ONE } else { self.rolling_fraction() };
         let decay = self.decay(law, interval, fraction).1;
         let mut tail = T::ZERO;
         for j in 0..N {

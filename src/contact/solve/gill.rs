@@ -69,9 +69,9 @@ impl<T: Real> Method<T> for RungeKuttaGill {
         let step = law.duration(energy) / T::constant(f64::from(self.steps));
         let most = self.steps.saturating_mul(Self::LONGEST_RUN);
         // What half as many steps change is a bound of the error.
-        let runs = Run::new(law, energy, step + step, most / 2).and_then(|coarse| {
-            let coarse = coarse.follow(None, &mut ())?;
-            let fine = Run::new(law, energy, step, most)?.follow(Some(&coarse), observer)?;
+        let runs = Run::new(law, energy, step, most).and_then(|run| {
+            let coarse = Run { step: step + step, most: most / 2, ..run }.follow(None, &mut ())?;
+            let fine = run.follow(Some(&coarse), observer)?;
             Some((coarse, fine))
         });
         let Some((coarse, fine)) = runs else {

@@ -244,11 +244,11 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
                 let step = if *creeps { length.min(self.creeping_length(well)) } else { length };
                 let interval = self.pass::<N>(along(step), course);
                 let factor = self.length_factor(N, &interval);
-                let after = Self::excess(self.law, &interval.end, well);
-                if *creeps && interval.accepted && after < least && searches < MOST_SEARCHES {
+                let excess = || Self::excess(self.law, &interval.end, well);
+                if *creeps && interval.accepted && searches < MOST_SEARCHES && excess() < least {
                     // Close to the bottom the root of the energy above it is proportional to the distance.
                     let [before, after, rest] =
-                        [Self::excess(self.law, &self.at, well), after.max(T::ZERO), well.rest].map(T::sqrt);
+                        [Self::excess(self.law, &self.at, well), excess().max(T::ZERO), well.rest].map(T::sqrt);
                     length = step * (before - rest) / (before - after);
                     searches += 1;
                     continue;

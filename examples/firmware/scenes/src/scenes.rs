@@ -197,7 +197,7 @@ pub(super) fn given<T: Number>(number: f64) -> T {
     black_box(T::constant(number))
 }
 
-/// The class where a method comes to no solution.
+/// The class where a method does not converge or decide.
 pub const UNDECIDED: &str = "undecided";
 
 impl<T> From<Classification<T, ()>> for Answer<T> {
