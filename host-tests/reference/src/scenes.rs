@@ -323,7 +323,7 @@ pub fn critical_speed(scene: &Scene) -> Option<f64> {
     const NONE: f64 = 1e-14;
     let margin = |speed: f64| {
         let truth = solve(&Scene { speed, friction: 0.0, tangential: 0.0, spin: 0.0, ..*scene }, STEPS);
-        truth.margin.map(Double::to_f64)
+        truth.margin.filter(|_| truth.complete).map(Double::to_f64)
     };
     let at = |speed: f64| margin(speed).map(|margin| (speed, margin));
     let (mut captured, mut rebounds) = (at(scene.speed / DECADES)?, at(scene.speed * DECADES)?);

@@ -27,7 +27,8 @@ pub struct Truth {
     pub steps: u32,
     /// Energy beyond what a rebound needs, over the initial kinetic energy; negative for a capture. If a barrier has to
     /// be passed on arrival, the smaller of both distances. Of a sphere that creeps to rest, the energy it has where
-    /// that is proven. `None` where it is not known.
+    /// that is proven, and of one that is held but was not followed to its end, what it has then. `None` where it is
+    /// not known.
     pub margin: Option<Double>,
     /// e^2, zero for a capture.
     pub restitution_squared: Double,
@@ -446,6 +447,8 @@ fn solve_to(tolerance: f64, numbers: &[Double; 13], most_steps: u32) -> Truth {
     let mut impulse_to_peak = Double::ZERO;
     let mut roll = (!slips).then_some((Double::ZERO, Double::ZERO));
     let (mut outcome, mut complete, mut steps) = (None, false, 0);
+    // Of a sphere that is held, the energy it lacks to escape.
+    let mut lacking = Double::ZERO;
     let mut margins: Vec<Double> = Vec::new();
     let time_unit = Double::from(scene.length) / scene.speed;
     while steps < most_steps && !complete {
@@ -460,11 +463,13 @@ fn solve_to(tolerance: f64, numbers: &[Double; 13], most_steps: u32) -> Truth {
                 let y = path.of(Q::Speed).at(distance.root(if beyond(before) { 1.0 } else { -1.0 }, path.step));
                 margins.push(y * y * 0.5);
             }
-            if speed * speed * 0.5 + scene.potential(place) < height && place > scene.barrier {
+            let lacks = height - speed * speed * 0.5 - scene.potential(place);
+            if lacks > Double::ZERO && place > scene.barrier {
+                lacking = lacks;
                 outcome = Some(Outcome::Capture);
                 complete = event == Event::None && scene.creeps(place, speed, path.rebound);
                 if complete {
-                    margins.push(height - speed * speed * 0.5 - scene.potential(place));
+                    margins.push(lacks);
                 }
             }
         }
@@ -505,7 +510,10 @@ fn solve_to(tolerance: f64, numbers: &[Double; 13], most_steps: u32) -> Truth {
     let (mass, speed) = (scene.mass, scene.speed);
     let energy_unit = mass * speed * speed;
     let rebounds = outcome == Some(Outcome::Rebound);
-    let smallest = margins.into_iter().reduce(Double::min).filter(|_| complete);
+    if !complete && outcome == Some(Outcome::Capture) {
+        margins.push(lacking);
+    }
+    let smallest = margins.into_iter().reduce(Double::min).filter(|_| outcome.is_some());
     let last = path.value(Q::Speed);
     // What the other works and the remaining energy leave.
     let remaining = last * last * 0.5 + scene.potential(path.value(Q::Place));

@@ -328,18 +328,24 @@ impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
         }
         let slide = self.slide(law, interval);
         let slip_after = (slide.velocity_after - slide.peripheral_after) * self.direction;
-        if slip_after > T::ZERO {
-            return None;
-        }
         let (mut slip, mut slope) = ([T::ZERO; N], [T::ZERO; N]);
         let closing = if interval.forward { -self.closing() } else { self.closing() };
         for j in 0..N {
             slip[j] = (slide.velocity[j] - slide.peripheral[j]) * self.direction;
             slope[j] = closing * law.elastic_force(interval.s[j]) * interval.rate[j];
         }
+        // A moment that outlasts friction opens the slip again: what counts is its first end.
+        if slip_after > T::ZERO && !(PEELS && slip.iter().any(|slip| *slip <= T::ZERO)) {
+            return None;
+        }
+        let least = T::constant(SLIP_ROOT_ACCURACY);
+        if self.slip_left() <= T::ZERO {
+            // It ended in the interval before, by less than rounding.
+            return Some(least);
+        }
         let ends = if interval.forward { (self.slip_left(), slip_after) } else { (slip_after, self.slip_left()) };
-        let z = root_between_nodes(&slip, &slope, ends, T::constant(SLIP_ROOT_ACCURACY) * self.slip_left());
-        let z = z.max(T::constant(SLIP_ROOT_ACCURACY)).min(T::constant(1.0 - SLIP_ROOT_ACCURACY));
+        let z = first_root(&slip, &slope, ends, interval.forward, least * self.slip_left());
+        let z = z.max(least).min(T::ONE - least);
         Some(if interval.forward { z } else { T::ONE - z })
     }
 
@@ -429,22 +435,35 @@ impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
 /// Place, value and, at a node, slope at an end of a bracket.
 type End<T> = (T, T, Option<T>);
 
-/// Root of the polynomial through `values` at the nodes that has the values `ends` at 0 and 1, of opposite signs: Newton's
-/// method on the barycentric form, with `slopes` at the nodes that need not be exact.
-fn root_between_nodes<T: Nodes<N>, const N: usize>(values: &[T; N], slopes: &[T; N], ends: (T, T), enough: T) -> T {
-    let positive_first = ends.0 > T::ZERO;
+/// The root that comes first in time, of the polynomial through `values` at the nodes that has the values `ends` at 0 and 1:
+/// Newton's method on the barycentric form, with `slopes` at the nodes that need not be exact. The value is positive before.
+fn first_root<T: Nodes<N>, const N: usize>(
+    values: &[T; N],
+    slopes: &[T; N],
+    ends: (T, T),
+    forward: bool,
+    enough: T,
+) -> T {
     let (mut low, mut high): (End<T>, End<T>) = ((T::ZERO, ends.0, None), (T::ONE, ends.1, None));
-    for j in 0..N {
-        if (values[j] > T::ZERO) == positive_first {
-            low = (T::Z[j], values[j], Some(slopes[j]));
+    for i in 0..N {
+        let j = if forward { i } else { N - 1 - i };
+        let node = (T::Z[j], values[j], Some(slopes[j]));
+        let before = values[j] > T::ZERO;
+        if before == forward {
+            low = node;
         } else {
-            high = (T::Z[j], values[j], Some(slopes[j]));
+            high = node;
+        }
+        if !before {
             break;
         }
     }
-    let secant = (high.1 - low.1) / (high.0 - low.0);
-    let (slope_low, slope_high) = (low.2.unwrap_or(secant), high.2.unwrap_or(secant));
     let width = high.0 - low.0;
+    if width <= T::ZERO {
+        return high.0;
+    }
+    let secant = (high.1 - low.1) / width;
+    let (slope_low, slope_high) = (low.2.unwrap_or(secant), high.2.unwrap_or(secant));
     // The cubic with these values and slopes at both ends of the bracket.
     let bend = slope_low + slope_high - secant - secant;
     let cubic = |z: T| {
@@ -468,8 +487,8 @@ fn root_between_nodes<T: Nodes<N>, const N: usize>(values: &[T; N], slopes: &[T;
         }
         numerator / denominator
     };
-    let guess = polish(cubic, &slope, (low.0, high.0), positive_first, low.0 - low.1 / secant, (enough, CUBIC_STEPS));
-    polish(polynomial, &slope, (low.0, high.0), positive_first, guess, (enough, POLYNOMIAL_STEPS))
+    let guess = polish(cubic, &slope, (low.0, high.0), forward, low.0 - low.1 / secant, (enough, CUBIC_STEPS));
+    polish(polynomial, &slope, (low.0, high.0), forward, guess, (enough, POLYNOMIAL_STEPS))
 }
 
 /// A root improved by Newton's method within its bracket, until the value is small enough.

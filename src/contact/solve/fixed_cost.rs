@@ -198,7 +198,9 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             (earlier, moved) = (moved, gained - before);
         }
         let rebound = phase.tails(gained);
-        observed = observed.max(observe(&phase, true));
+        if phase.is_moving() {
+            observed = observed.max(observe(&phase, true));
+        }
         represented &= phase.is_represented(STRONGEST) && phase.peak > T::ZERO;
         uncertain = uncertain + self.unconverged(moved, earlier);
         uncertain = uncertain + T::constant(ROUNDINGS * N as f64) * T::EPSILON;

@@ -105,10 +105,11 @@ struct Run<'a, T, L> {
     barrier: (T, T),
 }
 
-/// A motion and its energies at the peak and at its end, with which another is compared.
+/// A motion and its energies at the peak, where it passes the barrier and at its end, with which another is compared.
 struct Followed<T> {
     path: NormalPath<T>,
     at_peak: T,
+    at_barrier: T,
     left: T,
 }
 
@@ -132,13 +133,14 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
         let Self { law, energy, step, most, barrier: (place, escape) } = *self;
         let (half, zero) = (T::constant(0.5), T::ZERO);
         let (first, last) = (law.indentation(law.start()), law.indentation(law.end()));
+        let outside = law.indentation(place);
         let mut state: State<T, O::State> = ([first, (energy + energy).sqrt()], observer.state());
         let mut times = Times::new();
         let statistics = Statistics { nodes: 4, ..Statistics::NONE };
         let mut path =
             NormalPath { end: End::Budget, energy, peak: zero, turning: zero, error_bound: zero, statistics };
         let total = |s: T, speed: T| half * speed * speed + law.potential(s);
-        let (mut at_peak, mut left, mut margin) = (energy, energy, zero);
+        let (mut at_peak, mut at_barrier, mut left, mut margin) = (energy, energy, energy, zero);
         while path.statistics.intervals < most {
             path.statistics.intervals += 1;
             let [x, y] = state.0;
@@ -173,10 +175,14 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
                 margin = T::constant(CAPTURE_MARGIN) * changed + T::constant(ROUNDINGS) * T::EPSILON * energy.max(half);
                 observer.stepped(law, times.peak, path.peak, zero, false);
             }
+            let before = (x, left);
             state = next;
             times.now = times.now + duration;
             let s = law.coordinate(depth)?;
             left = total(s, speed);
+            if speed < zero && before.0 > outside && depth <= outside {
+                at_barrier = left + (before.1 - left) * (outside - depth) / (before.0 - depth);
+            }
             observer.stepped(law, times.now, s, speed.abs(), speed < zero);
             if rolls {
                 observer.rolls_from(times.now);
@@ -193,19 +199,25 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
             }
         }
         if let Some(coarse) = coarse {
-            let changed = if path.end == End::Separation { (left - coarse.left).abs() } else { zero };
-            let uncertain = margin.max(changed);
-            if path.end == End::Separation && left - escape <= uncertain {
-                path.end = End::Undecided;
-            } else if path.end == End::Budget && left < escape - margin.max((left - coarse.left).abs()) {
-                path.end = End::Capture;
+            let mut uncertain = margin;
+            if path.end == End::Separation {
+                // Nothing holds a sphere that turned back in front of the barrier.
+                let in_front = path.peak < place && at_peak < escape - margin;
+                let passing = margin.max((at_barrier - coarse.at_barrier).abs());
+                if !in_front && at_barrier - escape <= passing {
+                    path.end = End::Undecided;
+                }
+                uncertain = passing.max((left - coarse.left).abs());
+            } else if path.end == End::Budget && state.0[0] >= outside {
+                let held = left < escape - margin.max((left - coarse.left).abs());
+                path.end = if held { End::Capture } else { End::Budget };
             }
             path.error_bound = uncertain / energy;
         }
         path.energy = left;
         path.statistics.iterations = path.statistics.intervals + path.statistics.refused;
         observer.ended(&state.1, &times);
-        Some(Followed { path, at_peak, left })
+        Some(Followed { path, at_peak, at_barrier, left })
     }
 }
 

@@ -295,6 +295,13 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         surplus < -uncertain && self.at.s >= self.barrier.0
     }
 
+    /// Whether a peak lies in front of a barrier, beyond doubt.
+    #[inline]
+    fn turned_back_outside(&self, peak: T) -> bool {
+        let (surplus, uncertain) = self.surplus();
+        peak < self.barrier.0 && surplus < -uncertain
+    }
+
     /// How the motion ends where no interval is short enough to go on, or none is left.
     fn stuck(&self, course: Course) -> End {
         let (surplus, uncertain) = self.surplus();
@@ -404,6 +411,9 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         if (captured && !to_turning_point) || self.creeps(peak, T::ZERO, Course::REBOUND) {
             return Ok(T::ZERO);
         }
+        // An interval ends on a barrier, where the energy decides; beyond it nothing holds the sphere. Nor does anything hold one
+        // that turned back in front of it.
+        let mut passed = self.turned_back_outside(peak);
         let distance = peak - outermost;
         let depth = self.leave_peak::<N>(T::constant(DEEPEST_DEPARTURE) * distance)?;
         let mut length = if depth < T::constant(SHALLOW_DEPARTURE) * distance {
@@ -411,8 +421,6 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         } else {
             self.at.s - outermost
         };
-        // An interval ends on a barrier, where the energy decides; beyond it nothing holds the sphere.
-        let mut passed = false;
         while self.at.s > outermost {
             if !passed && self.barrier.0 > outermost && self.at.s <= self.barrier.0 {
                 let (surplus, uncertain) = self.surplus();
