@@ -159,6 +159,10 @@ const LEAVING_LIMIT: f64 = 0.4;
 /// The same for an interval that ends at a turning point, squared; its refusal costs nothing, so that it may be larger.
 const ARRIVING_LIMIT: f64 = 0.3;
 
+/// Least distance of a root of the speed behind an interval that ends at a turning point, over its length in z, where times are
+/// asked for.
+const NEAREST_ROOT: f64 = 0.3;
+
 /// Power of the length in the losses of an interval that ends at a turning point.
 const LOSS_POWER_OF_DEPTH: f64 = 1.5;
 
@@ -485,6 +489,12 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
         * law.loss(if course.rebound { from.s } else { turning }, course.rebound);
     let stopping = two * depth * law.mean_slope(turning, from.s);
     if !(stopping > T::ZERO && reach * reach < T::constant(ARRIVING_LIMIT) * stopping) {
+        return refused(turning, true);
+    }
+    // A sphere that is still being accelerated came from where it was slow: close behind it the speed has a root, and times a
+    // singularity that the nodes may not show.
+    let rise = -(T::constant(4.0) * depth * law.slope(from.s));
+    if control.times > T::ONE && from.speed_squared < T::constant(NEAREST_ROOT) * rise {
         return refused(turning, true);
     }
     let (mut s, mut free, mut loss) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
