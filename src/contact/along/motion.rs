@@ -30,7 +30,7 @@ const FAST: f64 = 6.0;
 const FAST_ERROR: f64 = 5e-4;
 
 /// and over its square where it is.
-const SLOW_ERROR: f64 = 0.1;
+const SLOW_ERROR: f64 = 0.25;
 
 /// Steps of Newton's method on the cubic between two nodes,
 const CUBIC_STEPS: u32 = 4;
