@@ -69,6 +69,19 @@ impl Inputs {
         let method = Collocation::<12, f64>::new(1e-12).unwrap();
         self.scene().unwrap().solve_normal(&NormalMotion::new(speed).unwrap(), &method).unwrap().outcome().unwrap()
     }
+
+    /// Whether the outcome is this one, or undecided with an energy left that is no larger than twice its stated error.
+    fn ends_in(&self, outcome: Outcome, speed: f64) -> bool {
+        if self.outcome(speed) != Outcome::Undecided {
+            return self.outcome(speed) == outcome;
+        }
+        let method = Collocation::<12, f64>::new(1e-12).unwrap();
+        let run = self.scene().unwrap().solve(&NormalMotion::new(speed).unwrap(), &method).unwrap().run;
+        let [r, density, k, f0, force] = [self.radius, self.density, self.stiffness, self.adhesion, self.force];
+        let numbers = [r, density, 0.4, k, f0, self.zeta_h, self.zeta_a, 0.0, 0.0, force, speed, 0.0, 0.0];
+        let margin = truth::solve(&truth::Scene::from_numbers(numbers), 1000).margin.unwrap();
+        margin.to_f64().abs() <= 2.0 * run.error_bound
+    }
 }
 
 fn speed<T: std::fmt::Debug>(result: Result<CriticalSpeed<T>, InputError>) -> T {
@@ -256,9 +269,9 @@ proptest! {
         match inputs.critical::<12, f64>(1e-12) {
             // Far beyond the speeds at which adhesion matters e is a root of rounding errors.
             Ok(CriticalSpeed::At(critical)) if critical < 1e2 * inputs.unit() => {
-                prop_assert_eq!(inputs.outcome(critical * (1.0 - 1e-6)), Outcome::Capture);
+                prop_assert!(inputs.ends_in(Outcome::Capture, critical * (1.0 - 1e-6)));
                 if critical * (1.0 + 1e-6) <= 1e6 {
-                    prop_assert_eq!(inputs.outcome(critical * (1.0 + 1e-6)), Outcome::Rebound);
+                    prop_assert!(inputs.ends_in(Outcome::Rebound, critical * (1.0 + 1e-6)));
                 }
             }
             Ok(CriticalSpeed::At(critical)) => {

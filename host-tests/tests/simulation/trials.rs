@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use reference::repetitions;
 use reference::scenes::Kind;
-use trials::{OutputErrors, Solver, Tally, run, solvers};
+use trials::{Number, OutputErrors, Solver, Tally, run, solvers};
 
 const SEED: u64 = 1;
 
@@ -23,11 +23,11 @@ static TRIALS: LazyLock<Trials> = LazyLock::new(|| {
 });
 
 /// Fails with the worst scenes of each solver of which `count` is not zero.
-fn assert_none(kinds: &dyn Fn(Kind) -> bool, of: impl Fn(&Solver) -> bool, count: impl Fn(&Tally) -> u64) {
+fn assert_none(of: impl Fn(&Solver, Kind) -> bool, count: impl Fn(&Tally) -> u64) {
     let mut faults = String::new();
-    for (kind, tallies) in TRIALS.tallies.iter().filter(|(kind, _)| kinds(*kind)) {
+    for (kind, tallies) in &TRIALS.tallies {
         for (solver, tally) in TRIALS.solvers.iter().zip(tallies) {
-            let found = if of(solver) { count(tally) } else { 0 };
+            let found = if of(solver, *kind) { count(tally) } else { 0 };
             if found > 0 {
                 let (kind, name, number) = (kind.name(), solver.name, solver.number.name());
                 let _ = writeln!(faults, "{kind}, {name} {number}: {found} of {}", tally.scenes);
@@ -51,32 +51,48 @@ fn the_truth_knows_the_scenes() {
 
 #[test]
 fn no_outcome_that_is_said_to_be_solved_is_wrong() {
-    assert_none(&|_| true, |_| true, |tally| tally.wrong_outcomes);
+    assert_none(|_, _| true, |tally| tally.wrong_outcomes);
 }
 
 #[test]
 fn no_class_is_wrong() {
-    assert_none(&|_| true, |_| true, |tally| tally.wrong_classes);
+    assert_none(|_, _| true, |tally| tally.wrong_classes);
 }
 
 #[test]
 fn only_scenes_closer_than_twice_the_stated_error_are_undecided() {
-    // A strongly damped sphere passes a barrier so slowly that its energy there tells less than its path does.
-    let kinds = |kind| kind != Kind::LargestTension && kind != Kind::Barrier;
-    assert_none(&kinds, |_| true, |tally| tally.needless);
+    assert_none(|_, _| true, |tally| tally.needless);
 }
 
 /// In double precision.
 #[test]
 fn methods_that_control_their_error_solve_all_scenes() {
-    assert_none(&|_| true, |solver| solver.follows_captures && solver.number.name() == "f64", |tally| tally.unsolved);
+    assert_none(|solver, _| solver.follows_captures && solver.number == Number::Double, |tally| tally.unsolved);
 }
 
 /// To ten times the tolerance, or as far as inputs that are wrong by the tolerance account for more.
 #[test]
 fn outputs_of_methods_that_control_their_error_are_within_it() {
+    // In single precision a sphere that turns next to a barrier loses digits: its coordinate hardly changes from one interval to the
+    // next.
+    let keeps_digits = |solver: &Solver, kind| kind != Kind::Barrier || solver.number == Number::Double;
     let unexplained = |errors: &OutputErrors| errors.unexplained;
-    // A sphere that comes to its equilibrium creeps there, and the time of its peak is a logarithm of errors.
-    let kinds = |kind| kind != Kind::Equilibrium;
-    assert_none(&kinds, |solver| solver.follows_captures, |tally| tally.outputs.iter().map(unexplained).sum());
+    let of = |solver: &Solver, kind| solver.follows_captures && keeps_digits(solver, kind);
+    assert_none(of, |tally| tally.outputs.iter().map(unexplained).sum());
+}
+
+/// Fewer than one of a hundred outputs of each kind of scene is beyond the tolerance, if it is not close to a boundary where the
+/// inputs account for more.
+#[test]
+fn outputs_are_rarely_beyond_the_tolerance() {
+    const RARELY: u64 = 100;
+    let close = [Kind::Critical, Kind::Barrier, Kind::SlipToSeparation];
+    for (kind, tallies) in TRIALS.tallies.iter().filter(|(kind, _)| !close.contains(kind)) {
+        for (solver, tally) in TRIALS.solvers.iter().zip(tallies).filter(|(solver, _)| solver.follows_captures) {
+            let sum = |count: fn(&OutputErrors) -> u64| tally.outputs.iter().map(count).sum::<u64>();
+            let (beyond, compared) = (sum(|errors| errors.beyond), sum(|errors| errors.compared));
+            let (kind, name) = (kind.name(), solver.name);
+            assert!(compared > 0 && beyond * RARELY <= compared, "{kind}, {name}: {beyond} of {compared}");
+        }
+    }
 }

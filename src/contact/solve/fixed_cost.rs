@@ -116,8 +116,11 @@ const CHANGE_MARGIN: f64 = 2.0;
 const LEAST_MARGIN: f64 = 0.5;
 const LARGEST_MARGIN: f64 = 1.5;
 
-/// The same after fewer iterations than three, when changes say little of the next.
+/// The same after fewer iterations than three, when changes say little of the next,
 const EARLY_MARGIN: f64 = 2.0;
+
+/// and the part of the energy lost that they may miss: there is no earlier change to show that the last is small by chance.
+const EARLY_LOSSES: f64 = 1e-4;
 
 impl<T, const N: usize, const M: usize> Method<T> for FixedCost<N, M>
 where
@@ -142,12 +145,13 @@ where
 }
 
 impl<const N: usize, const M: usize> FixedCost<N, M> {
-    /// Bound of the error that iterations leave, from the changes by the last and the one before. They converge superlinearly.
+    /// Bound of the error that iterations leave, from the changes by the last and the one before, and the energy lost. They
+    /// converge superlinearly.
     #[inline]
-    fn unconverged<T: Real>(&self, last: T, before: T) -> T {
+    fn unconverged<T: Real>(&self, last: T, before: T, lost: T) -> T {
         let last = last.abs();
         if self.iterations < 3 {
-            return T::constant(EARLY_MARGIN) * last;
+            return T::constant(EARLY_MARGIN) * last + T::constant(EARLY_LOSSES) * lost.abs();
         }
         let fraction = last.saturating_div(before.abs() + T::SMALLEST);
         let margin = T::constant(CHANGE_MARGIN) * fraction.min(T::ONE);
@@ -179,7 +183,7 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             (earlier, moved) = (moved, lost - before);
             at_peak = phase.correct_peak(law, energy, lost);
         }
-        let mut uncertain = self.unconverged(moved, earlier);
+        let mut uncertain = self.unconverged(moved, earlier, lost);
         let approach = phase.tails(lost);
         // Where the approach comes to a stand before its peak, there is another one.
         let mut represented = phase.is_represented(STRONGEST) && (!law.may_have_barrier() || phase.is_moving());
@@ -202,7 +206,7 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             observed = observed.max(observe(&phase, true));
         }
         represented &= phase.is_represented(STRONGEST) && phase.peak > T::ZERO;
-        uncertain = uncertain + self.unconverged(moved, earlier);
+        uncertain = uncertain + self.unconverged(moved, earlier, gained);
         uncertain = uncertain + T::constant(ROUNDINGS * N as f64) * T::EPSILON;
         let (losses, slow_end) = approach.bound_with(&rebound);
         uncertain = uncertain + losses.min(T::ONE);
@@ -220,6 +224,11 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         let (_, escape) = barrier(law);
         let passes = !law.may_have_barrier() || at_peak - escape > T::constant(BARRIER_MARGIN) * energy;
         let excess = left - escape;
+        // Where the last iterations have changed the outcome, the next may change it again.
+        let before = excess - moved - earlier;
+        if self.iterations > 2 && (before > T::ZERO) != (excess > T::ZERO) {
+            uncertain = uncertain.max(moved.abs() + earlier.abs());
+        }
         // A captured sphere turns back before the slow end, whose error counts once for it.
         let slow_end = slow_end.min(T::ONE);
         let captured = excess + slow_end < -(uncertain + uncertain) && uncertain <= T::constant(LARGEST_LOSS_ERROR);

@@ -89,6 +89,10 @@ const INVERSE_ACCURACY: f64 = 1e-3;
 /// Change of the energy at the peak by half as many steps that a capture has to be certain by: the way back has as large an error.
 const CAPTURE_MARGIN: f64 = 3.0;
 
+/// Change of the time of the peak by half as many steps, over the whole time, with which a result counts as solved: close to a barrier
+/// energies hardly change while times do, and with them the end of a slip.
+const LARGEST_TIME_CHANGE: f64 = 0.02;
+
 /// Roundings of the largest energy by which a change may vanish by chance.
 const ROUNDINGS: f64 = 64.0;
 
@@ -105,9 +109,11 @@ struct Run<'a, T, L> {
     barrier: (T, T),
 }
 
-/// A motion and its energies at the peak, where it passes the barrier and at its end, with which another is compared.
+/// A motion with the time and the energy of its peak, and the energies where it passes the barrier and at its end, with which another
+/// is compared.
 struct Followed<T> {
     path: NormalPath<T>,
+    peak_time: T,
     at_peak: T,
     at_barrier: T,
     left: T,
@@ -213,11 +219,14 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
                 path.end = if held { End::Capture } else { End::Budget };
             }
             path.error_bound = uncertain / energy;
+            if (times.peak - coarse.peak_time).abs() > T::constant(LARGEST_TIME_CHANGE) * times.now {
+                path.end = End::Budget;
+            }
         }
         path.energy = left;
         path.statistics.iterations = path.statistics.intervals + path.statistics.refused;
         observer.ended(&state.1, &times);
-        Some(Followed { path, at_peak, at_barrier, left })
+        Some(Followed { path, peak_time: times.peak, at_peak, at_barrier, left })
     }
 }
 

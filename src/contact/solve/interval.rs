@@ -217,6 +217,8 @@ struct Iterations<T, const N: usize> {
     power: [T; N],
     /// Square of the last change.
     change: T,
+    /// Square of the speed that the rounding of positions is worth.
+    rounding: T,
     iterations: u32,
 }
 
@@ -227,9 +229,9 @@ const SUPERLINEAR_MARGIN: f64 = 100.0;
 const MOST_ITERATIONS: u32 = 20;
 
 impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
-    /// Speeds without losses, less an estimate of their decrease by losses.
+    /// Speeds without losses, less an estimate of their decrease by losses, along an interval up to the coordinate `farthest`.
     #[inline]
-    fn from(free: &[T; N], loss: &[T; N], taken: &[T; N]) -> Self {
+    fn from(farthest: T, free: &[T; N], loss: &[T; N], taken: &[T; N]) -> Self {
         let (mut speed, mut half_inverse, mut power) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
         for j in 0..N {
             let root = free[j].max(T::SMALLEST).sqrt();
@@ -237,7 +239,11 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
             half_inverse[j] = T::constant(0.5) / speed[j];
             power[j] = loss[j] * speed[j];
         }
-        Self { speed, half_inverse, power, change: T::constant(NO_CHANGE_YET), iterations: 0 }
+        // The rounding of positions does not shrink with the speed, but with the terms of the potential: of the forces that go on to
+        // first contact that of adhesion has the lowest power.
+        let terms = (farthest * farthest * farthest).min(T::ONE);
+        let rounding = T::constant(CHANGE_ROUNDING * N as f64) * T::EPSILON * T::EPSILON * terms;
+        Self { speed, half_inverse, power, change: T::constant(NO_CHANGE_YET), rounding, iterations: 0 }
     }
 
     /// One iteration, with Heron's step for the root at every node. `lost` gives the square of a speed from the square without
@@ -293,9 +299,8 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
     #[inline]
     fn has_converged(&mut self, change: T, scale: T, control: &Control<T>) -> Progress {
         let relative = control.converged * control.converged * scale.min(T::ONE);
-        // Rounding alone keeps the changes at this size for ever. The rounding of positions does not shrink with the speed; a
-        // first iteration may hide behind it.
-        let rounding = T::constant(CHANGE_ROUNDING * N as f64) * T::EPSILON * T::EPSILON * scale.max(T::ONE);
+        // Rounding alone keeps the changes at this size for ever. A first iteration may hide behind it.
+        let rounding = (T::constant(CHANGE_ROUNDING * N as f64) * T::EPSILON * T::EPSILON * scale).max(self.rounding);
         let enough = if self.iterations > 1 { relative.max(rounding) } else { relative };
         let superlinear =
             self.iterations > 1 && T::constant(SUPERLINEAR_MARGIN) * change * change <= enough * self.change;
@@ -393,7 +398,7 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
         loss = loss.map(|loss| -loss);
         taken = taken.map(|taken| -taken);
     }
-    let mut state = Iterations::from(&free, &loss, &taken);
+    let mut state = Iterations::from(from.s.max(s[N - 1]), &free, &loss, &taken);
     let mut accepted = possible;
     let mut newton = false;
     if possible && !(contracting && state.converge(&free, &loss, &T::INTEGRATION, control)) {
@@ -448,7 +453,7 @@ pub(crate) fn leave<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     if course.reversed {
         loss = loss.map(|loss| -loss);
     }
-    let mut state = Iterations::from(&free, &loss, &taken_from_turning_point(&loss));
+    let mut state = Iterations::from(peak.max(s[N - 1]), &free, &loss, &taken_from_turning_point(&loss));
     let contraction = T::constant(TURNING_CONTRACTION) * strongest * state.half_inverse[0];
     let mut accepted = possible
         && contraction < T::constant(LEAVING_LIMIT)
@@ -516,7 +521,8 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     if free.iter().any(|free| *free <= T::ZERO) {
         return refused(turning, true);
     }
-    let mut state = Iterations::from(&free, &loss, &taken_from_turning_point(&loss).map(|taken| -taken));
+    let taken = taken_from_turning_point(&loss).map(|taken| -taken);
+    let mut state = Iterations::from(turning.max(from.s), &free, &loss, &taken);
     let mut accepted = false;
     let slow = from.speed_squared < T::constant(END_FROM_SPEED) * from.energy.abs();
     // Where the potential is a sum of large terms, as far inside, or the speed is small, what it rises by is known better.

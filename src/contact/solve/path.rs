@@ -307,7 +307,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let (surplus, uncertain) = self.surplus();
         if self.is_held() {
             End::Capture
-        } else if course.rebound && surplus <= uncertain && well::well(self.law).is_some() {
+        } else if surplus <= uncertain && (course.rebound || -surplus <= uncertain) && well::well(self.law).is_some() {
             // Losses can only bring it further down.
             End::Undecided
         } else {
