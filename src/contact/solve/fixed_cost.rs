@@ -120,7 +120,7 @@ const LARGEST_MARGIN: f64 = 1.5;
 const EARLY_MARGIN: f64 = 2.0;
 
 /// and the part of the energy lost that they may miss: there is no earlier change to show that the last is small by chance.
-const EARLY_LOSSES: f64 = 1e-4;
+const EARLY_LOSSES: f64 = 3e-4;
 
 impl<T, const N: usize, const M: usize> Method<T> for FixedCost<N, M>
 where

@@ -146,7 +146,8 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
         let mut path =
             NormalPath { end: End::Budget, energy, peak: zero, turning: zero, error_bound: zero, statistics };
         let total = |s: T, speed: T| half * speed * speed + law.potential(s);
-        let (mut at_peak, mut at_barrier, mut left, mut margin) = (energy, energy, energy, zero);
+        let (mut at_peak, mut left, mut margin) = (energy, energy, zero);
+        let mut at_barrier = None;
         while path.statistics.intervals < most {
             path.statistics.intervals += 1;
             let [x, y] = state.0;
@@ -187,7 +188,7 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
             let s = law.coordinate(depth)?;
             left = total(s, speed);
             if speed < zero && before.0 > outside && depth <= outside {
-                at_barrier = left + (before.1 - left) * (outside - depth) / (before.0 - depth);
+                at_barrier = Some(left + (before.1 - left) * (outside - depth) / (before.0 - depth));
             }
             observer.stepped(law, times.now, s, speed.abs(), speed < zero);
             if rolls {
@@ -204,6 +205,7 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
                 break;
             }
         }
+        let at_barrier = at_barrier.unwrap_or(left);
         if let Some(coarse) = coarse {
             let mut uncertain = margin;
             if path.end == End::Separation {

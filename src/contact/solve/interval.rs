@@ -414,8 +414,11 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     }
     let error = if possible { state.error(free[0].max(free[N - 1]), &rate, control) } else { T::ONE };
     // Strong damping makes the forces near the nodes almost balance. What remains is less exact than its quadrature.
-    let times = if newton && control.times > T::ONE { T::constant(STRONG_DAMPING_TIMES) * error } else { error };
-    let error = if newton { times.max(T::constant(STRONG_DAMPING_SPEED) * error.sqrt()) } else { error };
+    let error = if newton && control.times > T::ONE {
+        (T::constant(STRONG_DAMPING_TIMES) * error).max(T::constant(STRONG_DAMPING_SPEED) * error.sqrt())
+    } else {
+        error
+    };
     let last = state.speed[N - 1];
     // Newton's method knows the speed at the end, iterations know the energy lost; where almost all is lost the one counts,
     // elsewhere the other.
