@@ -27,7 +27,7 @@ const SLIP_ROOT_ACCURACY: f64 = 1e-6;
 const FAST: f64 = 6.0;
 
 /// estimated error over the unresolved part where the decay is not slow,
-const FAST_ERROR: f64 = 5e-4;
+const FAST_ERROR: f64 = 2e-3;
 
 /// and over its square where it is.
 const SLOW_ERROR: f64 = 0.25;
