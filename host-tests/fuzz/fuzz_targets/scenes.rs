@@ -11,7 +11,11 @@
 //! * the outcome exists if and only if the status is *solved*;
 //! * a rebound has a restitution of 0 to 1 and a ledger that balances; all else has a restitution of zero and no ledger;
 //! * bounds of errors are finite and not negative;
+//! * the outcome is not the opposite without outputs, unless e^2 is below ten bounds of its error;
 //! * a critical speed is in its range, and is not contradicted by impacts that are 5 % slower or faster.
+//!
+//! Of `RungeKuttaGill`, results with a bound above 0.1 are not checked, nor velocities under a peeling moment: its steps may be
+//! far too long, and its status is *solved* all the same.
 #![no_main]
 
 use std::fmt::Debug;
@@ -349,7 +353,8 @@ impl<T: Real + AdaptiveNodes + PhaseSamples<5, 9>> Solver<'_, T> {
         let SimulatedImpact { normal, tangential, run } = &impact;
         let what = || format!("{} {method:?}: {impact:?} {outputs:?}", self.inputs());
         assert_eq!(run.status, normal.status(), "{}", what());
-        if care == Care::Explicit && !(run.error_bound <= T::constant(LARGEST_BOUND)) {
+        let bounded = run.error_bound.is_finite() && run.error_bound <= T::constant(LARGEST_BOUND);
+        if care == Care::Explicit && !bounded {
             return;
         }
         check_normal(normal, run.error_bound, &what);
