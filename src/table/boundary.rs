@@ -154,7 +154,8 @@ impl<const N: usize> BoundaryTable<N> {
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub const fn parts(&self) -> (f32, u32, &[[i32; 4]; N]) {
-        (f32::from_bits(self.first - CELL / 2), self.margin, &self.cells)
+        let (smallest, margin, _) = self.as_slice().parts();
+        (smallest, margin, &self.cells)
     }
 
     /// Bound of the relative error of the critical speed. Speeds within it are [`TableOutcome::TooCloseToCall`].

@@ -176,7 +176,9 @@ impl<'a> BoundarySlice<'a> {
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub const fn parts(&self) -> (f32, u32, &'a [[i32; 4]]) {
-        (f32::from_bits(self.first - CELL / 2), self.margin, self.cells)
+        // The first cell may begin below the range of radii.
+        let (least, _) = Parameter::Radius.range();
+        (f32::from_bits(self.first - CELL / 2).max(least as f32), self.margin, self.cells)
     }
 
     /// Classifies the impact of a sphere of `radius` (m) that arrives with `motion`.
@@ -343,4 +345,23 @@ const fn fixed(factor: f64) -> i64 {
 /// Product of a number and a factor in units of 2^-24.
 fn scaled<const FACTOR: i64>(number: i64) -> i64 {
     (number * FACTOR + (1 << 23)) >> 24
+}
+
+#[cfg(test)]
+mod tests {
+    use super::BoundarySlice;
+    use crate::{InputError, Parameter};
+
+    /// The first cell begins below the least radius, and the last one contains the largest.
+    #[test]
+    fn parts_at_the_ends_of_the_range_make_the_same_table() -> Result<(), InputError> {
+        let (least, most) = Parameter::Radius.range();
+        let cells = [[1_065_353_216, 0, 0, 0]];
+        for smallest in [least as f32, most as f32] {
+            let table = BoundarySlice::from_parts(smallest, 1000, &cells)?;
+            let (smallest, margin, cells) = table.parts();
+            assert_eq!(BoundarySlice::from_parts(smallest, margin, cells), Ok(table));
+        }
+        Ok(())
+    }
 }

@@ -104,7 +104,6 @@ impl<T: Real, const PEELS: bool> SlipStart<T, PEELS> {
             gyration_ratio: sphere.gyration_ratio(),
             velocity: before.tangential() / units.speed,
             peripheral: before.peripheral() / units.speed,
-            slip: before.slip(),
             peeling,
         }
     }

@@ -65,7 +65,6 @@ pub struct SlipStart<T, const PEELS: bool> {
     gyration_ratio: T,
     velocity: T,
     peripheral: T,
-    slip: T,
     /// Rate at which the peeling moment slows the spin at contact radius 1.
     peeling: T,
 }

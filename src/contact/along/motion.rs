@@ -73,8 +73,9 @@ struct Slide<T, const N: usize> {
 
 impl<T: Real, const PEELS: bool> TangentialMotion<T, PEELS> {
     pub(crate) fn new(start: &SlipStart<T, PEELS>) -> Self {
-        let SlipStart { friction, gyration_ratio, velocity, peripheral, slip, peeling } = *start;
-        let direction = direction(slip);
+        let SlipStart { friction, gyration_ratio, velocity, peripheral, peeling } = *start;
+        // Of the velocities in these units: their rounding may leave nothing of a slip in SI units.
+        let direction = direction(velocity - peripheral);
         Self {
             friction,
             gyration_ratio,
@@ -518,4 +519,26 @@ fn polish<T: Real>(
         }
     }
     root
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::contact::{Adaptive, Contact, Slip};
+    use crate::{InputError, NormalMotion, Oblique, Sphere, Stiffness};
+
+    /// A slip of one unit in the last place, which is gone in the units of the impact.
+    #[test]
+    fn a_slip_that_rounding_removes_is_none() -> Result<(), InputError> {
+        let sphere = Sphere::new(9.999999973194381e-6, 0.06977853575606303, 0.0019952623133643525)?;
+        let scene = Contact::hertz(sphere, Stiffness::new(1.000560660449101e8)?)
+            .with_external_force(2.4102473642900153e-8)?
+            .with_friction(0.14142135632453895)?;
+        let motion = NormalMotion::new(11.97238862289469)?.with_tangential(3.7860017111479776)?;
+        let motion = motion.with_spin(&sphere, 378600.1721296589)?;
+        assert_eq!(motion.slip(), 4.440892098500626e-16);
+        let (_, slip) = scene.solve_for(&motion, &Adaptive::new(1e-9_f64)?, Slip)?;
+        assert_eq!((slip.slides, slip.rolls_from), (false, Some(0.0)));
+        assert!((slip.velocity / motion.tangential() - 1.0).abs() < 1e-14 && slip.rotation.is_finite(), "{slip:?}");
+        Ok(())
+    }
 }
