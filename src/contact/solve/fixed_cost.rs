@@ -187,7 +187,7 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         let approach = phase.tails(lost);
         // Where the approach comes to a stand before its peak, there is another one.
         let mut represented = phase.is_represented(STRONGEST) && (!law.may_have_barrier() || phase.is_moving());
-        let mut observed = observe(&phase, false);
+        let mut observed = if represented { observe(&phase, false) } else { T::ZERO };
         phase.turn(law);
         let mut gained = T::ZERO;
         moved = energy;
@@ -202,10 +202,10 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             (earlier, moved) = (moved, gained - before);
         }
         let rebound = phase.tails(gained);
-        if phase.is_moving() {
+        represented &= phase.is_represented(STRONGEST) && phase.peak > T::ZERO;
+        if represented && phase.is_moving() {
             observed = observed.max(observe(&phase, true));
         }
-        represented &= phase.is_represented(STRONGEST) && phase.peak > T::ZERO;
         uncertain = uncertain + self.unconverged(moved, earlier, gained);
         uncertain = uncertain + T::constant(ROUNDINGS * N as f64) * T::EPSILON;
         let (losses, slow_end) = approach.bound_with(&rebound);
@@ -246,7 +246,8 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         } else {
             End::Budget
         };
-        let error = uncertain.saturating_div(energy);
+        // Of what diverges not even the bound is a number.
+        let error = if uncertain < energy { uncertain.saturating_div(energy) } else { T::ONE };
         let statistics =
             Statistics { intervals: 2, refused: 0, iterations: 2 * self.iterations, nodes: N as u32, error };
         NormalPath { end, energy: left, peak: phase.peak, turning: T::ZERO, error_bound: error, statistics }

@@ -5,6 +5,8 @@
 //! estimates the time, and the step is repeated up to it. As the forces are not smooth where x = 0, the error falls with
 //! the power 3/2 of the step with adhesion and 5/2 without, not 4.
 
+use core::cell::Cell;
+
 use super::observer::Observer;
 use super::path::{End, Method, NormalPath, Statistics};
 use super::quantities::{Quantities, Times};
@@ -89,6 +91,9 @@ const INVERSE_ACCURACY: f64 = 1e-3;
 /// Change of the energy at the peak by half as many steps that a capture has to be certain by: the way back has as large an error.
 const CAPTURE_MARGIN: f64 = 3.0;
 
+/// Largest bound of the error of e^2 with which a rebound counts as solved.
+const LARGEST_ERROR: f64 = 0.1;
+
 /// Change of the time of the peak by half as many steps, over the whole time, with which a result counts as solved: close to a barrier
 /// energies hardly change while times do, and with them the end of a slip.
 const LARGEST_TIME_CHANGE: f64 = 0.02;
@@ -170,7 +175,7 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
                 next = gill(law, observer, &state, duration);
             }
             let [depth, speed] = next.0;
-            if !(depth.is_finite() && speed.is_finite()) {
+            if !is_finite(&next) {
                 break;
             }
             if y >= zero && speed < zero {
@@ -216,11 +221,15 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
                     path.end = End::Undecided;
                 }
                 uncertain = passing.max((left - coarse.left).abs());
+                let surplus = left - energy - law.potential(law.start());
+                if !(uncertain <= T::constant(LARGEST_ERROR) * energy && surplus <= uncertain) {
+                    path.end = End::Budget;
+                }
             } else if path.end == End::Budget && state.0[0] >= outside {
                 let held = left < escape - margin.max((left - coarse.left).abs());
                 path.end = if held { End::Capture } else { End::Budget };
             }
-            path.error_bound = uncertain / energy;
+            path.error_bound = uncertain.min(energy) / energy;
             if (times.peak - coarse.peak_time).abs() > T::constant(LARGEST_TIME_CHANGE) * times.now {
                 path.end = End::Budget;
             }
@@ -230,6 +239,17 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
         observer.ended(&state.1, &times);
         Some(Followed { path, peak_time: times.peak, at_peak, at_barrier, left })
     }
+}
+
+/// Whether all quantities of a state are: steps that are too long for a damping or a moment make them grow beyond all bounds.
+#[inline]
+fn is_finite<T: Real, O: Quantities<T>>(state: &State<T, O>) -> bool {
+    let finite = Cell::new(true);
+    let _ = state.combine(*state, |quantity, _| {
+        finite.set(finite.get() && quantity.is_finite());
+        quantity
+    });
+    finite.get()
 }
 
 /// A step by Gill's coefficients.

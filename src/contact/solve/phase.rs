@@ -236,11 +236,7 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     /// Whether the sphere moves at all nodes.
     #[inline]
     pub(crate) fn is_moving(&self) -> bool {
-        let mut slowest = self.speed[0];
-        for j in 1..N {
-            slowest = slowest.min(self.speed[j]);
-        }
-        slowest > T::SLOWEST
+        self.speed.iter().all(|speed| *speed > T::SLOWEST)
     }
 
     /// Half the losses at the first and the last node.
