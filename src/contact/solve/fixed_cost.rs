@@ -98,8 +98,8 @@ const LARGEST_LOSS_ERROR: f64 = 0.1;
 /// Largest part of the reciprocal speed that the nodes may leave unresolved where there can be a barrier.
 const LARGEST_SLOWNESS: f64 = 0.01;
 
-/// Least energy at the peak beyond that of a barrier, over the energy before: close to a barrier the sphere is slow in the middle
-/// of its way.
+/// Least energy at the peak beyond that of a barrier, and least difference on the way out, over the energy before: close to a
+/// barrier the sphere is slow in the middle of its way, which a polynomial may miss.
 const BARRIER_MARGIN: f64 = 0.1;
 
 /// Loss over speed at the peak above which iterations can converge to a wrong value: the error that an iteration leaves is in
@@ -222,8 +222,10 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         let left = at_peak + gained;
         // A sphere that comes slower than a barrier is high, or loses so much on its way there, never meets the peak computed here.
         let (_, escape) = barrier(law);
-        let passes = !law.may_have_barrier() || at_peak - escape > T::constant(BARRIER_MARGIN) * energy;
         let excess = left - escape;
+        let clear = T::constant(BARRIER_MARGIN) * energy;
+        let passes =
+            !law.may_have_barrier() || (at_peak - escape > clear && (escape == T::ZERO || excess.abs() > clear));
         // Where the last iterations have changed the outcome, the next may change it again.
         let before = excess - moved - earlier;
         if self.iterations > 2 && (before > T::ZERO) != (excess > T::ZERO) {

@@ -302,6 +302,23 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         peak < self.barrier.0 && surplus < -uncertain
     }
 
+    /// Whether the energy at the barrier, on the way in, is more than enough to pass it.
+    fn passes_barrier<const N: usize>(&self, interval: &Interval<T, N>) -> bool {
+        let ((place, height), end) = (self.barrier, interval.end);
+        let (mut before, mut after) = ((self.at.s, self.at.energy), (end.s, end.energy));
+        for (s, y) in interval.s.into_iter().zip(interval.y) {
+            let energy = T::constant(0.5) * y * y + self.law.potential(s);
+            if s <= place && s > before.0 {
+                before = (s, energy);
+            } else if s > place && s < after.0 {
+                after = (s, energy);
+            }
+        }
+        let there = before.1 + (after.1 - before.1) * (place - before.0) / (after.0 - before.0);
+        let uncertain = self.surplus().1;
+        there - height > uncertain + uncertain
+    }
+
     /// How the motion ends where no interval is short enough to go on, or none is left.
     fn stuck(&self, course: Course) -> End {
         let (surplus, uncertain) = self.surplus();
@@ -648,6 +665,11 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             match roll {
                 Some(z) => self.split(interval, course, turning_point, z),
                 None => self.observer.observe(self.law, interval, course.rebound),
+            }
+            let enters = !course.rebound && self.law.may_have_barrier();
+            if enters && self.at.s < self.barrier.0 && interval.end.s > self.barrier.0 && !self.passes_barrier(interval)
+            {
+                return Err(End::Undecided);
             }
             let middle = interval.y.get(N / 2).copied().unwrap_or(T::ZERO);
             let largest = interval.end.speed_squared.max(middle * middle);
