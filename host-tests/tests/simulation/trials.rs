@@ -73,12 +73,8 @@ fn methods_that_control_their_error_solve_all_scenes() {
 /// To ten times the tolerance, or as far as inputs that are wrong by the tolerance account for more.
 #[test]
 fn outputs_of_methods_that_control_their_error_are_within_it() {
-    // In single precision a sphere that turns next to a barrier loses digits: its coordinate hardly changes from one interval to the
-    // next.
-    let keeps_digits = |solver: &Solver, kind| kind != Kind::Barrier || solver.number == Number::Double;
     let unexplained = |errors: &OutputErrors| errors.unexplained;
-    let of = |solver: &Solver, kind| solver.follows_captures && keeps_digits(solver, kind);
-    assert_none(of, |tally| tally.outputs.iter().map(unexplained).sum());
+    assert_none(|solver, _| solver.follows_captures, |tally| tally.outputs.iter().map(unexplained).sum());
 }
 
 /// Fewer than one of a hundred outputs of each kind of scene is beyond the tolerance, if it is not close to a boundary where the

@@ -14,7 +14,7 @@ use super::SlipStart;
 use super::relaxation::{SLOW, relaxed};
 use crate::Real;
 use crate::contact::law::ContactLaw;
-use crate::contact::solve::interval::{Interval, dot, integrals};
+use crate::contact::solve::interval::{Interval, dot, integrals, unresolved};
 use crate::contact::solve::nodes::Nodes;
 use crate::contact::solve::observer::Observer;
 use crate::contact::solve::quantities::Times;
@@ -303,11 +303,11 @@ impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
             if self.slides() { self.slide(law, interval).peripheral } else { self.slowed(law, interval).0 };
         let fraction = if self.slides() { T::ONE } else { self.rolling_fraction() };
         let decay = self.decay(law, interval, fraction).1;
-        let mut tail = T::ZERO;
+        let mut turned = peripheral;
         for j in 0..N {
-            tail = tail + T::HIGHEST_COEFFICIENT[j] * interval.rate[j] * peripheral[j];
+            turned[j] = turned[j] * interval.rate[j];
         }
-        let tail = tail.abs() / (self.scale * dot(&T::WEIGHTS, &interval.rate) + T::SMALLEST);
+        let tail = unresolved(&turned) / (self.scale * dot(&T::WEIGHTS, &interval.rate) + T::SMALLEST);
         if decay > T::constant(FAST) {
             // What decays before the first node does not show in the tail.
             let first = if interval.forward { peripheral[0] } else { peripheral[N - 2] };

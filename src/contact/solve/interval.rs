@@ -204,7 +204,7 @@ const NEWTON_ROUNDING: f64 = 4.0;
 /// Estimated error over the square of the part that the nodes do not resolve.
 const TAIL_ERROR: f64 = 0.02;
 
-/// Weight of the second highest coefficient of the times: the highest may vanish by chance.
+/// Weight of the second highest coefficient: the highest may vanish by chance.
 const SECOND_COEFFICIENT: f64 = 0.3;
 
 /// The unknowns of an interval while they are iterated.
@@ -352,8 +352,14 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
 /// The part of the times that the nodes do not resolve, as a fraction of them.
 #[inline]
 pub(crate) fn tail_of_times<T: Nodes<N>, const N: usize>(rate: &[T; N]) -> T {
-    let before = T::constant(SECOND_COEFFICIENT) * dot(&T::LEGENDRE[N - 2], rate).abs();
-    dot(&T::HIGHEST_COEFFICIENT, rate).abs().max(before) / (dot(&T::WEIGHTS, rate).abs() + T::SMALLEST)
+    unresolved(rate) / (dot(&T::WEIGHTS, rate).abs() + T::SMALLEST)
+}
+
+/// The part of an integral that the nodes do not resolve.
+#[inline]
+pub(crate) fn unresolved<T: Nodes<N>, const N: usize>(values: &[T; N]) -> T {
+    let before = T::constant(SECOND_COEFFICIENT) * dot(&T::LEGENDRE[N - 2], values).abs();
+    dot(&T::HIGHEST_COEFFICIENT, values).abs().max(before)
 }
 
 enum Progress {

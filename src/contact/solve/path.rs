@@ -282,10 +282,13 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         path
     }
 
-    /// Energy beyond that of a sphere that separates at rest, and the bound of its error.
+    /// Energy beyond that of a sphere that separates at rest, and the bound of its error: twice as large where a barrier has to be
+    /// passed, whose height is as inexact.
     #[inline]
     fn surplus(&self) -> (T, T) {
-        (self.at.energy - self.barrier.1, energy_bound(self.control.error, self.kinetic, self.largest))
+        let bound = energy_bound(self.control.error, self.kinetic, self.largest);
+        let barred = self.law.may_have_barrier() && self.barrier.0 > self.law.end();
+        (self.at.energy - self.barrier.1, if barred { bound + bound } else { bound })
     }
 
     /// Whether the sphere cannot escape any more.
@@ -315,8 +318,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             }
         }
         let there = before.1 + (after.1 - before.1) * (place - before.0) / (after.0 - before.0);
-        let uncertain = self.surplus().1;
-        there - height > uncertain + uncertain
+        there - height > self.surplus().1
     }
 
     /// How the motion ends where no interval is short enough to go on, or none is left.
