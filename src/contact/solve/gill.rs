@@ -175,7 +175,7 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
                 next = gill(law, observer, &state, duration);
             }
             let [depth, speed] = next.0;
-            if !is_finite(&next) {
+            if !is_bounded(&next) {
                 break;
             }
             if y >= zero && speed < zero {
@@ -241,15 +241,16 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
     }
 }
 
-/// Whether all quantities of a state are: steps that are too long for a damping or a moment make them grow beyond all bounds.
+/// Whether all quantities of a state, and their squares, are finite: steps that are too long for a damping or a moment make them grow
+/// beyond all bounds.
 #[inline]
-fn is_finite<T: Real, O: Quantities<T>>(state: &State<T, O>) -> bool {
-    let finite = Cell::new(true);
+fn is_bounded<T: Real, O: Quantities<T>>(state: &State<T, O>) -> bool {
+    let bounded = Cell::new(true);
     let _ = state.combine(*state, |quantity, _| {
-        finite.set(finite.get() && quantity.is_finite());
+        bounded.set(bounded.get() && (quantity * quantity).is_finite());
         quantity
     });
-    finite.get()
+    bounded.get()
 }
 
 /// A step by Gill's coefficients.
