@@ -7,7 +7,7 @@
 //! The bytes become a scene with any of its terms (see the library of this package) and the settings of the methods. Checked:
 //!
 //! * nothing panics, and each scene ends in a result or in an [`InputError`];
-//! * outputs that exist are numbers; those of a solved impact are finite;
+//! * outputs of a solved impact are finite, and those of methods that control their error always;
 //! * the outcome exists if and only if the status is *solved*;
 //! * a rebound has a restitution of 0 to 1 and a ledger that balances; all else has a restitution of zero and no ledger;
 //! * bounds of errors are finite and not negative;
@@ -362,7 +362,10 @@ impl<T: Real + AdaptiveNodes + PhaseSamples<5, 9>> Solver<'_, T> {
         .concat();
         let solved = run.status == Status::Solved;
         assert!(!solved || are_finite(&normal.numbers()), "{}", what());
-        assert!(are_finite(&numbers), "{}", what());
+        // What is not solved may have diverged.
+        if solved || care == Care::Controlled {
+            assert!(are_finite(&numbers), "{}", what());
+        }
         let rebounds = normal.outcome() == Some(Outcome::Rebound);
         assert_eq!(rebounds, ledger.is_some(), "{}", what());
         assert!(rebounds || times.contact.is_none(), "{}", what());
