@@ -1,4 +1,4 @@
-//! An instrument: events come in by an interrupt of the UART, their classes go out by the UART and five lines.
+//! An instrument: events come in by an interrupt of the UART, their classes go out by the UART and six lines, one for each class.
 //!
 //! RTIC keeps the two sides apart: the interrupt decodes frames and fills the queue, the idle task classifies and
 //! answers. They share the counts of the link alone.
