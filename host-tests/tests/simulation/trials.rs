@@ -23,11 +23,11 @@ static TRIALS: LazyLock<Trials> = LazyLock::new(|| {
 });
 
 /// Fails with the worst scenes of each solver of which `count` is not zero.
-fn assert_none(of: impl Fn(&Solver, Kind) -> bool, count: impl Fn(&Tally) -> u64) {
+fn assert_none(of: impl Fn(&Solver) -> bool, count: impl Fn(&Tally) -> u64) {
     let mut faults = String::new();
     for (kind, tallies) in &TRIALS.tallies {
         for (solver, tally) in TRIALS.solvers.iter().zip(tallies) {
-            let found = if of(solver, *kind) { count(tally) } else { 0 };
+            let found = if of(solver) { count(tally) } else { 0 };
             if found > 0 {
                 let (kind, name, number) = (kind.name(), solver.name, solver.number.name());
                 let _ = writeln!(faults, "{kind}, {name} {number}: {found} of {}", tally.scenes);
@@ -51,30 +51,30 @@ fn the_truth_knows_the_scenes() {
 
 #[test]
 fn no_outcome_that_is_said_to_be_solved_is_wrong() {
-    assert_none(|_, _| true, |tally| tally.wrong_outcomes);
+    assert_none(|_| true, |tally| tally.wrong_outcomes);
 }
 
 #[test]
 fn no_class_is_wrong() {
-    assert_none(|_, _| true, |tally| tally.wrong_classes);
+    assert_none(|_| true, |tally| tally.wrong_classes);
 }
 
 #[test]
 fn only_scenes_closer_than_twice_the_stated_error_are_undecided() {
-    assert_none(|_, _| true, |tally| tally.needless);
+    assert_none(|_| true, |tally| tally.needless);
 }
 
 /// In double precision.
 #[test]
 fn methods_that_control_their_error_solve_all_scenes() {
-    assert_none(|solver, _| solver.follows_captures && solver.number == Number::Double, |tally| tally.unsolved);
+    assert_none(|solver| solver.follows_captures && solver.number == Number::Double, |tally| tally.unsolved);
 }
 
 /// To ten times the tolerance, or as far as inputs that are wrong by the tolerance account for more.
 #[test]
 fn outputs_of_methods_that_control_their_error_are_within_it() {
     let unexplained = |errors: &OutputErrors| errors.unexplained;
-    assert_none(|solver, _| solver.follows_captures, |tally| tally.outputs.iter().map(unexplained).sum());
+    assert_none(|solver| solver.follows_captures, |tally| tally.outputs.iter().map(unexplained).sum());
 }
 
 /// Fewer than one of a hundred outputs of each kind of scene is beyond the tolerance, if it is not close to a boundary where the
