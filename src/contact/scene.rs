@@ -404,8 +404,9 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
     /// ```
     pub const MOST_TRIALS: u32 = critical::MOST_TRIALS;
 
-    /// The approach speed, m/s, that separates capture from rebound (B6), to the relative tolerance of
-    /// `method`, unless strong damping puts it above ten times the speed that adhesion alone would give the sphere.
+    /// The approach speed, m/s, that separates capture from rebound (B6), to the relative tolerance of `method`. In single
+    /// precision rounding leaves an error of up to 5e-4 where damping is so strong that little depends on the speed, and a well that
+    /// an external force has nearly flattened may not be seen.
     ///
     /// A sphere that just separates arrived with exactly the energy that damping dissipates. That energy grows with the
     /// damping, and the damping falls with the speed (B4), so there is at most one such speed. A law of your own must have
@@ -433,9 +434,9 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
     /// ```
     pub fn critical_speed(&self, method: &impl ErrorControl<T>) -> Result<CriticalSpeed<T>, InputError> {
         let first = self.law.speed_of_adhesion(&self.sphere);
-        critical::critical_speed(first, method.tolerance(), |speed| {
+        critical::critical_speed(first, method.tolerance(), |speed, tolerance| {
             let (law, units) = self.law.in_units(&self.sphere, speed)?;
-            Ok(method.try_energy(&law, units.energy))
+            Ok(method.try_energy(tolerance, &law, units.energy))
         })
     }
 

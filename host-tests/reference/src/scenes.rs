@@ -318,14 +318,7 @@ pub fn critical_speed(scene: &Scene) -> Option<f64> {
     const DECADES: f64 = 1e3;
     /// Halvings of the logarithm after which the secant converges: the speeds then differ by a tenth.
     const HALVINGS: u32 = 7;
-    const SECANTS: u32 = 10;
-    /// Energy left, over the initial energy, that is as good as none: f64 does not hold a nearer speed.
-    const NONE: f64 = 1e-14;
-    let margin = |speed: f64| {
-        let truth = solve(&Scene { speed, friction: 0.0, tangential: 0.0, spin: 0.0, ..*scene }, STEPS);
-        truth.margin.filter(|_| truth.complete).map(Double::to_f64)
-    };
-    let at = |speed: f64| margin(speed).map(|margin| (speed, margin));
+    let at = |speed: f64| Some((speed, speed_margin(scene, speed)?));
     let (mut captured, mut rebounds) = (at(scene.speed / DECADES)?, at(scene.speed * DECADES)?);
     if captured.1 > 0.0 || rebounds.1 < 0.0 {
         return None;
@@ -334,17 +327,40 @@ pub fn critical_speed(scene: &Scene) -> Option<f64> {
         let middle = at((captured.0 * rebounds.0).sqrt())?;
         if middle.1 > 0.0 { rebounds = middle } else { captured = middle }
     }
-    // The energy left is a smooth function of the speed through its root.
-    let (mut before, mut last) = (captured, rebounds);
+    speed_without_margin(scene, captured.0, rebounds.0)
+}
+
+/// The same close to a speed; `None` where there is none as close as a hundredth. Where a force makes a barrier, a sphere that hardly
+/// comes over it may be captured at a few speeds only.
+pub fn critical_speed_near(scene: &Scene, speed: f64) -> Option<f64> {
+    /// Relative distance of two speeds that tell how the energy left grows.
+    const APART: f64 = 1e-8;
+    /// Relative distance that is no more close.
+    const FAR: f64 = 0.01;
+    let found = speed_without_margin(scene, speed * (1.0 - APART), speed * (1.0 + APART))?;
+    let captured = speed_margin(scene, found * (1.0 - APART))? < 0.0;
+    (captured && (found / speed - 1.0).abs() < FAR).then_some(found)
+}
+
+/// Energy left at a speed, over the initial energy.
+fn speed_margin(scene: &Scene, speed: f64) -> Option<f64> {
+    let truth = solve(&Scene { speed, friction: 0.0, tangential: 0.0, spin: 0.0, peeling: 0.0, ..*scene }, STEPS);
+    truth.margin.filter(|_| truth.complete).map(Double::to_f64)
+}
+
+/// The speed at which no energy is left, which is a smooth function of the speed: by secants from two speeds.
+fn speed_without_margin(scene: &Scene, first: f64, second: f64) -> Option<f64> {
+    const SECANTS: u32 = 20;
+    let (mut before, mut last) = ((first, speed_margin(scene, first)?), (second, speed_margin(scene, second)?));
     for _ in 0..SECANTS {
-        if last.1.abs() < NONE {
-            return Some(last.0);
-        }
         let next = last.0 - last.1 * (last.0 - before.0) / (last.1 - before.1);
-        if !(captured.0..=rebounds.0).contains(&next) {
+        if (next / last.0 - 1.0).abs() <= f64::EPSILON {
+            return Some(next);
+        }
+        if !(0.5 * first..2.0 * second).contains(&next) {
             return None;
         }
-        (before, last) = (last, at(next)?);
+        (before, last) = (last, (next, speed_margin(scene, next)?));
     }
     None
 }

@@ -1,11 +1,13 @@
 //! The speed that separates capture from rebound in the contact simulation.
 
+use std::cell::LazyCell;
 use std::f64::consts::PI;
 
 use microimpact::contact::{Collocation, ConstantForce, Contact, HertzLaw, HystereticDamping, Nodes, Ring};
 use microimpact::{CriticalSpeed, InputError, NormalMotion, Outcome, Parameter, Real, Sphere, Stiffness};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
+use reference::scenes::{Kind, critical_speed_near};
 
 const REFERENCE: &str = include_str!("../../data/critical.csv");
 
@@ -45,6 +47,19 @@ impl Inputs {
 
     fn critical<const N: usize, T: Nodes<N>>(&self, tolerance: f64) -> Result<CriticalSpeed<T>, InputError> {
         self.scene()?.critical_speed(&Collocation::<N, T>::new(T::constant(tolerance))?)
+    }
+
+    /// Those of a scene that matter for the critical speed.
+    fn of(scene: &truth::Scene) -> Self {
+        Self {
+            radius: scene.radius,
+            density: scene.density,
+            stiffness: scene.stiffness,
+            adhesion: scene.adhesion,
+            zeta_h: scene.material_damping,
+            zeta_a: scene.adhesion_damping,
+            force: scene.force,
+        }
     }
 
     fn mass(&self) -> f64 {
@@ -118,6 +133,50 @@ fn reference_is_met() {
             assert!(error(found) <= allowed, "{inputs:?}: {:e} of {allowed:e}", error(found));
         }
     }
+}
+
+/// Ten tolerances at most and one nearly always, but for four times what one unit of each input changes.
+#[test]
+fn tolerance_is_kept_over_random_scenes() {
+    const SEED: u64 = 1;
+    /// Relative change of an input whose effect tells that of one unit.
+    const CHANGE: f64 = 1e-6;
+    let (mut all, mut beyond) = (0, 0);
+    for kind in [Kind::Mild, Kind::Critical, Kind::Equilibrium, Kind::Barrier, Kind::LargestTension] {
+        for number in 0..reference::repetitions(1000, 40) {
+            let scene = kind.scene(SEED, number);
+            let inputs = Inputs::of(&scene);
+            let Ok(CriticalSpeed::At(strict)) = inputs.critical::<12, f64>(1e-12) else { continue };
+            let Some(exact) = critical_speed_near(&scene, strict) else { continue };
+            let changes = LazyCell::new(|| {
+                let change = |mut numbers: [f64; 13], input: usize| {
+                    numbers[input] *= 1.0 + CHANGE;
+                    let changed = critical_speed_near(&truth::Scene::from_numbers(numbers), exact);
+                    changed.map_or(0.0, |changed| (changed / exact - 1.0).abs() / CHANGE)
+                };
+                (0..10).map(|input| change(scene.numbers(), input)).sum::<f64>()
+            });
+            let error = |speed: f64, tolerance: f64, unit: f64| {
+                let error = (speed / exact - 1.0).abs();
+                if error > tolerance { (error - 4.0 * unit * *changes) / tolerance } else { error / tolerance }
+            };
+            for error in [
+                error(strict, 1e-12, f64::EPSILON),
+                error(speed(inputs.critical::<9, f64>(1e-9)), 1e-9, f64::EPSILON),
+                error(speed(inputs.critical::<7, f64>(1e-6)), 1e-6, f64::EPSILON),
+                error(speed(inputs.critical::<7, f64>(1e-4)), 1e-4, f64::EPSILON),
+            ] {
+                assert!(error <= 10.0, "{}: {error} tolerances, {scene}", kind.name());
+                beyond += u32::from(error > 1.0);
+                all += 1;
+            }
+            if kind != Kind::LargestTension && scene == scene.in_single_precision() {
+                let single = f64::from(speed(inputs.critical::<7, f32>(1e-6)));
+                assert!((single / exact - 1.0).abs() < 5e-4, "{}: {single} for {exact}, {scene}", kind.name());
+            }
+        }
+    }
+    assert!(all > 100 && beyond * 100 < all, "{beyond} of {all}");
 }
 
 /// Damping that depends on the speed is at the critical speed what it would be if held constant.

@@ -135,8 +135,8 @@ impl<T: AdaptiveNodes> ErrorControl<T> for Adaptive<T> {
         by_intervals!(self.tolerance, solve_to_rest(law, energy, observer, criterion))
     }
 
-    fn try_energy<L: ContactLaw<T>>(&self, law: &L, energy: T) -> Trial<T> {
-        by_intervals!(self.tolerance, try_energy(law, energy))
+    fn try_energy<L: ContactLaw<T>>(&self, tolerance: T, law: &L, energy: T) -> Trial<T> {
+        by_intervals!(tolerance, try_energy(tolerance, law, energy))
     }
 }
 

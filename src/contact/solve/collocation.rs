@@ -34,7 +34,7 @@ const CONVERGED: f64 = 0.1;
 const TIMED: f64 = 2.24;
 
 /// Weight of the error of times where only the end of the motion is asked for.
-const UNTIMED: f64 = 0.1;
+pub(super) const UNTIMED: f64 = 0.1;
 
 /// Least tolerance, in roundings.
 const LEAST_TOLERANCE: f64 = 8.0;
@@ -118,8 +118,8 @@ pub trait ErrorControl<T: Real>: Method<T> {
         criterion: &RestCriterion<T>,
     ) -> (NormalPath<T>, Option<Settling<T>>);
 
-    /// Whether a sphere that arrives with a kinetic energy rebounds, and by how much.
-    fn try_energy<L: ContactLaw<T>>(&self, law: &L, energy: T) -> Trial<T>;
+    /// Whether a sphere that arrives with a kinetic energy rebounds, and by how much, to a tolerance.
+    fn try_energy<L: ContactLaw<T>>(&self, tolerance: T, law: &L, energy: T) -> Trial<T>;
 }
 
 #[diagnostic::do_not_recommend] // the message names the methods already
@@ -141,7 +141,7 @@ impl<T: Nodes<N>, const N: usize> ErrorControl<T> for Collocation<N, T> {
         (path, settling)
     }
 
-    fn try_energy<L: ContactLaw<T>>(&self, law: &L, energy: T) -> Trial<T> {
-        super::critical::try_energy::<N, T, L>(self.tolerance, law, energy)
+    fn try_energy<L: ContactLaw<T>>(&self, tolerance: T, law: &L, energy: T) -> Trial<T> {
+        super::critical::try_energy::<N, T, L>(tolerance, law, energy)
     }
 }

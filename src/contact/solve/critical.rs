@@ -6,6 +6,7 @@
 //! however strong the damping is, and at the critical speed neither comes near the slow end where the path of a single
 //! run, with no speed and no force, is at its worst.
 
+use super::collocation::UNTIMED;
 use super::interval::{Control, Course, END_FROM_SPEED, Interval, Point, pass};
 use super::nodes::Nodes;
 use super::path::{Follower, REFUSED_SHRINK};
@@ -28,14 +29,20 @@ const CONVERGED: f64 = 0.1;
 /// Least change of speeds at which iterations end, in roundings.
 const LEAST_CHANGE: f64 = 4.0;
 
+/// Error of the first interval from the end of contact, over the tolerance,
+const ROOT_ERROR: f64 = 0.02;
+
+/// and of one from a barrier, over the square of the tolerance.
+const BARRIER_ERROR: f64 = 1e-3;
+
 /// Least fraction of the energy that moves in the well, which keeps the tolerance positive.
 const LEAST_DEPTH_FRACTION: f64 = 1e-12;
 
 /// Least square of a fraction that makes the tolerance stricter: rounding does not allow more.
 const LEAST_SQUARED_FRACTION: f64 = 1e-4;
 
-/// Kinetic energy over what the potential drives, below which the error of an interval is not the square of its unresolved
-/// part any more,
+/// Kinetic energy that damping leaves at the end of an interval, over what there would be without, below which the error is not the
+/// square of the unresolved part any more,
 const STIFF_FRACTION: f64 = 0.2;
 
 /// and the factor on its tolerance then.
@@ -51,20 +58,28 @@ const LEAST_EXCESS: f64 = -0.99;
 /// Estimated error of a secant, over the tolerance, at which the search ends.
 const SECANT_ACCURACY: f64 = 0.1;
 
+/// Error of a trial, over the tolerance: those of its two paths add up, and the secant adds its own.
+const SHARE_OF_A_TRIAL: f64 = 0.5;
+
+/// Slope of the excess over the one that the trials were made for, below which they were not exact enough.
+const MUCH_FLATTER: f64 = 0.5;
+
 /// Relative width of a bracket, in roundings, that cannot be halved any more.
 const BRACKET_ROUNDING: f64 = 4.0;
 
-/// The approach speed that separates capture from rebound to a relative `tolerance`, by trials from the speed `first` on.
+/// The approach speed that separates capture from rebound to a relative `tolerance`, by trials of a speed to a tolerance, from the
+/// speed `first` on.
 pub(crate) fn critical_speed<T: Real>(
     first: T,
     tolerance: T,
-    mut try_speed: impl FnMut(T) -> Result<Trial<T>, InputError>,
+    mut try_speed: impl FnMut(T, T) -> Result<Trial<T>, InputError>,
 ) -> Result<CriticalSpeed<T>, InputError> {
     let (slowest, fastest) = speed_range();
     let first = first.max(slowest).min(fastest);
     let mut search = Search::from(first);
     for trial in 0..MOST_TRIALS {
-        let outcome = try_speed(search.speed);
+        let strict = T::constant(SHARE_OF_A_TRIAL) * search.slope * tolerance;
+        let outcome = try_speed(search.speed, strict);
         if let Some(result) = search.note(outcome, first, trial < MOST_GUIDED_TRIALS, tolerance) {
             return result;
         }
@@ -93,18 +108,26 @@ pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(toleranc
     // Where the well is shallow, speeds are small in it.
     let scale = (two * depth).sqrt().min(T::ONE);
     let finer = Control { converged: control.converged * scale, ..control };
-    let at_rest = Point { s: barrier, energy: rest, speed_squared: T::ZERO };
+    let start = if barrier > law.end() {
+        beside_barrier(law, barrier, bottom, tolerance)
+    } else {
+        Point { s: barrier, energy: rest, speed_squared: T::ZERO }
+    };
     let captured = Trial::Tried { rebounds: false, excess: None };
     let arrival = Point::arriving(law, energy);
     let fastest = two * (arrival.energy - law.potential(bottom));
     let most = T::constant(MOST_SQUARED_SPEED) * fastest;
-    let Some(departure) = Follower::from(law, finer, &mut (), at_rest).ascend::<N>(bottom, most) else {
+    let Some(departure) = Follower::from(law, finer, &mut (), start).ascend::<N>(bottom, most) else {
         return captured;
     };
     let kinetic = half * departure.speed_squared;
     // Where damping leaves little of the energy of the impact, errors count in proportion to what is left.
     let left = (kinetic / energy).min(T::ONE);
     control.error = (control.error * (left * left).max(T::constant(LEAST_SQUARED_FRACTION))).max(unattainable());
+    if barrier > law.end() {
+        // The sphere is slow where it passes the barrier on its way in.
+        control.times = T::constant(UNTIMED);
+    }
     let Some(impact) = Follower::from(law, control, &mut (), arrival).descend::<N>(bottom) else {
         return captured;
     };
@@ -121,6 +144,26 @@ pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(toleranc
     let excess = Some(fraction / (root * (T::ONE + root)) + surplus / (two * kinetic));
     Trial::Tried { rebounds: surplus > T::ZERO, excess }
 }
+
+/// A point of the path that comes to rest on a barrier, close to it: on the barrier itself it rests for ever, and forces are no more
+/// than rounding errors.
+///
+/// At a distance x the speed is c x + g x^2 with c^2 = k + d c and (3 c - d) g = d' c - V'''/2, from the curvature -k of the
+/// potential, the loss d, and their rates of change. The error in proportion to x^3 is less by another x where the path has come
+/// to the bottom.
+fn beside_barrier<T: Real, L: ContactLaw<T>>(law: &L, barrier: T, bottom: T, tolerance: T) -> Point<T> {
+    let x = T::constant(BESIDE_BARRIER) * tolerance.sqrt().sqrt() * (bottom - barrier).min(barrier - law.end());
+    let (two, s) = (T::constant(2.0), barrier + x);
+    let (curvature, loss) = (law.curvature(barrier), law.loss(barrier, true));
+    let first = (loss + (loss * loss - T::constant(4.0) * curvature.min(T::ZERO)).sqrt()) / two;
+    let growth = (law.loss(s, true) - loss) * first - (law.curvature(s) - curvature) / two;
+    let speed = first * x + growth * x / (T::constant(3.0) * first - loss);
+    let speed_squared = speed * speed;
+    Point { s, energy: law.potential(s) + speed_squared / two, speed_squared }
+}
+
+/// Distance from the barrier, over that of the bottom or the end of contact and the fourth root of the tolerance.
+const BESIDE_BARRIER: f64 = 0.1;
 
 /// Estimated error of an interval, in squared roundings, below which it is one of rounding.
 const UNATTAINABLE: f64 = 64.0;
@@ -152,6 +195,9 @@ struct Search<T> {
     errors: (Option<InputError>, Option<InputError>),
     /// Speed and excess of the last trial that had one.
     last: Option<(T, T)>,
+    /// Change of the excess for each relative change of the speed, at most one. Where it is small, as under strong damping, the
+    /// trials have to be as much more exact.
+    slope: T,
 }
 
 fn speed_range<T: Real>() -> (T, T) {
@@ -161,7 +207,7 @@ fn speed_range<T: Real>() -> (T, T) {
 
 impl<T: Real> Search<T> {
     fn from(speed: T) -> Self {
-        Self { speed, bracket: speed_range(), tried: (false, false), errors: (None, None), last: None }
+        Self { speed, bracket: speed_range(), tried: (false, false), errors: (None, None), last: None, slope: T::ONE }
     }
 
     /// Takes in the outcome of the trial; the result, or the next trial.
@@ -195,23 +241,33 @@ impl<T: Real> Search<T> {
         if high <= low * (T::ONE + T::constant(BRACKET_ROUNDING) * T::EPSILON) {
             return Some(self.result());
         }
-        let (mut next, mut error) = (T::ZERO, T::ONE);
+        let (mut next, mut error, mut slope) = (T::ZERO, T::ONE, T::ONE);
         if let Some(excess) = excess.filter(|_| guided) {
-            if excess > T::constant(LEAST_EXCESS) {
-                next = speed / (T::ONE + excess);
+            let step = excess.saturating_div(self.slope);
+            if step > T::constant(LEAST_EXCESS) {
+                next = speed / (T::ONE + step);
             }
             if let Some((before, other)) = self.last.filter(|(_, other)| *other != excess) {
-                let secant = speed - excess * ((speed - before) / (excess - other));
+                slope = (excess - other) / (speed - before);
+                let secant = speed - excess / slope;
+                slope = slope * speed;
                 if secant > low && secant < high {
                     next = secant;
-                    // The error of a secant is the product of those of its two points, times a number of order one.
+                    // The error of a secant is the product of those of its two points, times a number of order one: in the speed, or
+                    // in the excess where that grows faster.
                     error = ((next - speed) / next * ((next - before) / next)).abs();
+                    error = error.max((excess * other).abs().saturating_div(slope));
                 }
             }
             self.last = Some((speed, excess));
         }
         if error <= T::constant(SECANT_ACCURACY) * tolerance {
-            return Some(Ok(CriticalSpeed::At(next)));
+            if slope >= T::constant(MUCH_FLATTER) * self.slope {
+                return Some(Ok(CriticalSpeed::At(next)));
+            }
+            // What the trials so far have told is not exact enough.
+            *self = Self { slope: slope.max(T::EPSILON), ..Self::from(next) };
+            return None;
         }
         self.speed = if next > low && next < high {
             next
@@ -249,18 +305,11 @@ impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
             return None;
         }
         self.leave_peak::<N>(peak - to).ok()?;
-        let Control { converged, error, .. } = self.control;
+        let converged = self.control.converged;
         let mut length = self.at.s - to;
         while self.at.s > to {
             // Strong damping leaves a speed that is small against what the potential drives; it counts by itself.
-            let square = self.at.speed_squared;
-            let driven = (self.law.potential(self.at.s) - self.law.potential(to)).max(T::ZERO);
-            let fraction = square / (square + driven);
-            self.control.converged = converged * square.sqrt().min(T::ONE);
-            // There errors are no longer squares.
-            let stiff = if fraction < T::constant(STIFF_FRACTION) { T::constant(STIFF_ERROR) } else { T::ONE };
-            let strict = error * stiff * (fraction * fraction).max(T::constant(LEAST_SQUARED_FRACTION));
-            self.control.error = strict.max(unattainable());
+            self.control.converged = converged * self.at.speed_squared.sqrt().min(T::ONE);
             (_, length) = self.step::<N>(-length.min(self.at.s - to), false, Course::REBOUND)?;
         }
         Some(self.at)
@@ -271,12 +320,19 @@ impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
     where
         T: Nodes<N>,
     {
-        let (mut resting, mut length) = (true, to - self.at.s);
+        // From the end of contact the speed begins as a root. From a barrier it begins in proportion to the distance, and what is wrong
+        // there grows on the way: the error is no square.
+        let (mut resting, mut length) = (self.at.s <= self.law.end(), to - self.at.s);
+        let error = self.control.error;
+        let strict = if resting { T::constant(ROOT_ERROR) * error } else { T::constant(BARRIER_ERROR) * error * error };
+        self.control.error = strict.max(unattainable());
         while self.at.s < to {
             let course = Course { rebound: true, reversed: true };
             let taken;
             (taken, length) = self.step::<N>(length.min(to - self.at.s), resting, course)?;
-            resting &= !taken;
+            if taken {
+                (resting, self.control.error) = (false, error);
+            }
             if self.at.speed_squared > most {
                 return None;
             }
@@ -292,7 +348,17 @@ impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
     {
         let polynomial = if from_rest { (T::ZERO, step) } else { (step, T::ZERO) };
         let mut iterations = 0;
-        let interval: Interval<T, N> = pass(self.law, &self.at, polynomial, course, &self.control, &mut iterations);
+        let mut interval: Interval<T, N> = pass(self.law, &self.at, polynomial, course, &self.control, &mut iterations);
+        if !course.reversed {
+            let driven = (self.law.potential(self.at.s) - self.law.potential(interval.end.s)).max(T::ZERO);
+            let left = interval.end.speed_squared.max(T::ZERO) / (self.at.speed_squared + driven + driven);
+            // Where damping takes nearly all, errors are no longer squares.
+            let stiff = if left < T::constant(STIFF_FRACTION) { T::constant(STIFF_ERROR) } else { T::ONE };
+            let error = self.control.error;
+            let strict = error * stiff * (left * left).max(T::constant(LEAST_SQUARED_FRACTION));
+            interval.error = interval.error * (error / strict.max(unattainable::<T>().min(error)));
+            interval.accepted &= interval.error <= error;
+        }
         let factor = self.length_factor(N, &interval);
         let taken = self.take(&interval, course, None).ok()?;
         let length = step.abs() * if taken { factor } else { factor.min(T::constant(REFUSED_SHRINK)) };

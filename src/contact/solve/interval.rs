@@ -647,7 +647,13 @@ fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
     for j in 0..N {
         let root = free[j].max(T::SMALLEST).sqrt();
         // As if the loss so far had acted at this node's speed.
-        speed[j] = if loss[j] > T::ZERO { root * root / (root + T::constant(NEWTON_START) * loss[j]) } else { root };
+        // Where the losses are gains, as if that at this node acted from the start.
+        let half = T::constant(0.5);
+        speed[j] = if loss[j] > T::ZERO {
+            root * root / (root + T::constant(NEWTON_START) * loss[j])
+        } else {
+            root - half * T::Z[j] * loss[j]
+        };
     }
     let enough = control.converged.max(T::constant(NEWTON_ROUNDING) * T::EPSILON);
     let mut converged = false;

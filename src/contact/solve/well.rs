@@ -3,8 +3,10 @@
 use crate::Real;
 use crate::contact::law::ContactLaw;
 
-/// Steps towards the bottom: doublings where the units of a law are too small, then those of Newton's method. If the force is a
-/// power of the coordinate, each of these takes a fixed fraction off.
+/// Doublings in the search for a place beyond the bottom.
+const MOST_DOUBLINGS: u32 = 60;
+
+/// Steps of Newton's method towards it. If the force is a power of the coordinate, each takes a fixed fraction off.
 const WELL_STEPS: u32 = 250;
 
 /// Relative step at which it ends: the potential is flat there.
@@ -18,14 +20,9 @@ const BARRIER_HALVINGS: u32 = 60;
 pub(crate) fn well<T: Real>(law: &impl ContactLaw<T>) -> Option<(T, T)> {
     let end = law.end();
     // Newton's method from above.
-    let (mut bottom, mut above) = (T::ONE, false);
+    let mut bottom = beyond_bottom(law, T::ONE)?;
     for _ in 0..WELL_STEPS {
         let (slope, curvature) = (law.slope(bottom), law.curvature(bottom));
-        above |= slope >= T::ZERO;
-        if !above {
-            bottom = bottom + bottom;
-            continue;
-        }
         if curvature <= T::ZERO {
             return None;
         }
@@ -40,17 +37,39 @@ pub(crate) fn well<T: Real>(law: &impl ContactLaw<T>) -> Option<(T, T)> {
     }
     let mut barrier = end;
     if law.slope(end + T::EPSILON * T::EPSILON * (bottom - end)) > T::ZERO {
-        let mut inner = bottom;
+        let (mut inner, mut falls) = (bottom, false);
         for _ in 0..BARRIER_HALVINGS {
             let middle = (barrier + inner) * T::constant(0.5);
-            if law.slope(middle) > T::ZERO {
+            let rises = law.slope(middle) > T::ZERO;
+            falls |= !rises;
+            // Where a force nearly flattens the well, it may lie between the places looked at: further in the slope grows.
+            let beyond = !falls && barrier > end && law.curvature(middle) > T::ZERO;
+            if rises && !beyond {
                 barrier = middle;
             } else {
                 inner = middle;
             }
         }
+        if !falls {
+            return None;
+        }
     }
     (law.potential(barrier) > law.potential(bottom)).then_some((barrier, bottom))
+}
+
+/// A coordinate beyond the minimum of the potential, no smaller than `first`.
+pub(super) fn beyond_bottom<T: Real>(law: &impl ContactLaw<T>, first: T) -> Option<T> {
+    // In front of the barrier of a force out of the surface the potential rises too, but by a low power of the coordinate.
+    let power = T::constant(0.5 * law.energy_power());
+    let mut s = first;
+    for _ in 0..MOST_DOUBLINGS {
+        let slope = law.slope(s);
+        if slope >= T::ZERO && (!law.may_have_barrier() || s * law.curvature(s) >= power * slope) {
+            return Some(s);
+        }
+        s = s + s;
+    }
+    None
 }
 
 /// Coordinate and height of the barrier that holds a sphere; where there is none, the end of contact and zero.
