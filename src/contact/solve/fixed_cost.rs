@@ -3,7 +3,7 @@
 #[cfg(doc)]
 use super::Collocation;
 use super::adaptive::show;
-use super::nodes::{PhaseNodes, PhaseSamples, WEIGHT_POWER};
+use super::nodes::{PhaseSamples, WEIGHT_POWER};
 use super::observer::Observer;
 use super::path::{End, Method, NormalPath, Statistics};
 use super::phase::Phase;
@@ -131,41 +131,6 @@ where
         if law.loss_power() < WEIGHT_POWER || (O::EVENTS && M < N + NODES_OF_EVENTS) {
             return NormalPath::unsupported(energy);
         }
-        self.run::<T, L, O>(law, energy, |phase: &Phase<T, N>, rebound| {
-            if !O::OBSERVES {
-                return T::ZERO;
-            }
-            let whole = phase.samples::<M>(law, rebound);
-            let error = if O::DEMANDS { observer.error(law, &whole) } else { T::ZERO };
-            let tolerance = T::constant(END_OF_SLIP).max(T::EPSILON);
-            show(law, phase, &whole, rebound, tolerance, observer);
-            error
-        })
-    }
-}
-
-impl<const N: usize, const M: usize> FixedCost<N, M> {
-    /// Bound of the error that iterations leave, from the changes by the last and the one before, and the energy lost. They
-    /// converge superlinearly.
-    #[inline]
-    fn unconverged<T: Real>(&self, last: T, before: T, lost: T) -> T {
-        let last = last.abs();
-        if self.iterations < 3 {
-            return T::constant(EARLY_MARGIN) * last + T::constant(EARLY_LOSSES) * lost.abs();
-        }
-        let fraction = last.saturating_div(before.abs() + T::SMALLEST);
-        let margin = T::constant(CHANGE_MARGIN) * fraction.min(T::ONE);
-        last * margin.max(T::constant(LEAST_MARGIN)).min(T::constant(LARGEST_MARGIN))
-    }
-
-    /// Approach and rebound, each shown to `observe` when it is solved, which returns an error of its own.
-    #[inline]
-    fn run<T, L, O>(&self, law: &L, energy: T, mut observe: impl FnMut(&Phase<T, N>, bool) -> T) -> NormalPath<T>
-    where
-        T: PhaseNodes<N>,
-        L: ContactLaw<T>,
-        O: Observer<T>,
-    {
         let moves = |by: T| by.abs() > T::constant(UNSTEADY) * energy;
         let mut phase = Phase::<T, N>::approach(law, energy);
         let mut lost = phase.estimate;
@@ -185,9 +150,23 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         }
         let mut uncertain = self.unconverged(moved, earlier, lost);
         let approach = phase.tails(lost);
+        // Where the potential is flat one step for the peak leaves an error.
+        uncertain = uncertain + (law.potential(phase.peak) - at_peak).abs();
+        // Losses on the way out only add to what is missing already at the peak.
+        let (_, escape) = barrier(law);
+        let of_approach = uncertain + approach.bound();
+        let held = at_peak - escape < -(of_approach + of_approach) && of_approach <= T::constant(LARGEST_LOSS_ERROR);
         // Where the approach comes to a stand before its peak, there is another one.
         let mut represented = phase.is_represented(STRONGEST) && (!law.may_have_barrier() || phase.is_moving());
-        let mut observed = if represented { observe(&phase, false) } else { T::ZERO };
+        let (mut observed, end_of_slip) = (T::ZERO, T::constant(END_OF_SLIP).max(T::EPSILON));
+        if O::OBSERVES && represented {
+            let whole = phase.samples::<M>(law, false);
+            if O::DEMANDS {
+                observed = observer.error(law, &whole);
+            }
+            show(law, &phase, &whole, false, end_of_slip, observer);
+        }
+        let held = held && represented;
         phase.turn(law);
         let mut gained = T::ZERO;
         moved = energy;
@@ -203,15 +182,17 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         }
         let rebound = phase.tails(gained);
         represented &= phase.is_represented(STRONGEST) && phase.peak > T::ZERO;
-        if represented && phase.is_moving() {
-            observed = observed.max(observe(&phase, true));
+        let moving = phase.is_moving();
+        let whole = (O::OBSERVES && represented && moving).then(|| phase.samples::<M>(law, true));
+        if O::DEMANDS
+            && let Some(whole) = &whole
+        {
+            observed = observed.max(observer.error(law, whole));
         }
         uncertain = uncertain + self.unconverged(moved, earlier, gained);
         uncertain = uncertain + T::constant(ROUNDINGS * N as f64) * T::EPSILON;
         let (losses, slow_end) = approach.bound_with(&rebound);
         uncertain = uncertain + losses.min(T::ONE);
-        // Where the potential is flat one step for the peak leaves an error.
-        uncertain = uncertain + (law.potential(phase.peak) - at_peak).abs();
         if law.may_have_barrier() {
             // In front of a barrier the sphere may be slowest on its way, where no polynomial is exact.
             represented &= approach.slowness.max(rebound.slowness) <= T::constant(LARGEST_SLOWNESS);
@@ -221,7 +202,6 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         timely &= observed <= largest;
         let left = at_peak + gained;
         // A sphere that comes slower than a barrier is high, or loses so much on its way there, never meets the peak computed here.
-        let (_, escape) = barrier(law);
         let excess = left - escape;
         let clear = T::constant(BARRIER_MARGIN) * energy;
         let passes =
@@ -235,7 +215,9 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         let slow_end = slow_end.min(T::ONE);
         let captured = excess + slow_end < -(uncertain + uncertain) && uncertain <= T::constant(LARGEST_LOSS_ERROR);
         uncertain = uncertain + slow_end;
-        let end = if !(represented && passes) {
+        let end = if held && passes {
+            End::Capture
+        } else if !(represented && passes) {
             End::Budget
         } else if captured {
             End::Capture
@@ -243,15 +225,35 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             End::Undecided
         } else if !(uncertain <= largest * energy && timely) {
             End::Budget
-        } else if phase.is_moving() && left - energy <= uncertain {
+        } else if moving && left - energy <= uncertain {
             End::Separation
         } else {
             End::Budget
         };
+        if end == End::Separation
+            && let Some(whole) = &whole
+        {
+            show(law, &phase, whole, true, end_of_slip, observer);
+        }
         // Of what diverges not even the bound is a number.
         let error = if uncertain < energy { uncertain.saturating_div(energy) } else { T::ONE };
         let statistics =
             Statistics { intervals: 2, refused: 0, iterations: 2 * self.iterations, nodes: N as u32, error };
         NormalPath { end, energy: left, peak: phase.peak, turning: T::ZERO, error_bound: error, statistics }
+    }
+}
+
+impl<const N: usize, const M: usize> FixedCost<N, M> {
+    /// Bound of the error that iterations leave, from the changes by the last and the one before, and the energy lost. They
+    /// converge superlinearly.
+    #[inline]
+    fn unconverged<T: Real>(&self, last: T, before: T, lost: T) -> T {
+        let last = last.abs();
+        if self.iterations < 3 {
+            return T::constant(EARLY_MARGIN) * last + T::constant(EARLY_LOSSES) * lost.abs();
+        }
+        let fraction = last.saturating_div(before.abs() + T::SMALLEST);
+        let margin = T::constant(CHANGE_MARGIN) * fraction.min(T::ONE);
+        last * margin.max(T::constant(LEAST_MARGIN)).min(T::constant(LARGEST_MARGIN))
     }
 }

@@ -217,8 +217,8 @@ struct Iterations<T, const N: usize> {
     power: [T; N],
     /// Square of the last change.
     change: T,
-    /// Square of the speed that the rounding of positions is worth.
-    rounding: T,
+    /// Square of the speed that has the rounding of positions.
+    terms: T,
     iterations: u32,
 }
 
@@ -242,8 +242,7 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
         // The rounding of positions does not shrink with the speed, but with the terms of the potential: of the forces that go on to
         // first contact that of adhesion has the lowest power.
         let terms = (farthest * farthest * farthest).min(T::ONE);
-        let rounding = T::constant(CHANGE_ROUNDING * N as f64) * T::EPSILON * T::EPSILON * terms;
-        Self { speed, half_inverse, power, change: T::constant(NO_CHANGE_YET), rounding, iterations: 0 }
+        Self { speed, half_inverse, power, change: T::constant(NO_CHANGE_YET), terms, iterations: 0 }
     }
 
     /// One iteration, with Heron's step for the root at every node. `lost` gives the square of a speed from the square without
@@ -300,7 +299,7 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
     fn has_converged(&mut self, change: T, scale: T, control: &Control<T>) -> Progress {
         let relative = control.converged * control.converged * scale.min(T::ONE);
         // Rounding alone keeps the changes at this size for ever. A first iteration may hide behind it.
-        let rounding = (T::constant(CHANGE_ROUNDING * N as f64) * T::EPSILON * T::EPSILON * scale).max(self.rounding);
+        let rounding = T::constant(CHANGE_ROUNDING * N as f64) * T::EPSILON * T::EPSILON * scale.max(self.terms);
         let enough = if self.iterations > 1 { relative.max(rounding) } else { relative };
         let superlinear =
             self.iterations > 1 && T::constant(SUPERLINEAR_MARGIN) * change * change <= enough * self.change;

@@ -70,6 +70,12 @@ impl<T: Real> Tails<T> {
         T::constant(ENERGY_ERROR) * losses.max(T::constant(SLOWNESS_ERROR) * slow)
     }
 
+    /// A bound of the error of the energy after the phase.
+    pub(crate) fn bound(&self) -> T {
+        let (losses, slow) = self.squares();
+        T::constant(LOSSES_BOUND) * losses + T::constant(SLOWNESS_BOUND * SLOWNESS_BOUND) * slow
+    }
+
     /// A bound of the error of the energy after an approach and the rebound `after` it, in two parts: by the losses, and by the slow
     /// end of the rebound, which a captured sphere does not reach. What the nodes do not resolve of damping in the materials is about
     /// the same on both, and cancels but for a tenth.
