@@ -590,12 +590,19 @@ UNATTAINABLE = 64 * EPS * EPS
 
 def one_step(path, step, resting, rebound, reverse):
     iv = pass_interval(path.law, path.R, path.at, *((0, step) if resting else (step, 0)), rebound, path.control, reverse)
+    if not reverse:
+        begin, end, error = path.at, iv.end, path.control.error
+        left = max(end.y2, 0.0) / (begin.y2 + 2 * max(path.law.V(begin.s) - path.law.V(end.s), 0.0))
+        strict = error * (1e-4 if left < 0.2 else 1.0) * max(left * left, 1e-4)
+        iv.error *= error / max(strict, min(UNATTAINABLE, error))
+        iv.ok = iv.ok and iv.error <= error
     f = length_factor(path.R.n, iv.error, path.control.error)
     ok = path.take(iv, "")
     return ok, abs(step) * (f if ok else min(f, 0.7))
 
 
 def trial(scene, v, n, tol):
+    tol *= 0.5
     q = units(*scene, v)
     law, E = q["law"], q["E"]
     control = Control(tol).copy(converged=max(0.1 * tol, 4 * EPS), times=0.0)
@@ -606,10 +613,12 @@ def trial(scene, v, n, tol):
     scale = min(math.sqrt(2 * depth), 1.0)
     # Backwards in time from rest at separation up to the bottom of the well.
     up = Follower(law, Radau(n), Point(0.0, 0.0, 0.0), control.copy(converged=control.converged * scale))
-    resting, length = True, bottom
+    resting, length, regular = True, bottom, up.control
+    up.control = regular.copy(error=max(0.02 * regular.error, UNATTAINABLE))
     while up.at.s < bottom:
         ok, length = one_step(up, min(length, bottom - up.at.s), resting, True, True)
-        resting = resting and not ok
+        if ok:
+            resting, up.control = False, regular
         if up.at.y2 > 4 * 2 * (E + depth):
             return None
     kinetic = 0.5 * up.at.y2
@@ -620,12 +629,9 @@ def trial(scene, v, n, tol):
     if down.at.s <= bottom:
         return None
     down.leave_peak(down.at.s - bottom)
-    converged, error, length = control.converged, control.error, down.at.s - bottom
+    length = down.at.s - bottom
     while down.at.s > bottom:
-        y2 = down.at.y2
-        part = y2 / (y2 + max(law.V(down.at.s) - law.V(bottom), 0.0))
-        strict = error * (1e-4 if part < 0.2 else 1.0) * max(part * part, 1e-4)
-        down.control = control.copy(converged=converged * min(math.sqrt(y2), 1.0), error=max(strict, UNATTAINABLE))
+        down.control = control.copy(converged=control.converged * min(math.sqrt(down.at.y2), 1.0))
         _, length = one_step(down, -min(length, down.at.s - bottom), False, True, False)
     surplus = 0.5 * (down.at.y2 - up.at.y2) if kinetic < 0.1 * E else down.at.E - up.at.E
     share = surplus / E
@@ -650,7 +656,9 @@ def critical(scene, n, tol):
             if last and last[1] != excess:
                 secant = v - excess * (v - last[0]) / (excess - last[1])
                 if low < secant < high:
+                    slope = v * (excess - last[1]) / (v - last[0])
                     nxt, err = secant, abs((secant - v) / secant * (secant - last[0]) / secant)
+                    err = max(err, abs(excess * last[1]) / slope)
             last = (v, excess)
         if err <= 0.1 * tol:
             return nxt, count
