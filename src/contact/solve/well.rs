@@ -37,21 +37,14 @@ pub(crate) fn well<T: Real>(law: &impl ContactLaw<T>) -> Option<(T, T)> {
     }
     let mut barrier = end;
     if law.slope(end + T::EPSILON * T::EPSILON * (bottom - end)) > T::ZERO {
-        let (mut inner, mut falls) = (bottom, false);
+        let mut inner = bottom;
         for _ in 0..BARRIER_HALVINGS {
             let middle = (barrier + inner) * T::constant(0.5);
-            let rises = law.slope(middle) > T::ZERO;
-            falls |= !rises;
-            // Where a force nearly flattens the well, it may lie between the places looked at: further in the slope grows.
-            let beyond = !falls && barrier > end && law.curvature(middle) > T::ZERO;
-            if rises && !beyond {
+            if law.slope(middle) > T::ZERO {
                 barrier = middle;
             } else {
                 inner = middle;
             }
-        }
-        if !falls {
-            return None;
         }
     }
     (law.potential(barrier) > law.potential(bottom)).then_some((barrier, bottom))
