@@ -73,8 +73,8 @@ impl<T: Real, M: Oblique<T>> TangentialTerm<T, M> for Coulomb<T> {
 
 /// Coulomb friction with rolling dissipation: a moment impulse mu_m a_c P_n against the spin (A15, A16).
 ///
-/// The moment acts against the spin that the sphere would have at separation without it. It stops that spin at most, so it
-/// never adds energy.
+/// The moment acts against the spin that the sphere would have at separation without it. It stops at most that spin and, where
+/// friction reverses the spin, the mean spin during the impact, so it never adds energy.
 ///
 /// ```
 /// use microimpact::rigid::{RollingDissipation, TangentialTerm};
@@ -124,9 +124,14 @@ impl<T: Real, M: Oblique<T>> TangentialTerm<T, M> for RollingDissipation<T> {
         let (gyration_ratio, contact_inertia) = (sphere.gyration_ratio(), sphere.contact_inertia());
         let slip = motion.slip();
         let limit = self.friction.coefficient() * normal.impulse();
-        // The peripheral velocity at separation without the moment.
-        let (_, spinning) = Friction::against(slip, limit, contact_inertia).velocities(motion, T::ZERO, gyration_ratio);
-        let size = (self.ratio * normal.impulse()).min(gyration_ratio * spinning.abs());
+        // Without the moment: the peripheral velocity at separation and, in its direction, twice the mean over the impact.
+        let free = Friction::against(slip, limit, contact_inertia);
+        let (_, spinning) = free.velocities(motion, T::ZERO, gyration_ratio);
+        let slides = if free.rolls { free.total.saturating_div(free.sliding) } else { T::ONE };
+        let before = if spinning > T::ZERO { motion.peripheral() } else { -motion.peripheral() };
+        let mean = spinning.abs() * (T::constant(2.0) - slides) + before * slides;
+        let most = gyration_ratio * spinning.abs().min(mean.max(T::ZERO));
+        let size = (self.ratio * normal.impulse()).min(most);
         let moment = if spinning > T::ZERO { -size } else { size };
         let friction = Friction::against_moment(slip, limit, moment, gyration_ratio, contact_inertia);
         TangentialImpact::new(sphere, motion, normal, friction, moment)
