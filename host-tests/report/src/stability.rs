@@ -1,5 +1,5 @@
-//! Stability: error, steps and status over all of the space of scenes, the order of convergence, the energy ledger, and
-//! long ringing.
+//! Stability: error, steps and status over all of the space of scenes, counts over random scenes, the order of convergence, the
+//! energy ledger, and long ringing.
 
 mod independent;
 mod ledger;
@@ -8,6 +8,7 @@ mod order;
 mod regions;
 mod ringing;
 mod solution;
+mod statistics;
 mod trial;
 
 use reference::grids::{Impact, dampings};
@@ -25,6 +26,7 @@ pub(crate) fn section(run: &Run) -> Result<Section, String> {
     for map in &maps {
         parts.extend(map.parts()?);
     }
+    parts.extend(statistics::parts(run));
     parts.extend(order::parts(run)?);
     parts.extend(ledger::parts(&maps)?);
     parts.extend(ringing::parts(run)?);

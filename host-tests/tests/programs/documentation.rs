@@ -6,6 +6,7 @@ use boards::REFERENCE_CORE;
 use boards::figures::{Quantity, Stored, largest};
 use microimpact::contact::{Collocation, Contact, FixedCost};
 use microimpact::{NormalMotion, Sphere, Stiffness};
+use reference::scenes::Kind;
 
 const README: &str = include_str!("../../../README.md");
 static STORED: LazyLock<Stored> = LazyLock::new(|| Stored::read(&Stored::path()).unwrap());
@@ -156,6 +157,19 @@ fn accuracy_of_the_simulation_is_the_tested_one() {
             format!("| {setting} | {} | {} | {} |", bound("restitution:"), bound("indentation:"), bound("others:"));
         assert!(README.contains(&row), "README.md lacks the row\n{row}");
     }
+}
+
+/// The table of random scenes has the stored statistics, which the test `trials` compares with a run.
+#[test]
+fn statistics_of_random_scenes_are_the_stored_ones() {
+    let table = trials::readme_table(&trials::stored().unwrap()).unwrap();
+    assert!(README.contains(&table), "README.md lacks the table; `cargo trials --store` writes it\n{table}");
+    let (scenes, kinds) = (trials::SCENES, Kind::ALL.len());
+    let statement = format!("`cargo trials` solves {scenes} random scenes of each of {kinds} kinds");
+    assert!(words().contains(&statement), "README.md lacks: {statement}");
+    let data = include_str!("../../data/README.md").split_whitespace().collect::<Vec<_>>().join(" ");
+    let statement = format!("over {scenes} random scenes of each kind, seed {},", trials::SEED);
+    assert!(data.contains(&statement), "the description of the data lacks: {statement}");
 }
 
 /// Numbers in prose come from the data, the library or the bound of the test that checks them.

@@ -5,9 +5,10 @@ use std::sync::LazyLock;
 
 use reference::repetitions;
 use reference::scenes::Kind;
-use trials::{Number, OutputErrors, Solver, Tally, run, solvers};
+use trials::{Count, Number, OutputErrors, SCENES, SEED, Solver, Statistics, Tally, merged, run, solvers, stored};
 
-const SEED: u64 = 1;
+/// Scenes of each kind in a short run: the first of those that the stored statistics are from.
+const FEW: u64 = 40;
 
 /// All solvers with what they did over the scenes of each kind.
 struct Trials {
@@ -17,7 +18,7 @@ struct Trials {
 
 static TRIALS: LazyLock<Trials> = LazyLock::new(|| {
     let solvers = solvers();
-    let scenes = repetitions(1500, 40);
+    let scenes = repetitions(SCENES, FEW);
     let tallies = Kind::ALL.map(|kind| (kind, run(kind, SEED, scenes, &solvers)));
     Trials { solvers, tallies: tallies.into() }
 });
@@ -95,5 +96,25 @@ fn outputs_are_rarely_beyond_the_tolerance() {
             compared += all;
         }
         assert!(compared >= ENOUGH && beyond * RARELY <= compared, "{}: {beyond} of {compared}", solver.name);
+    }
+}
+
+/// A run of all scenes gives the same counts but for few that the last bits decide; a run of few scenes gives no more.
+#[test]
+fn stored_statistics_are_current() {
+    const FRACTION: u64 = 50;
+    const FEWEST: u64 = 2;
+    let all = TRIALS.tallies.iter().map(|(_, tallies)| tallies.clone()).reduce(merged).unwrap();
+    let stored = stored().unwrap();
+    assert_eq!(stored.len(), TRIALS.solvers.len());
+    for ((solver, tally), stored) in TRIALS.solvers.iter().zip(&all).zip(stored) {
+        let found = Statistics::new(solver, tally);
+        assert_eq!(found.names, stored.names);
+        for count in Count::ALL {
+            let (now, before) = (found.get(count), stored.get(count));
+            let apart = if repetitions(true, false) { now.abs_diff(before) } else { now.saturating_sub(before) };
+            let near = apart <= FEWEST + before / FRACTION;
+            assert!(near, "{:?}, {}: {now}, stored {before}; run `cargo trials --store`", found.names, count.name());
+        }
     }
 }

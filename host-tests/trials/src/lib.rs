@@ -5,11 +5,15 @@ mod allowance;
 mod judge;
 mod output;
 mod solver;
+mod statistics;
+mod stored;
 mod tally;
 
 pub use judge::{Finding, Judge, OutputError};
 pub use output::Output;
 pub use solver::{Answer, Number, Solver, solvers};
+pub use statistics::{Count, Statistics};
+pub use stored::{SCENES, SEED, readme_table, store, stored};
 pub use tally::{Example, OutputErrors, Tally};
 
 use rayon::prelude::*;
@@ -27,10 +31,13 @@ pub fn run(kind: Kind, seed: u64, scenes: u64, solvers: &[Solver]) -> Vec<Tally>
             }
             tallies
         })
-        .reduce(none, |mut all, some| {
-            for (tally, more) in all.iter_mut().zip(some) {
-                tally.merge(more);
-            }
-            all
-        })
+        .reduce(none, merged)
+}
+
+/// The tallies of the same solvers over the scenes of both.
+pub fn merged(mut all: Vec<Tally>, some: Vec<Tally>) -> Vec<Tally> {
+    for (tally, more) in all.iter_mut().zip(some) {
+        tally.merge(more);
+    }
+    all
 }

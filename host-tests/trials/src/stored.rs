@@ -1,0 +1,139 @@
+//! Statistics that are kept in the repository, and README's table of them.
+
+use std::error::Error;
+use std::fs;
+
+use crate::solver::Number;
+use crate::statistics::{Count, Statistics};
+
+/// Scenes of each kind that stored statistics are from.
+pub const SCENES: u64 = 1500;
+
+/// Seed of these scenes.
+pub const SEED: u64 = 1;
+
+const STATISTICS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../data/trials.csv");
+const README: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../README.md");
+
+/// Writes statistics to `host-tests/data/trials.csv`, and README's table of them.
+///
+/// # Errors
+/// A file that cannot be read or written, or a README without the table.
+pub fn store(statistics: &[Statistics]) -> Result<(), Box<dyn Error>> {
+    let readme = with_table(&fs::read_to_string(README)?, &readme_table(statistics)?)?;
+    let mut writer = csv::WriterBuilder::new().has_headers(false).from_path(STATISTICS)?;
+    writer.write_record(Statistics::columns())?;
+    for Statistics { names, counts } in statistics {
+        writer.serialize((names, counts))?;
+    }
+    writer.flush()?;
+    Ok(fs::write(README, readme)?)
+}
+
+/// Reads the statistics that are stored, in the order of the solvers.
+///
+/// # Errors
+/// A file that cannot be read, or has other columns.
+pub fn stored() -> Result<Vec<Statistics>, Box<dyn Error>> {
+    let mut reader = csv::Reader::from_path(STATISTICS)?;
+    if !reader.headers()?.iter().eq(Statistics::columns()) {
+        return Err(format!("the columns of {STATISTICS} are not the current ones; run `cargo trials --store`").into());
+    }
+    let rows = reader.deserialize().map(|row| {
+        let (names, counts) = row?;
+        Ok(Statistics { names, counts })
+    });
+    rows.collect()
+}
+
+/// The solvers in README: the recommended method, those that have a footprint there, and the paper's.
+const IN_README: [(&str, Number); 11] = [
+    ("Adaptive 1e-4", Number::Double),
+    ("Adaptive 1e-6", Number::Double),
+    ("Adaptive 1e-9", Number::Double),
+    ("Adaptive 1e-12", Number::Double),
+    ("Adaptive 1e-4", Number::Single),
+    ("Adaptive 1e-6", Number::Single),
+    ("Collocation 7, 1e-6", Number::Single),
+    ("FixedCost 5 x 3", Number::Single),
+    ("FixedCost 7 x 3", Number::Single),
+    ("FixedCost 4 x 2", Number::Fixed),
+    ("RungeKuttaGill 2000", Number::Double),
+];
+
+/// The counts in README, in percent.
+const PERCENT: [Count; 7] = [
+    Count::Refused,
+    Count::Unsolved,
+    Count::Undecided,
+    Count::WrongOutcomes,
+    Count::WrongClasses,
+    Count::Beyond,
+    Count::FarBeyond,
+];
+
+/// The first line of README's table.
+fn header() -> String {
+    row([&Statistics::NAMES[..], &["scenes"], &PERCENT.map(Count::name)].concat())
+}
+
+fn row(cells: Vec<&str>) -> String {
+    format!("| {} |\n", cells.join(" | "))
+}
+
+/// README's table, with a line for each solver in it.
+///
+/// # Errors
+/// A solver without statistics.
+pub fn readme_table(statistics: &[Statistics]) -> Result<String, String> {
+    let mut table = header() + &row(vec!["---"; 4 + PERCENT.len()]);
+    for (method, number) in IN_README.map(|(method, number)| (method, number.name())) {
+        let found = statistics.iter().find(|found| found.names[..2] == [method, number]);
+        let found = found.ok_or_else(|| format!("no statistics of {method} in {number}"))?;
+        let percent = PERCENT.map(|count| found.percent(count).map_or_else(String::new, two_digits));
+        let cells = found.names.iter().cloned().chain([found.known().to_string()]).chain(percent).collect::<Vec<_>>();
+        table += &row(cells.iter().map(String::as_str).collect());
+    }
+    Ok(table)
+}
+
+/// Two significant digits, or whole percents; zero only for none at all.
+fn two_digits(percent: f64) -> String {
+    // The exponent after rounding: 0.0998 is 0.10.
+    let scientific = format!("{percent:.1e}");
+    let exponent = scientific.split_once('e').map_or(Ok(0), |(_, exponent)| exponent.parse::<i32>());
+    match exponent {
+        Ok(exponent) if percent > 0.0 => format!("{percent:.*}", usize::try_from(1 - exponent).unwrap_or(0)),
+        _ => percent.to_string(),
+    }
+}
+
+/// A text with the table in place of the one that begins with the same line.
+fn with_table(text: &str, table: &str) -> Result<String, String> {
+    let split = text.split_once(&header());
+    let rest = split.and_then(|(before, rest)| Some((before, rest.split_once("\n\n")?.1)));
+    let (before, after) = rest.ok_or_else(|| format!("README.md has no table that begins with\n{}", header()))?;
+    Ok(format!("{before}{table}\n{after}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{header, two_digits, with_table};
+
+    #[test]
+    fn percents_have_two_digits() {
+        for (percent, text) in
+            [(0.0, "0"), (100.0, "100"), (61.27, "61"), (9.123, "9.1"), (0.0998, "0.10"), (0.000_567, "0.00057")]
+        {
+            assert_eq!(two_digits(percent), text);
+        }
+    }
+
+    #[test]
+    fn only_the_table_is_replaced() {
+        let text = |rows: &str| format!("before\n\n{}{rows}\n\nafter\n\nend\n", header());
+        let table = format!("{}| new |\n", header());
+        assert_eq!(with_table(&text("| old |\n| older |"), &table), Ok(text("| new |")));
+        assert!(with_table("before\n\nafter\n", &table).is_err());
+    }
+}
