@@ -8,8 +8,8 @@ use super::panels::{CAPTURE_EDGES, Edge, REBOUND_EDGES, integral};
 use crate::{Outcome, Real};
 
 /// Rebounds for which the stopped slip is computed: the square root of the part of the energy that remains, without the loss of
-/// the material. The last one is that of 1.3 times the critical speed.
-pub(super) const REMAINDERS: [f64; REBOUNDS] = [0.08, 0.35, 0.65];
+/// the material. The stopped slip is nearly linear in it. The last one is that of 1.2 times the critical speed.
+pub(super) const REMAINDERS: [f64; REBOUNDS] = [0.15, 0.55];
 
 /// Distance of a bound, in standard errors, from which on it has no effect: the probability to be beyond is 2e-3.
 const BEYOND: f64 = 2.9;
@@ -61,29 +61,27 @@ impl<T: Real, const N: usize> Expanded<T, N> {
             let slope = sum * sum * T::constant(0.25) / self.ratio * error * (T::ONE + two * variable.curvature * zeta);
             (ratio, slope)
         };
-        let [a, b, c, captured] = self.stopped.map(|stopped| stopped.map(|stopped| excess.moments(&stopped)));
+        let [a, b, captured] = self.stopped.map(|stopped| stopped.map(|stopped| excess.moments(&stopped)));
         let (mut both, mut other) = (T::ZERO, T::ZERO);
-        if let (Some(a), Some(b), Some(c)) = (a, b, c) {
-            let [p, q, r] = REMAINDERS.map(T::constant);
+        if let (Some(a), Some(b)) = (a, b) {
+            let [p, _] = REMAINDERS.map(T::constant);
             both = integral(critical, T::ONE, &REBOUND_EDGES, |zeta| {
                 let (ratio, slope) = ratio_at(zeta);
                 let x = remainder(ratio.max(T::ONE));
-                let (to_b, to_c) = ((x - p) / (q - p), (x - p) / (r - p));
-                let bend = (x - q) / (r - q) * to_c;
-                let first = to_b - bend * ((r - p) / (q - p));
+                let part = (x - p) * T::constant(1.0 / (REMAINDERS[1] - REMAINDERS[0]));
                 let mut moments = a;
-                for ((a, b), c) in moments.iter_mut().zip(b).zip(c) {
-                    *a = *a + first * (b - *a) + bend * (c - *a);
+                for (a, b) in moments.iter_mut().zip(b) {
+                    *a = *a + part * (b - *a);
                 }
                 // The score is nearly linear in x, which rises as a root: d zeta/d x = ratio^3 x/(d ratio/d zeta).
                 let stretch = (ratio * ratio * ratio * x).saturating_div(slope.max(T::SMALLEST));
                 let (position, stretch) = if error > T::ZERO { (x, stretch) } else { (zeta, T::ONE) };
-                Edge::new(zeta, position, stretch, excess.scores(zeta, moments))
+                Edge::new(normal(zeta), position, stretch, excess.scores(zeta, moments))
             });
         }
         if let Some(captured) = captured {
             other = integral(critical, -T::ONE, &CAPTURE_EDGES, |zeta| {
-                Edge::new(zeta, zeta, T::ONE, excess.scores(zeta, captured))
+                Edge::new(normal(zeta), zeta, T::ONE, excess.scores(zeta, captured))
             });
         }
         [normal(T::ZERO - critical).0, both, other]
