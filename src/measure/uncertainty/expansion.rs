@@ -56,11 +56,17 @@ impl<T: Real, const N: usize> Expansion<T, N> {
         }
     }
 
-    /// The expansion for a given deviation of one input.
-    pub(super) fn with(mut self, input: usize, z: T) -> Self {
+    /// The expansion in another variable u for the deviation of one input, which is mean + spread (u + skew (u^2 - 1)).
+    pub(super) fn with(mut self, input: usize, [mean, spread, skew]: [T; 3]) -> Self {
         if let (Some(linear), Some(square)) = (self.linear.get_mut(input), self.square.get_mut(input)) {
-            self.mean = self.mean + *linear * z + *square * (z * z - T::ONE);
-            (*linear, *square) = (T::ZERO, T::ZERO);
+            let two = T::constant(2.0);
+            let both = two * skew * skew;
+            self.mean =
+                self.mean + *linear * mean + *square * (mean * mean + spread * spread * (T::ONE + both) - T::ONE);
+            let slope = *linear + two * *square * mean;
+            let curved = *square * spread;
+            *linear = spread * (slope + two * two * curved * skew);
+            *square = spread * (slope * skew + curved * (T::ONE + two * both));
         }
         self
     }
@@ -201,31 +207,29 @@ impl<T: Real, const N: usize> Expanded<T, N> {
         Ok(())
     }
 
-    /// The expansions for a given deviation of one input.
-    pub(super) fn with(self, input: usize, z: T) -> Self {
-        let mut slip = self.slip.with(input, z);
+    /// The expansions with another distribution of one input.
+    pub(super) fn with(self, input: usize, distribution: [T; 3]) -> Self {
+        let [mean, spread, _] = distribution;
+        let mut slip = self.slip.with(input, distribution);
         let mixed = self.mixed.map(|mut rows| {
             if let Some(row) = rows.get_mut(input) {
                 for (linear, mixed) in slip.linear.iter_mut().zip(row) {
-                    *linear = *linear + *mixed * z;
-                    *mixed = T::ZERO;
+                    *linear = *linear + *mixed * mean;
+                    *mixed = *mixed * spread;
                 }
             }
             for entry in rows.iter_mut().filter_map(|row| row.get_mut(input)) {
-                *entry = T::ZERO;
+                *entry = *entry * spread;
             }
             rows
         });
-        if let Some(linear) = slip.linear.get_mut(input) {
-            *linear = T::ZERO;
-        }
         Self {
-            speeds: self.speeds.with(input, z),
+            speeds: self.speeds.with(input, distribution),
             slip,
             mixed,
-            stopped: self
-                .stopped
-                .map(|stopped| stopped.map(|stopped| Stopped { relative: stopped.relative.with(input, z), ..stopped })),
+            stopped: self.stopped.map(|stopped| {
+                stopped.map(|stopped| Stopped { relative: stopped.relative.with(input, distribution), ..stopped })
+            }),
             ..self
         }
     }
