@@ -408,13 +408,14 @@ impl<T: Real> ClassProbabilities<T> {
                 *slip = impact.stopped_slip(critical, Outcome::Capture)?.map(|slip| slip / critical * impact.speed());
             }
             Ok((Some(ratio), slips))
-        })?;
+        });
+        let expanded = expanded.as_ref().map_err(|error| *error)?;
         let (_, zeta, _) = expanded.zeta();
         if zeta.abs() >= T::constant(CERTAIN) {
             let outcome = if zeta < T::ZERO { Outcome::Rebound } else { Outcome::Capture };
             return Self::certain(inputs, &impact, &nominal, outcome);
         }
-        Ok(Self::from_sums(bounded(inputs, &expanded, Expanded::probabilities)))
+        Ok(Self::from_sums(bounded(inputs, expanded, Expanded::probabilities)))
     }
 
     fn from_sums([rebound, both, other]: [T; 3]) -> Self {
@@ -431,7 +432,7 @@ impl<T: Real> ClassProbabilities<T> {
     ) -> Result<Self, InputError> {
         let expanded = Expanded::new(inputs, impact, nominal, |impact| {
             let stopped = impact.stopped_slip(impact.speed(), outcome)?;
-            Ok((None, [stopped, None, None, None]))
+            Ok((None, [stopped, None, None]))
         })?;
         Ok(Self::from_sums(bounded(inputs, &expanded, |expanded| expanded.certain(outcome))))
     }

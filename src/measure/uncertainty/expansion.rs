@@ -8,7 +8,7 @@ use crate::{InputError, Real};
 const STEP: f64 = 1.732_050_807_568_877_2;
 
 /// Number of rebounds for which the stopped slip is computed.
-pub(super) const REBOUNDS: usize = 3;
+pub(super) const REBOUNDS: usize = 2;
 
 /// Stopped slips: those of the rebounds, then that of a capture.
 pub(super) const STOPPED: usize = REBOUNDS + 1;
@@ -56,11 +56,17 @@ impl<T: Real, const N: usize> Expansion<T, N> {
         }
     }
 
-    /// The expansion for a given deviation of one input.
-    pub(super) fn with(mut self, input: usize, z: T) -> Self {
+    /// The expansion in another variable u for the deviation of one input, which is mean + spread (u + skew (u^2 - 1)).
+    pub(super) fn with(mut self, input: usize, [mean, spread, skew]: [T; 3]) -> Self {
         if let (Some(linear), Some(square)) = (self.linear.get_mut(input), self.square.get_mut(input)) {
-            self.mean = self.mean + *linear * z + *square * (z * z - T::ONE);
-            (*linear, *square) = (T::ZERO, T::ZERO);
+            let two = T::constant(2.0);
+            let both = two * skew * skew;
+            self.mean =
+                self.mean + *linear * mean + *square * (mean * mean + spread * spread * (T::ONE + both) - T::ONE);
+            let slope = *linear + two * *square * mean;
+            let curved = *square * spread;
+            *linear = spread * (slope + two * two * curved * skew);
+            *square = spread * (slope * skew + curved * (T::ONE + two * both));
         }
         self
     }
@@ -89,53 +95,6 @@ pub(super) struct Expanded<T, const N: usize> {
     /// For rebounds at multiples of the critical speed, divided by the multiple; then for captures at the critical speed.
     /// `None` if friction stops every slip.
     pub(super) stopped: [Option<Stopped<T, N>>; STOPPED],
-}
-
-/// Mixed second derivatives of the slip with respect to the deviations of the inputs. `None` if all are zero.
-///
-/// The slip is a difference, so that no function of it is nearly a sum of functions of the inputs.
-pub(super) fn mixed_derivatives<T: Real, const N: usize>(
-    inputs: &[Uncertain<T>; N],
-    expansion: &Expansion<T, N>,
-    slip: T,
-    slip_at: impl Fn([T; N]) -> Result<T, InputError>,
-) -> Result<Option<[[T; N]; N]>, InputError> {
-    let values = inputs.map(|input| input.value);
-    let mut derivatives = [[T::ZERO; N]; N];
-    let mut any = false;
-    // Deviation in the direction of the farther bound, and the change of the slip with it.
-    let single = |index: usize| {
-        let (uncertain, linear, square) =
-            (inputs.get(index)?, *expansion.linear.get(index)?, *expansion.square.get(index)?);
-        let [low, high] = uncertain.bounds;
-        let z = if high < low { -low.min(T::ONE) } else { high.min(T::ONE) };
-        (linear != T::ZERO).then_some((z, uncertain.at(z), (linear + square * z) * z))
-    };
-    for first in 0..N {
-        let Some((z, value, change)) = single(first) else { continue };
-        for second in first + 1..N {
-            let Some((other_z, other_value, other_change)) = single(second) else { continue };
-            let mut values = values;
-            if let Some(place) = values.get_mut(first) {
-                *place = value;
-            }
-            if let Some(place) = values.get_mut(second) {
-                *place = other_value;
-            }
-            let together = slip_at(values)? - slip;
-            let mixed = (together - change - other_change) / (z * other_z);
-            if mixed.abs() <= T::constant(ROUNDINGS) * T::EPSILON * (together.abs() + slip.abs()) {
-                continue;
-            }
-            any = true;
-            for (row, column) in [(first, second), (second, first)] {
-                if let Some(entry) = derivatives.get_mut(row).and_then(|row| row.get_mut(column)) {
-                    *entry = mixed;
-                }
-            }
-        }
-    }
-    Ok(any.then_some(derivatives))
 }
 
 impl<T: Real, const N: usize> Expanded<T, N> {
@@ -175,8 +134,10 @@ impl<T: Real, const N: usize> Expanded<T, N> {
                 if let Some(varied) = values.get_mut(input) {
                     *varied = uncertain.at(deviation);
                 }
-                let impact = impact(values)?;
-                let (speed, stopped) = quantities(&impact)?;
+                // A reference, because an impact is large.
+                let impact = impact(values);
+                let impact = impact.as_ref().map_err(|error| *error)?;
+                let (speed, stopped) = quantities(impact)?;
                 if let (Some(place), Some(speed)) = (speeds.get_mut(place), speed) {
                     *place = relative(speed, ratio);
                 }
@@ -197,35 +158,78 @@ impl<T: Real, const N: usize> Expanded<T, N> {
                 }
             }
         }
-        expanded.mixed = mixed_derivatives(inputs, &expanded.slip, slip, |values| Ok(impact(values)?.slip()))?;
+        expanded.set_mixed(inputs, slip, |values| impact(values).as_ref().map(C::slip).map_err(|error| *error))?;
         Ok(expanded)
     }
 
-    /// The expansions for a given deviation of one input.
-    pub(super) fn with(self, input: usize, z: T) -> Self {
-        let mut slip = self.slip.with(input, z);
+    /// Sets the mixed second derivatives of the slip with respect to the deviations of the inputs, from the `slip` without any.
+    ///
+    /// The slip is a difference, so that no function of it is nearly a sum of functions of the inputs.
+    fn set_mixed(
+        &mut self,
+        inputs: &[Uncertain<T>; N],
+        slip: T,
+        slip_at: impl Fn([T; N]) -> Result<T, InputError>,
+    ) -> Result<(), InputError> {
+        let values = inputs.map(|input| input.value);
+        // Deviation in the direction of the farther bound, and the change of the slip with it.
+        let single = |index: usize| {
+            let (uncertain, linear, square) =
+                (inputs.get(index)?, *self.slip.linear.get(index)?, *self.slip.square.get(index)?);
+            let [low, high] = uncertain.bounds;
+            let z = if high < low { -low.min(T::ONE) } else { high.min(T::ONE) };
+            (linear != T::ZERO).then_some((z, uncertain.at(z), (linear + square * z) * z))
+        };
+        for first in 0..N {
+            let Some((z, value, change)) = single(first) else { continue };
+            for second in first + 1..N {
+                let Some((other_z, other_value, other_change)) = single(second) else { continue };
+                let mut values = values;
+                if let Some(place) = values.get_mut(first) {
+                    *place = value;
+                }
+                if let Some(place) = values.get_mut(second) {
+                    *place = other_value;
+                }
+                let together = slip_at(values)? - slip;
+                let mixed = (together - change - other_change) / (z * other_z);
+                if mixed.abs() <= T::constant(ROUNDINGS) * T::EPSILON * (together.abs() + slip.abs()) {
+                    continue;
+                }
+                let derivatives = self.mixed.get_or_insert([[T::ZERO; N]; N]);
+                for (row, column) in [(first, second), (second, first)] {
+                    if let Some(entry) = derivatives.get_mut(row).and_then(|row| row.get_mut(column)) {
+                        *entry = mixed;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The expansions with another distribution of one input.
+    pub(super) fn with(self, input: usize, distribution: [T; 3]) -> Self {
+        let [mean, spread, _] = distribution;
+        let mut slip = self.slip.with(input, distribution);
         let mixed = self.mixed.map(|mut rows| {
             if let Some(row) = rows.get_mut(input) {
                 for (linear, mixed) in slip.linear.iter_mut().zip(row) {
-                    *linear = *linear + *mixed * z;
-                    *mixed = T::ZERO;
+                    *linear = *linear + *mixed * mean;
+                    *mixed = *mixed * spread;
                 }
             }
             for entry in rows.iter_mut().filter_map(|row| row.get_mut(input)) {
-                *entry = T::ZERO;
+                *entry = *entry * spread;
             }
             rows
         });
-        if let Some(linear) = slip.linear.get_mut(input) {
-            *linear = T::ZERO;
-        }
         Self {
-            speeds: self.speeds.with(input, z),
+            speeds: self.speeds.with(input, distribution),
             slip,
             mixed,
-            stopped: self
-                .stopped
-                .map(|stopped| stopped.map(|stopped| Stopped { relative: stopped.relative.with(input, z), ..stopped })),
+            stopped: self.stopped.map(|stopped| {
+                stopped.map(|stopped| Stopped { relative: stopped.relative.with(input, distribution), ..stopped })
+            }),
             ..self
         }
     }

@@ -8,8 +8,8 @@ use super::panels::{CAPTURE_EDGES, Edge, REBOUND_EDGES, integral};
 use crate::{Outcome, Real};
 
 /// Rebounds for which the stopped slip is computed: the square root of the part of the energy that remains, without the loss of
-/// the material. The last one is that of 1.3 times the critical speed.
-pub(super) const REMAINDERS: [f64; REBOUNDS] = [0.08, 0.35, 0.65];
+/// the material. The stopped slip is nearly linear in it. The last one is that of 1.2 times the critical speed.
+pub(super) const REMAINDERS: [f64; REBOUNDS] = [0.15, 0.55];
 
 /// Distance of a bound, in standard errors, from which on it has no effect: the probability to be beyond is 2e-3.
 const BEYOND: f64 = 2.9;
@@ -61,29 +61,27 @@ impl<T: Real, const N: usize> Expanded<T, N> {
             let slope = sum * sum * T::constant(0.25) / self.ratio * error * (T::ONE + two * variable.curvature * zeta);
             (ratio, slope)
         };
-        let [a, b, c, captured] = self.stopped.map(|stopped| stopped.map(|stopped| excess.moments(&stopped)));
+        let [a, b, captured] = self.stopped.map(|stopped| stopped.map(|stopped| excess.moments(&stopped)));
         let (mut both, mut other) = (T::ZERO, T::ZERO);
-        if let (Some(a), Some(b), Some(c)) = (a, b, c) {
-            let [p, q, r] = REMAINDERS.map(T::constant);
+        if let (Some(a), Some(b)) = (a, b) {
+            let [p, _] = REMAINDERS.map(T::constant);
             both = integral(critical, T::ONE, &REBOUND_EDGES, |zeta| {
                 let (ratio, slope) = ratio_at(zeta);
                 let x = remainder(ratio.max(T::ONE));
-                let (to_b, to_c) = ((x - p) / (q - p), (x - p) / (r - p));
-                let bend = (x - q) / (r - q) * to_c;
-                let first = to_b - bend * ((r - p) / (q - p));
+                let part = (x - p) * T::constant(1.0 / (REMAINDERS[1] - REMAINDERS[0]));
                 let mut moments = a;
-                for ((a, b), c) in moments.iter_mut().zip(b).zip(c) {
-                    *a = *a + first * (b - *a) + bend * (c - *a);
+                for (a, b) in moments.iter_mut().zip(b) {
+                    *a = *a + part * (b - *a);
                 }
                 // The score is nearly linear in x, which rises as a root: d zeta/d x = ratio^3 x/(d ratio/d zeta).
                 let stretch = (ratio * ratio * ratio * x).saturating_div(slope.max(T::SMALLEST));
                 let (position, stretch) = if error > T::ZERO { (x, stretch) } else { (zeta, T::ONE) };
-                Edge::new(zeta, position, stretch, excess.scores(zeta, moments))
+                Edge::new(normal(zeta), position, stretch, excess.scores(zeta, moments))
             });
         }
         if let Some(captured) = captured {
             other = integral(critical, -T::ONE, &CAPTURE_EDGES, |zeta| {
-                Edge::new(zeta, zeta, T::ONE, excess.scores(zeta, captured))
+                Edge::new(normal(zeta), zeta, T::ONE, excess.scores(zeta, captured))
             });
         }
         [normal(T::ZERO - critical).0, both, other]
@@ -102,11 +100,26 @@ impl<T: Real, const N: usize> Expanded<T, N> {
     }
 }
 
-/// Probability that a normal variable is beyond a bound at this distance, and weights with which the value at the bound takes
-/// the place of the mean of a function beyond it.
+/// A weight, and the mean, the standard error and a sixth of the skewness of a deviation.
+type Node<T> = (T, [T; 3]);
+
+/// Deviations that take the place of a normal one with a bound at this distance: those within the bound, and the bound itself.
+fn within<T: Real>(distance: T) -> [Node<T>; 3] {
+    let (inside, density) = normal(distance);
+    let mean = T::ZERO - density / inside;
+    let variance = T::ONE + distance * mean - mean * mean;
+    // Third central moment.
+    let third = mean * (distance * distance - T::ONE - mean * (T::constant(3.0) * distance - T::constant(2.0) * mean));
+    let spread = variance.max(T::ZERO).sqrt();
+    let skew = third / (T::constant(6.0) * variance * spread);
+    let none = (T::ZERO, [T::ZERO; 3]);
+    [(inside, [mean, spread, skew]), (T::ONE - inside, [distance, T::ZERO, T::ZERO]), none]
+}
+
+/// What is added to a normal deviation so that those beyond a bound at this distance take the value of the bound.
 ///
-/// The mean is that of a rule by Gauss and Radau: the bound and two more points, with the right first four moments.
-pub(super) fn beyond<T: Real>(distance: T) -> (T, [(T, T); 3]) {
+/// Their mean is that of a rule by Gauss and Radau: the bound and two more points, with the right first four moments.
+fn beyond<T: Real>(distance: T) -> [Node<T>; 3] {
     let (half, two, three) = (T::constant(0.5), T::constant(2.0), T::constant(3.0));
     let (below, density) = normal(T::ZERO - distance);
     // Means of the powers of the distance from the bound.
@@ -121,33 +134,50 @@ pub(super) fn beyond<T: Real>(distance: T) -> (T, [(T, T); 3]) {
     let spread = (middle * middle - product).max(T::ZERO).sqrt();
     let (near, far) = (middle - spread, middle + spread);
     // Weights that have the first two moments.
-    let weight = |x: T, other: T| (second - other * first) / (x * (x - other));
+    let weight = |x: T, other: T| below * (second - other * first) / (x * (x - other));
     let (at_near, at_far) = (weight(near, far), weight(far, near));
     let nodes = [(at_near + at_far, distance), (-at_near, distance + near), (-at_far, distance + far)];
-    (below, nodes)
+    nodes.map(|(weight, z)| (weight, [z, T::ZERO, T::ZERO]))
 }
 
-/// Adds the effect of the bounds of the inputs: beyond its bound, an input has the value of the bound.
+/// Part of the variance of the ratio of the speeds from which on one input dominates. The ratio is then bounded like this
+/// input, which is far from normal.
+const DOMINANT: f64 = 0.9;
+
+/// Takes the bounds of the inputs into account: beyond its bound, an input has the value of the bound.
+///
+/// Each bound is treated as if it were the only one.
 pub(super) fn bounded<T: Real, const N: usize>(
     inputs: &[Uncertain<T>; N],
     expanded: &Expanded<T, N>,
     probabilities: impl Fn(&Expanded<T, N>) -> [T; 3],
 ) -> [T; 3] {
-    let mut sum = probabilities(expanded);
-    for (input, uncertain) in inputs.iter().enumerate() {
+    let (mut sum, mut unbounded) = ([T::ZERO; 3], T::ONE);
+    let mut add = |weight: T, expanded: &Expanded<T, N>| {
+        for (sum, part) in sum.iter_mut().zip(probabilities(expanded)) {
+            *sum = *sum + weight * part;
+        }
+    };
+    let dominant = T::constant(DOMINANT) * squares(&expanded.speeds.linear);
+    for ((input, uncertain), linear) in inputs.iter().enumerate().zip(expanded.speeds.linear) {
         let [low, high] = uncertain.bounds;
         for (sign, distance) in [(-T::ONE, low), (T::ONE, high)] {
             if distance >= T::constant(BEYOND) {
                 continue;
             }
-            let (beyond, nodes) = beyond(distance);
-            for (weight, z) in nodes {
-                let part = probabilities(&expanded.with(input, sign * z));
-                for (sum, part) in sum.iter_mut().zip(part) {
-                    *sum = *sum + beyond * weight * part;
+            let dominates = linear * linear >= dominant;
+            if !dominates {
+                unbounded = unbounded - T::ONE;
+            }
+            for (weight, [mean, spread, skew]) in if dominates { beyond(distance) } else { within(distance) } {
+                if weight != T::ZERO {
+                    add(weight, &expanded.with(input, [sign * mean, spread, sign * skew]));
                 }
             }
         }
+    }
+    if unbounded != T::ZERO {
+        add(unbounded, expanded);
     }
     sum
 }
