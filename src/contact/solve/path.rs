@@ -245,10 +245,12 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     pub(crate) fn arriving(law: &'a L, energy: T, control: Control<T>, observer: &'a mut O) -> Self {
         let at = Point::arriving(law, energy);
         let mut follower = Self::from(law, control, observer, at);
+        let free = follower.barrier;
+        follower.barrier = well::barrier(law);
         // A sphere that comes slower than a barrier is high turns back in front of it and has none to pass on its way out.
-        let barrier = well::barrier(law);
-        if at.energy > barrier.1 {
-            follower.barrier = barrier;
+        let (surplus, uncertain) = follower.surplus();
+        if surplus < -uncertain {
+            follower.barrier = free;
         }
         follower
     }
