@@ -22,7 +22,7 @@ mod panels;
 use core::f64::consts::FRAC_1_SQRT_2;
 
 use self::expansion::{Expanded, STOPPED};
-use self::integrals::{REMAINDERS, bounded, multiple};
+use self::integrals::{MIDDLE, REMAINDERS, bounded, multiple};
 use self::normal::CERTAIN;
 use crate::contact::{Contact, ContactLaw, ErrorControl, Impulses};
 use crate::rigid::{MicroforceTerm, ReboundAdhesion};
@@ -326,9 +326,10 @@ where
 /// Probabilities of the classes of an impact. Their sum is one.
 ///
 /// For inputs with standard errors of up to 10 % and a critical speed, the probabilities of a rigid body and of a simulation
-/// differ by less than 0.01 from those of simulated random inputs, wherever the boundaries between the classes are. Random inputs
-/// beyond the range of their [parameter](Uncertain::within) take the nearest value of the range. If the inputs without errors
-/// have no critical speed, their outcome counts as certain.
+/// differ by about 0.001 on the average from those of simulated random inputs, and by less than 0.01 in the scenes of the tests,
+/// where both boundaries between the classes are close. The exception is an input near the bound of its range that alone decides,
+/// as a restitution near one: there it may be 0.05. Random inputs beyond the range of their [parameter](Uncertain::within) take
+/// the nearest value of the range. If the inputs without errors have no critical speed, their outcome counts as certain.
 ///
 /// ```
 /// use microimpact::measure::{ClassProbabilities, Uncertain};
@@ -393,7 +394,7 @@ impl<T: Real> ClassProbabilities<T> {
             CriticalSpeed::NeverRebounds => return Self::certain(inputs, &impact, &nominal, Outcome::Capture),
         };
         let multiples = REMAINDERS.map(|remainder| multiple(T::constant(remainder)));
-        let expanded = Expanded::new(inputs, &impact, &nominal, |impact| {
+        let mut expanded = Expanded::new(inputs, &impact, &nominal, |impact| {
             let (ratio, critical) = match impact.critical_speed()? {
                 CriticalSpeed::At(critical) => (impact.speed().saturating_div(critical), critical),
                 CriticalSpeed::AlwaysRebounds => (T::ONE / T::EPSILON, critical),
@@ -409,7 +410,11 @@ impl<T: Real> ClassProbabilities<T> {
             }
             Ok((Some(ratio), slips))
         });
-        let expanded = expanded.as_ref().map_err(|error| *error)?;
+        let expanded = expanded.as_mut().map_err(|error| *error)?;
+        let speed = critical * multiple(T::constant(MIDDLE));
+        if let Some(middle) = nominal.stopped_slip(speed, Outcome::Rebound)? {
+            expanded.bend_stopped(middle / speed * nominal.speed());
+        }
         let (_, zeta, _) = expanded.zeta();
         if zeta.abs() >= T::constant(CERTAIN) {
             let outcome = if zeta < T::ZERO { Outcome::Rebound } else { Outcome::Capture };

@@ -95,6 +95,8 @@ pub(super) struct Expanded<T, const N: usize> {
     /// For rebounds at multiples of the critical speed, divided by the multiple; then for captures at the critical speed.
     /// `None` if friction stops every slip.
     pub(super) stopped: [Option<Stopped<T, N>>; STOPPED],
+    /// Relative curvature of the stopped slip between the rebounds, four times the difference in the middle.
+    pub(super) stopped_bend: T,
 }
 
 impl<T: Real, const N: usize> Expanded<T, N> {
@@ -115,6 +117,7 @@ impl<T: Real, const N: usize> Expanded<T, N> {
             slip: Expansion::constant(slip),
             mixed: None,
             stopped: stopped.map(|value| value.map(|value| Stopped { value, relative: zero })),
+            stopped_bend: T::ZERO,
         };
         let values = inputs.map(|input| input.value);
         for (input, uncertain) in inputs.iter().enumerate() {
@@ -160,6 +163,14 @@ impl<T: Real, const N: usize> Expanded<T, N> {
         }
         expanded.set_mixed(inputs, slip, |values| impact(values).as_ref().map(C::slip).map_err(|error| *error))?;
         Ok(expanded)
+    }
+
+    /// Sets the curvature of the stopped slip from its value without deviations in the middle between the rebounds.
+    pub(super) fn bend_stopped(&mut self, middle: T) {
+        if let [Some(first), Some(last), _] = &self.stopped {
+            let mean = T::constant(0.5) * (first.value + last.value);
+            self.stopped_bend = T::constant(4.0) * if mean > T::ZERO { middle / mean - T::ONE } else { T::ZERO };
+        }
     }
 
     /// Sets the mixed second derivatives of the slip with respect to the deviations of the inputs, from the `slip` without any.

@@ -8,8 +8,11 @@ use super::panels::{CAPTURE_EDGES, Edge, REBOUND_EDGES, integral};
 use crate::{Outcome, Real};
 
 /// Rebounds for which the stopped slip is computed: the square root of the part of the energy that remains, without the loss of
-/// the material. The stopped slip is nearly linear in it. The last one is that of 1.2 times the critical speed.
-pub(super) const REMAINDERS: [f64; REBOUNDS] = [0.15, 0.55];
+/// the material. The last one is that of 1.25 times the critical speed.
+pub(super) const REMAINDERS: [f64; REBOUNDS] = [0.15, 0.6];
+
+/// The middle, where the stopped slip without deviations is computed too: it is a parabola, and its derivatives are linear.
+pub(super) const MIDDLE: f64 = 0.5 * (REMAINDERS[0] + REMAINDERS[1]);
 
 /// Distance of a bound, in standard errors, from which on it has no effect: the probability to be beyond is 2e-3.
 const BEYOND: f64 = 2.9;
@@ -73,6 +76,8 @@ impl<T: Real, const N: usize> Expanded<T, N> {
                 for (a, b) in moments.iter_mut().zip(b) {
                     *a = *a + part * (b - *a);
                 }
+                let [value, ..] = &mut moments;
+                *value = *value * (T::ONE + self.stopped_bend * part * (T::ONE - part));
                 // The score is nearly linear in x, which rises as a root: d zeta/d x = ratio^3 x/(d ratio/d zeta).
                 let stretch = (ratio * ratio * ratio * x).saturating_div(slope.max(T::SMALLEST));
                 let (position, stretch) = if error > T::ZERO { (x, stretch) } else { (zeta, T::ONE) };

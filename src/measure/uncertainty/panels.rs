@@ -164,7 +164,7 @@ impl<T: Real> Bend<T> {
 }
 
 /// Distances in zeta of the edges of panels from the critical speed.
-pub(super) const REBOUND_EDGES: [f64; 6] = [0.25, 1.0, 2.0, 3.2, 5.0, 9.0];
+pub(super) const REBOUND_EDGES: [f64; 6] = [0.2, 0.8, 1.8, 3.0, 4.8, 9.0];
 
 /// The same from the critical speed downwards.
 pub(super) const CAPTURE_EDGES: [f64; 4] = [1.2, 2.6, 4.4, 9.0];
