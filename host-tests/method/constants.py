@@ -63,7 +63,7 @@ C = [
     ("LINEAR_SWING, BEYOND_SWING", "1e-3, 1.01", "path: `outer_turning_point`", "amplitude up to which the well is a parabola; the guess lies 1 % beyond"),
     ("TURNING_HALVINGS, TURNING_STEPS", "12, 3", "path: `outer_turning_point`", "only a first value for an arrival"),
     ("EQUILIBRIUM_START, EQUILIBRIUM_STEPS", "2, 100", "path: `equilibrium`", "beyond the bottom of every well without external force ($s_q^2=\\frac35p$)"),
-    ("MOST_DOUBLINGS, WELL_STEPS, WELL_ACCURACY, BARRIER_HALVINGS", "60, 250, 1e-5, 60", "well", "from 1, doubled until the potential rises there as it does beyond its minimum, with a slope that grows at least like the power $\\frac52$ of $s$, half of that of the elastic energy; Newton's method then removes a fixed fraction each time if the force is a power of $s$"),
+    ("WELL_STEPS, WELL_ACCURACY, BARRIER_HALVINGS", "250, 1e-5, 60", "well", "from 1, doubled until the potential rises there as it does beyond its minimum, with a slope that grows at least like the power $\\frac52$ of $s$, half of that of the elastic energy; Newton's method then removes a fixed fraction each time if the force is a power of $s$"),
     ("**Whole phases**",),
     ("FIRST_LOSS_WEIGHT, LAST_LOSS_WEIGHT", "0.56, 0.36", "phase: `approach`", "$u$ over its middle value near the peak and near $s=0$, halved"),
     ("`energy_power`", "5", "phase: `approach`, `correct_peak`", "power of the coordinate in the elastic energy, `energy_power` of the law; 5/2 and 15/8 follow from it"),

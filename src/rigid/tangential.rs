@@ -124,14 +124,17 @@ impl<T: Real, M: Oblique<T>> TangentialTerm<T, M> for RollingDissipation<T> {
         let (gyration_ratio, contact_inertia) = (sphere.gyration_ratio(), sphere.contact_inertia());
         let slip = motion.slip();
         let limit = self.friction.coefficient() * normal.impulse();
-        // Without the moment: the peripheral velocity at separation and, in its direction, twice the mean over the impact.
+        // The peripheral velocity at separation without the moment,
         let free = Friction::against(slip, limit, contact_inertia);
         let (_, spinning) = free.velocities(motion, T::ZERO, gyration_ratio);
-        let slides = if free.rolls { free.total.saturating_div(free.sliding) } else { T::ONE };
+        let mut most = spinning.abs();
         let before = if spinning > T::ZERO { motion.peripheral() } else { -motion.peripheral() };
-        let mean = spinning.abs() * (T::constant(2.0) - slides) + before * slides;
-        let most = gyration_ratio * spinning.abs().min(mean.max(T::ZERO));
-        let size = (self.ratio * normal.impulse()).min(most);
+        if before < T::ZERO {
+            // and, where friction reverses it, twice the mean over the impact in its direction.
+            let slides = if free.rolls { free.total / free.sliding } else { T::ONE };
+            most = most.min((most * (T::constant(2.0) - slides) + before * slides).max(T::ZERO));
+        }
+        let size = (self.ratio * normal.impulse()).min(gyration_ratio * most);
         let moment = if spinning > T::ZERO { -size } else { size };
         let friction = Friction::against_moment(slip, limit, moment, gyration_ratio, contact_inertia);
         TangentialImpact::new(sphere, motion, normal, friction, moment)

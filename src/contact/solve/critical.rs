@@ -108,7 +108,8 @@ pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(toleranc
     // Where the well is shallow, speeds are small in it.
     let scale = (two * depth).sqrt().min(T::ONE);
     let finer = Control { converged: control.converged * scale, ..control };
-    let start = if barrier > law.end() {
+    let barred = law.may_have_barrier() && barrier > law.end();
+    let start = if barred {
         beside_barrier(law, barrier, bottom, tolerance)
     } else {
         Point { s: barrier, energy: rest, speed_squared: T::ZERO }
@@ -124,7 +125,7 @@ pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(toleranc
     // Where damping leaves little of the energy of the impact, errors count in proportion to what is left.
     let left = (kinetic / energy).min(T::ONE);
     control.error = (control.error * (left * left).max(T::constant(LEAST_SQUARED_FRACTION))).max(unattainable());
-    if barrier > law.end() {
+    if barred {
         // The sphere is slow where it passes the barrier on its way in.
         control.times = T::constant(UNTIMED);
     }
@@ -322,7 +323,7 @@ impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
     {
         // From the end of contact the speed begins as a root. From a barrier it begins in proportion to the distance, and what is wrong
         // there grows on the way: the error is no square.
-        let (mut resting, mut length) = (self.at.s <= self.law.end(), to - self.at.s);
+        let (mut resting, mut length) = (!self.law.may_have_barrier() || self.at.s <= self.law.end(), to - self.at.s);
         let error = self.control.error;
         let strict = if resting { T::constant(ROOT_ERROR) * error } else { T::constant(BARRIER_ERROR) * error * error };
         self.control.error = strict.max(unattainable());
@@ -342,6 +343,8 @@ impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
 
     /// Tries an interval of signed length `step`, `from_rest` where the speed begins as a power of it: whether it was
     /// taken, and how long the next should be. `None` where it is of no use to go on.
+    // Inlined into both directions, it would be there twice.
+    #[inline(never)]
     fn step<const N: usize>(&mut self, step: T, from_rest: bool, course: Course) -> Option<(bool, T)>
     where
         T: Nodes<N>,

@@ -131,6 +131,16 @@ where
         if law.loss_power() < WEIGHT_POWER || (O::EVENTS && M < N + NODES_OF_EVENTS) {
             return NormalPath::unsupported(energy);
         }
+        // Shows a phase, and returns the error of what is observed.
+        let mut observe = |phase: &Phase<T, N>, rebound| {
+            if !O::OBSERVES {
+                return T::ZERO;
+            }
+            let whole = phase.samples::<M>(law, rebound);
+            let error = if O::DEMANDS { observer.error(law, &whole) } else { T::ZERO };
+            show(law, phase, &whole, rebound, T::constant(END_OF_SLIP).max(T::EPSILON), observer);
+            error
+        };
         let moves = |by: T| by.abs() > T::constant(UNSTEADY) * energy;
         let mut phase = Phase::<T, N>::approach(law, energy);
         let mut lost = phase.estimate;
@@ -148,25 +158,11 @@ where
             (earlier, moved) = (moved, lost - before);
             at_peak = phase.correct_peak(law, energy, lost);
         }
-        let mut uncertain = self.unconverged(moved, earlier, lost);
+        let of_approach = self.unconverged(moved, earlier, lost);
         let approach = phase.tails(lost);
-        // Where the potential is flat one step for the peak leaves an error.
-        uncertain = uncertain + (law.potential(phase.peak) - at_peak).abs();
-        // Losses on the way out only add to what is missing already at the peak.
-        let (_, escape) = barrier(law);
-        let of_approach = uncertain + approach.bound();
-        let held = at_peak - escape < -(of_approach + of_approach) && of_approach <= T::constant(LARGEST_LOSS_ERROR);
         // Where the approach comes to a stand before its peak, there is another one.
-        let mut represented = phase.is_represented(STRONGEST) && (!law.may_have_barrier() || phase.is_moving());
-        let (mut observed, end_of_slip) = (T::ZERO, T::constant(END_OF_SLIP).max(T::EPSILON));
-        if O::OBSERVES && represented {
-            let whole = phase.samples::<M>(law, false);
-            if O::DEMANDS {
-                observed = observer.error(law, &whole);
-            }
-            show(law, &phase, &whole, false, end_of_slip, observer);
-        }
-        let held = held && represented;
+        let arrives = phase.is_represented(STRONGEST) && (!law.may_have_barrier() || phase.is_moving());
+        let observed = if arrives { observe(&phase, false) } else { T::ZERO };
         phase.turn(law);
         let mut gained = T::ZERO;
         moved = energy;
@@ -181,16 +177,11 @@ where
             (earlier, moved) = (moved, gained - before);
         }
         let rebound = phase.tails(gained);
-        represented &= phase.is_represented(STRONGEST) && phase.peak > T::ZERO;
-        let moving = phase.is_moving();
-        let whole = (O::OBSERVES && represented && moving).then(|| phase.samples::<M>(law, true));
-        if O::DEMANDS
-            && let Some(whole) = &whole
-        {
-            observed = observed.max(observer.error(law, whole));
-        }
-        uncertain = uncertain + self.unconverged(moved, earlier, gained);
-        uncertain = uncertain + T::constant(ROUNDINGS * N as f64) * T::EPSILON;
+        let mut represented = arrives && phase.is_represented(STRONGEST) && phase.peak > T::ZERO;
+        // Where the potential is flat one step for the peak leaves an error.
+        let flat = (law.potential(phase.peak) - at_peak).abs();
+        let of_approach = of_approach + (flat + T::constant(ROUNDINGS * N as f64) * T::EPSILON);
+        let mut uncertain = of_approach + self.unconverged(moved, earlier, gained);
         let (losses, slow_end) = approach.bound_with(&rebound);
         uncertain = uncertain + losses.min(T::ONE);
         if law.may_have_barrier() {
@@ -202,6 +193,7 @@ where
         timely &= observed <= largest;
         let left = at_peak + gained;
         // A sphere that comes slower than a barrier is high, or loses so much on its way there, never meets the peak computed here.
+        let (_, escape) = barrier(law);
         let excess = left - escape;
         let clear = T::constant(BARRIER_MARGIN) * energy;
         let passes =
@@ -213,27 +205,24 @@ where
         }
         // A captured sphere turns back before the slow end, whose error counts once for it.
         let slow_end = slow_end.min(T::ONE);
-        let captured = excess + slow_end < -(uncertain + uncertain) && uncertain <= T::constant(LARGEST_LOSS_ERROR);
+        let captured = self.is_held(uncertain, excess + slow_end);
         uncertain = uncertain + slow_end;
-        let end = if held && passes {
+        // Losses on the way out only add to what is missing at the peak already.
+        let held_at_peak = || self.is_held(of_approach + approach.bound(), at_peak - escape);
+        let known = represented && passes;
+        let mut end = if known && captured {
             End::Capture
-        } else if !(represented && passes) {
-            End::Budget
-        } else if captured {
-            End::Capture
-        } else if excess <= uncertain && uncertain <= T::constant(LARGEST_UNDECIDED) * energy {
+        } else if known && excess <= uncertain && uncertain <= T::constant(LARGEST_UNDECIDED) * energy {
             End::Undecided
-        } else if !(uncertain <= largest * energy && timely) {
-            End::Budget
-        } else if moving && left - energy <= uncertain {
+        } else if known && timely && uncertain <= largest * energy && phase.is_moving() && left - energy <= uncertain {
             End::Separation
+        } else if arrives && passes && held_at_peak() {
+            End::Capture
         } else {
             End::Budget
         };
-        if end == End::Separation
-            && let Some(whole) = &whole
-        {
-            show(law, &phase, whole, true, end_of_slip, observer);
+        if end == End::Separation && observe(&phase, true) > largest {
+            end = End::Budget;
         }
         // Of what diverges not even the bound is a number.
         let error = if uncertain < energy { uncertain.saturating_div(energy) } else { T::ONE };
@@ -244,6 +233,12 @@ where
 }
 
 impl<const N: usize, const M: usize> FixedCost<N, M> {
+    /// Whether an energy beyond what a rebound needs is negative for certain, by twice its bound.
+    #[inline]
+    fn is_held<T: Real>(&self, uncertain: T, excess: T) -> bool {
+        uncertain <= T::constant(LARGEST_LOSS_ERROR) && excess < -(uncertain + uncertain)
+    }
+
     /// Bound of the error that iterations leave, from the changes by the last and the one before, and the energy lost. They
     /// converge superlinearly.
     #[inline]

@@ -757,9 +757,16 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
 
     /// Contact radius at which the forces balance: the minimum of the potential, by Newton's method from above.
     pub(crate) fn equilibrium(&self) -> Option<T> {
-        let first = T::constant(EQUILIBRIUM_START);
-        // An external force may also hold the sphere beyond.
-        let mut s = if self.law.may_have_barrier() { well::beyond_bottom(self.law, first)? } else { first };
+        let mut s = T::constant(EQUILIBRIUM_START);
+        if self.law.may_have_barrier() {
+            // An external force may also hold the sphere beyond.
+            for _ in 0..MOST_SHRINKS {
+                if well::is_beyond_bottom(self.law, s, self.law.slope(s), self.law.curvature(s)) {
+                    break;
+                }
+                s = s + s;
+            }
+        }
         for _ in 0..EQUILIBRIUM_STEPS {
             let curvature = self.law.curvature(s);
             if curvature <= T::ZERO {

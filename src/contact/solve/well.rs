@@ -3,10 +3,8 @@
 use crate::Real;
 use crate::contact::law::ContactLaw;
 
-/// Doublings in the search for a place beyond the bottom.
-const MOST_DOUBLINGS: u32 = 60;
-
-/// Steps of Newton's method towards it. If the force is a power of the coordinate, each takes a fixed fraction off.
+/// Steps towards the bottom: doublings to a place beyond it, then those of Newton's method. If the force is a power of the
+/// coordinate, each of these takes a fixed fraction off.
 const WELL_STEPS: u32 = 250;
 
 /// Relative step at which it ends: the potential is flat there.
@@ -20,9 +18,14 @@ const BARRIER_HALVINGS: u32 = 60;
 pub(crate) fn well<T: Real>(law: &impl ContactLaw<T>) -> Option<(T, T)> {
     let end = law.end();
     // Newton's method from above.
-    let mut bottom = beyond_bottom(law, T::ONE)?;
+    let (mut bottom, mut above) = (T::ONE, false);
     for _ in 0..WELL_STEPS {
         let (slope, curvature) = (law.slope(bottom), law.curvature(bottom));
+        above = above || is_beyond_bottom(law, bottom, slope, curvature);
+        if !above {
+            bottom = bottom + bottom;
+            continue;
+        }
         if curvature <= T::ZERO {
             return None;
         }
@@ -50,19 +53,12 @@ pub(crate) fn well<T: Real>(law: &impl ContactLaw<T>) -> Option<(T, T)> {
     (law.potential(barrier) > law.potential(bottom)).then_some((barrier, bottom))
 }
 
-/// A coordinate beyond the minimum of the potential, no smaller than `first`.
-pub(super) fn beyond_bottom<T: Real>(law: &impl ContactLaw<T>, first: T) -> Option<T> {
+/// Whether a coordinate is no smaller than that of the minimum of the potential, by slope and curvature there.
+#[inline]
+pub(super) fn is_beyond_bottom<T: Real>(law: &impl ContactLaw<T>, s: T, slope: T, curvature: T) -> bool {
     // In front of the barrier of a force out of the surface the potential rises too, but by a low power of the coordinate.
     let power = T::constant(0.5 * law.energy_power());
-    let mut s = first;
-    for _ in 0..MOST_DOUBLINGS {
-        let slope = law.slope(s);
-        if slope >= T::ZERO && (!law.may_have_barrier() || s * law.curvature(s) >= power * slope) {
-            return Some(s);
-        }
-        s = s + s;
-    }
-    None
+    slope >= T::ZERO && (!law.may_have_barrier() || s * curvature >= power * slope)
 }
 
 /// Coordinate and height of the barrier that holds a sphere; where there is none, the end of contact and zero.
