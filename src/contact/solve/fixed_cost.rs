@@ -109,18 +109,22 @@ const STRONGEST: f64 = 8.0;
 /// Tolerance to which the end of sliding is found within a phase, for outputs that need it.
 const END_OF_SLIP: f64 = 1e-9;
 
-/// Bound of the error that iterations leave, over the last change and the fraction by which it is smaller than the one before,
+/// Bound of the error that iterations leave, over Aitken's estimate from the last two changes,
 const CHANGE_MARGIN: f64 = 2.0;
 
-/// and over the last change alone: at least, since a change may be small by chance, and at most.
+/// and over the last change alone: at least, and at most. Both changes may be alike because they are rounding.
 const LEAST_MARGIN: f64 = 0.5;
-const LARGEST_MARGIN: f64 = 1.5;
+const LARGEST_MARGIN: f64 = 10.0;
 
-/// The same after fewer iterations than three, when changes say little of the next,
+/// Largest factor by which an iteration multiplies an error, over the drag at the peak: the last change may be small by chance, the one
+/// before is not as well.
+const CONTRACTION: f64 = 0.1;
+
+/// The same over the last change after fewer iterations than three, when it says little of the next,
 const EARLY_MARGIN: f64 = 2.0;
 
 /// and the part of the energy lost that they may miss: there is no earlier change to show that the last is small by chance.
-const EARLY_LOSSES: f64 = 3e-4;
+const EARLY_LOSSES: f64 = 1e-3;
 
 impl<T, const N: usize, const M: usize> Method<T> for FixedCost<N, M>
 where
@@ -158,11 +162,11 @@ where
             (earlier, moved) = (moved, lost - before);
             at_peak = phase.correct_peak(law, energy, lost);
         }
-        let of_approach = self.unconverged(moved, earlier, lost);
+        let of_approach = self.unconverged(moved, earlier, phase.drag(), lost);
         let approach = phase.tails(lost);
         // Where the approach comes to a stand before its peak, there is another one.
         let arrives = phase.is_represented(STRONGEST) && (!law.may_have_barrier() || phase.is_moving());
-        let observed = if arrives { observe(&phase, false) } else { T::ZERO };
+        let approach_error = if arrives { observe(&phase, false) } else { T::ZERO };
         phase.turn(law);
         let mut gained = T::ZERO;
         moved = energy;
@@ -178,19 +182,22 @@ where
         }
         let rebound = phase.tails(gained);
         let mut represented = arrives && phase.is_represented(STRONGEST) && phase.peak > T::ZERO;
-        // Where the potential is flat one step for the peak leaves an error.
-        let flat = (law.potential(phase.peak) - at_peak).abs();
-        let of_approach = of_approach + (flat + T::constant(ROUNDINGS * N as f64) * T::EPSILON);
-        let mut uncertain = of_approach + self.unconverged(moved, earlier, gained);
-        let (losses, slow_end) = approach.bound_with(&rebound);
-        uncertain = uncertain + losses.min(T::ONE);
+        let lost_in_all = approach.lost + rebound.lost;
+        // One step for the peak leaves an error there, which changes the losses; large where the potential is flat.
+        let misplaced = (law.potential(phase.peak) - at_peak).abs();
+        let growth = T::constant(law.energy_power()) * lost_in_all;
+        let flat = misplaced * growth.saturating_div(phase.peak * law.slope(phase.peak));
+        let rounding = T::constant(ROUNDINGS * N as f64) * (T::EPSILON * (energy + lost_in_all) + T::SMALLEST);
+        let of_approach = of_approach + flat.abs() + rounding;
+        let mut uncertain = of_approach + self.unconverged(moved, earlier, phase.drag(), gained);
+        uncertain = uncertain + approach.bound_with::<N>(&rebound).min(T::ONE);
         if law.may_have_barrier() {
             // In front of a barrier the sphere may be slowest on its way, where no polynomial is exact.
             represented &= approach.slowness.max(rebound.slowness) <= T::constant(LARGEST_SLOWNESS);
         }
         let largest = T::constant(LARGEST_ERROR);
-        let mut timely = !O::TIMED || approach.error_of_times(energy).max(rebound.error_of_times(energy)) <= largest;
-        timely &= observed <= largest;
+        let error_in = if O::TIMED { approach_error.max(approach.error_of_times(energy)) } else { approach_error };
+        let timely = error_in <= largest && (!O::TIMED || rebound.error_of_times(energy) <= largest);
         let left = at_peak + gained;
         // A sphere that comes slower than a barrier is high, or loses so much on its way there, never meets the peak computed here.
         let (_, escape) = barrier(law);
@@ -203,20 +210,24 @@ where
         if self.iterations > 2 && (before > T::ZERO) != (excess > T::ZERO) {
             uncertain = uncertain.max(moved.abs() + earlier.abs());
         }
-        // A captured sphere turns back before the slow end, whose error counts once for it.
-        let slow_end = slow_end.min(T::ONE);
-        let captured = self.is_held(uncertain, excess + slow_end);
-        uncertain = uncertain + slow_end;
-        // Losses on the way out only add to what is missing at the peak already.
-        let held_at_peak = || self.is_held(of_approach + approach.bound(), at_peak - escape);
+        let captured = uncertain <= T::constant(LARGEST_LOSS_ERROR) && excess < -(uncertain + uncertain);
+        // What is told of a capture ends at the peak, where the energy is that of the adhesion too.
+        let arrived = arrives && of_approach <= largest * (energy + approach.lost);
+        let observed = !O::TO_TURNING_POINT || (arrived && error_in <= largest);
         let known = represented && passes;
-        let mut end = if known && captured {
+        let mut end = if known && captured && observed {
             End::Capture
-        } else if known && excess <= uncertain && uncertain <= T::constant(LARGEST_UNDECIDED) * energy {
+        } else if known && !captured && excess <= uncertain && uncertain <= T::constant(LARGEST_UNDECIDED) * energy {
             End::Undecided
         } else if known && timely && uncertain <= largest * energy && phase.is_moving() && left - energy <= uncertain {
             End::Separation
-        } else if arrives && passes && held_at_peak() {
+        } else if observed
+            && !law.may_have_barrier()
+            && law.potential(phase.peak) < T::ZERO
+            && phase.least_loss(law) > energy
+        {
+            // The sphere comes to a stand where the potential is negative: had it come further, to a peak where it is zero, it
+            // would have lost more than its energy.
             End::Capture
         } else {
             End::Budget
@@ -224,31 +235,29 @@ where
         if end == End::Separation && observe(&phase, true) > largest {
             end = End::Budget;
         }
+        // Between the bound and twice the bound a capture is not certain.
+        let bound = if end == End::Undecided { uncertain.max(excess.abs()) } else { uncertain };
         // Of what diverges not even the bound is a number.
-        let error = if uncertain < energy { uncertain.saturating_div(energy) } else { T::ONE };
+        let error = if bound < energy { bound.saturating_div(energy) } else { T::ONE };
+        let peak = if arrived { phase.peak } else { T::ZERO };
         let statistics =
             Statistics { intervals: 2, refused: 0, iterations: 2 * self.iterations, nodes: N as u32, error };
-        NormalPath { end, energy: left, peak: phase.peak, turning: T::ZERO, error_bound: error, statistics }
+        NormalPath { end, energy: left, peak, turning: T::ZERO, error_bound: error, statistics }
     }
 }
 
 impl<const N: usize, const M: usize> FixedCost<N, M> {
-    /// Whether an energy beyond what a rebound needs is negative for certain, by twice its bound.
+    /// Bound of the error that iterations leave, from the changes by the last and the one before, the drag, and the energy lost.
     #[inline]
-    fn is_held<T: Real>(&self, uncertain: T, excess: T) -> bool {
-        uncertain <= T::constant(LARGEST_LOSS_ERROR) && excess < -(uncertain + uncertain)
-    }
-
-    /// Bound of the error that iterations leave, from the changes by the last and the one before, and the energy lost. They
-    /// converge superlinearly.
-    #[inline]
-    fn unconverged<T: Real>(&self, last: T, before: T, lost: T) -> T {
-        let last = last.abs();
+    fn unconverged<T: Real>(&self, last: T, before: T, drag: T, lost: T) -> T {
+        let size = last.abs();
         if self.iterations < 3 {
-            return T::constant(EARLY_MARGIN) * last + T::constant(EARLY_LOSSES) * lost.abs();
+            return T::constant(EARLY_MARGIN) * size + T::constant(EARLY_LOSSES) * lost.abs();
         }
-        let fraction = last.saturating_div(before.abs() + T::SMALLEST);
-        let margin = T::constant(CHANGE_MARGIN) * fraction.min(T::ONE);
-        last * margin.max(T::constant(LEAST_MARGIN)).min(T::constant(LARGEST_MARGIN))
+        let fraction = size.saturating_div((before - last).abs() + T::SMALLEST);
+        let margin = T::constant(CHANGE_MARGIN) * fraction;
+        let contraction = T::constant(CONTRACTION) * drag;
+        let of_change = size * margin.max(T::constant(LEAST_MARGIN)).min(T::constant(LARGEST_MARGIN));
+        of_change.max(contraction * contraction * before.abs())
     }
 }
