@@ -281,6 +281,8 @@ pub enum Fault {
     ExceedsRadius,
     /// The tolerance is below what the rounding of the number type allows.
     BelowPrecision,
+    /// The tolerance is below what the number of nodes can keep.
+    TooFewNodes,
 }
 
 /// An invalid input: the parameter, the value found, and how the value misses its range.
@@ -341,6 +343,10 @@ impl fmt::Display for InputError {
         match fault {
             Fault::ExceedsRadius => f.write_str("not exceed the radius of the sphere"),
             Fault::BelowPrecision => f.write_str("be at least 1e-6 in single and 1e-13 in double precision"),
+            Fault::TooFewNodes => f.write_str(
+                "be at least 1e-3 with four nodes, 1e-4 with five, 1e-5 with six, 1e-7 with seven, 1e-9 with eight and 1e-11 \
+                 with nine; use more nodes or `Adaptive`",
+            ),
             Fault::NotFinite => write!(f, "be a number from {} to {}{unit}", Number(smallest), Number(largest)),
             Fault::TooSmall | Fault::TooLarge => {
                 write!(f, "be {} to {}{unit}", Number(smallest), Number(largest))?;

@@ -11,12 +11,14 @@ use crate::{Fault, InputError, Parameter, Real};
 
 /// The method that solves the normal motion by collocation at `N` nodes, in as many intervals as the tolerance needs.
 ///
-/// Seven nodes suit a tolerance of 1e-6, nine 1e-9, twelve 1e-12; in single precision eight.
+/// Seven nodes suit a tolerance of 1e-6, nine 1e-9, twelve 1e-12; in single precision eight. Few nodes cannot keep a tight
+/// tolerance: four keep 1e-3, five 1e-4, six 1e-5, seven 1e-7, eight 1e-9, nine 1e-11, and ten or more any.
 ///
 /// ```
 /// use microimpact::contact::Collocation;
 ///
 /// assert!(Collocation::<9, f64>::new(1e-9).is_ok());
+/// assert!(Collocation::<7, f64>::new(1e-9).is_err());
 /// assert!(Collocation::<9, f64>::new(0.0).is_err());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,18 +44,40 @@ const LEAST_TOLERANCE: f64 = 8.0;
 /// Least change of speeds at which iterations end, in roundings: a change of one unit in the last place never ends.
 const LEAST_CHANGE: f64 = 2.0;
 
+/// Least tolerance that a number of nodes keeps. The fewer nodes, the more intervals a tolerance takes, whose errors add up, and the
+/// less the highest coefficients tell of the error. The test `few_nodes_keep_the_tolerances_they_accept` holds it.
+const fn least_tolerance(nodes: usize) -> f64 {
+    match nodes {
+        ..=3 => 1e-2,
+        4 => 1e-3,
+        5 => 1e-4,
+        6 => 1e-5,
+        7 => 1e-7,
+        8 => 1e-9,
+        9 => 1e-11,
+        _ => 0.0,
+    }
+}
+
+/// Margin for the rounding of such a tolerance to the number type.
+const TOLERANCE_ROUNDING: f64 = 0.999;
+
 impl<const N: usize, T: Real> Collocation<N, T> {
     /// A method with a tolerance for e^2: at least 1e-6 in single precision and 1e-13 in double precision.
     ///
     /// # Errors
-    /// A tolerance outside its range, or below what the rounding of the number type allows.
+    /// A tolerance outside its range, below what the rounding of the number type allows, or below what the nodes can keep.
     ///
     /// ```
     /// assert!(microimpact::contact::Collocation::<7, f32>::new(1e-6).is_ok());
     /// assert!(microimpact::contact::Collocation::<7, f32>::new(1e-9).is_err());
     /// ```
     pub fn new(tolerance: T) -> Result<Self, InputError> {
-        Ok(Self { tolerance: checked_tolerance(tolerance)? })
+        let tolerance = checked_tolerance(tolerance)?;
+        if tolerance < T::constant(TOLERANCE_ROUNDING * least_tolerance(N)) {
+            return Err(refused(tolerance, Fault::TooFewNodes));
+        }
+        Ok(Self { tolerance })
     }
 
     /// Intervals after which a run gives up, refused ones included.
@@ -74,10 +98,13 @@ impl<const N: usize, T: Real> Collocation<N, T> {
 pub(super) fn checked_tolerance<T: Real>(tolerance: T) -> Result<T, InputError> {
     let tolerance = Parameter::Tolerance.check(tolerance)?;
     if tolerance < T::constant(LEAST_TOLERANCE) * T::EPSILON {
-        let value = tolerance.to_f64() as f32;
-        return Err(InputError { parameter: Parameter::Tolerance, fault: Fault::BelowPrecision, value });
+        return Err(refused(tolerance, Fault::BelowPrecision));
     }
     Ok(tolerance)
+}
+
+fn refused<T: Real>(tolerance: T, fault: Fault) -> InputError {
+    InputError { parameter: Parameter::Tolerance, fault, value: tolerance.to_f64() as f32 }
 }
 
 impl<T: Nodes<N>, const N: usize> Method<T> for Collocation<N, T> {
