@@ -227,6 +227,8 @@ pub(crate) struct Follower<'a, T, L, O> {
     pub(crate) at: Point<T>,
     /// Where the barrier stands that holds the sphere, and the energy to pass it; zero without an external force.
     pub(crate) barrier: (T, T),
+    /// Place of a barrier that the sphere does not reach, on the way in.
+    in_front_of: Option<T>,
     /// Kinetic energy at first contact.
     kinetic: T,
     /// Largest kinetic energy so far.
@@ -238,21 +240,25 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     pub(crate) fn from(law: &'a L, control: Control<T>, observer: &'a mut O, at: Point<T>) -> Self {
         let kinetic = T::constant(0.5) * at.speed_squared;
         let (barrier, statistics) = ((law.end(), T::ZERO), Statistics::NONE);
-        Self { law, control, observer, at, barrier, kinetic, largest: kinetic, statistics }
+        Self { law, control, observer, at, barrier, in_front_of: None, kinetic, largest: kinetic, statistics }
     }
 
     /// At first contact, with a kinetic energy.
     pub(crate) fn arriving(law: &'a L, energy: T, control: Control<T>, observer: &'a mut O) -> Self {
         let at = Point::arriving(law, energy);
         let mut follower = Self::from(law, control, observer, at);
-        let free = follower.barrier;
         follower.barrier = well::barrier(law);
-        // A sphere that comes slower than a barrier is high turns back in front of it and has none to pass on its way out.
         let (surplus, uncertain) = follower.surplus();
         if surplus < -uncertain {
-            follower.barrier = free;
+            follower.turns_in_front();
         }
         follower
+    }
+
+    /// The sphere comes slower than the barrier is high: it turns back in front of it and has none to pass on its way out.
+    fn turns_in_front(&mut self) {
+        self.in_front_of = Some(self.barrier.0);
+        self.barrier = (self.law.end(), T::ZERO);
     }
 
     /// From first contact to separation or capture.
@@ -307,8 +313,8 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         peak < self.barrier.0 && surplus < -uncertain
     }
 
-    /// Whether the energy at the barrier, on the way in, is more than enough to pass it.
-    fn passes_barrier<const N: usize>(&self, interval: &Interval<T, N>) -> bool {
+    /// Energy beyond that of the barrier, where an interval passes it on the way in.
+    fn surplus_at_barrier<const N: usize>(&self, interval: &Interval<T, N>) -> T {
         let ((place, height), end) = (self.barrier, interval.end);
         let (mut before, mut after) = ((self.at.s, self.at.energy), (end.s, end.energy));
         for (s, y) in interval.s.into_iter().zip(interval.y) {
@@ -319,8 +325,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 after = (s, energy);
             }
         }
-        let there = before.1 + (after.1 - before.1) * (place - before.0) / (after.0 - before.0);
-        there - height > self.surplus().1
+        before.1 + (after.1 - before.1) * (place - before.0) / (after.0 - before.0) - height
     }
 
     /// How the motion ends where no interval is short enough to go on, or none is left.
@@ -342,11 +347,14 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         T: Nodes<N>,
     {
         let half = T::constant(0.5);
-        let beyond = self.undamped_peak();
-        // Without an external force no peak lies beyond one.
-        let farthest = if self.law.may_have_barrier() { beyond } else { T::ONE };
+        let mut beyond = self.undamped_peak();
         let mut length = T::constant(FIRST_LENGTH);
         loop {
+            if let Some(place) = self.in_front_of {
+                beyond = self.turning_point_in_front(place);
+            }
+            // Without an external force no peak lies beyond one.
+            let farthest = if self.law.may_have_barrier() { beyond } else { T::ONE };
             if self.at.s > self.law.start() {
                 let arrival = self.arrive::<N>(beyond, Course::APPROACH);
                 if self.take(&arrival, Course::APPROACH, Some(arrival.end.s))? {
@@ -360,6 +368,9 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 length = self.first_length();
             }
             loop {
+                if let Some(place) = self.in_front_of {
+                    length = length.min(half * (place - self.at.s));
+                }
                 let interval = self.pass::<N>(length, Course::APPROACH);
                 let factor = self.length_factor(N, &interval);
                 if self.take(&interval, Course::APPROACH, None)? {
@@ -372,6 +383,20 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 }
             }
         }
+    }
+
+    /// Where the potential in front of a barrier equals the energy, or a little beyond.
+    fn turning_point_in_front(&self, place: T) -> T {
+        let (mut below, mut above) = (self.at.s, place);
+        for _ in 0..TURNING_HALVINGS {
+            let middle = (below + above) * T::constant(0.5);
+            if self.law.potential(middle) < self.at.energy {
+                below = middle;
+            } else {
+                above = middle;
+            }
+        }
+        above
     }
 
     /// A contact radius that the energy does not reach.
@@ -658,6 +683,17 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     where
         T: Nodes<N>,
     {
+        let enters = !course.rebound && self.law.may_have_barrier() && interval.accepted;
+        if enters && self.at.s < self.barrier.0 && interval.end.s > self.barrier.0 {
+            let (surplus, uncertain) = (self.surplus_at_barrier(interval), self.surplus().1);
+            if surplus < -uncertain {
+                self.turns_in_front();
+                self.statistics.refused += 1;
+                return Ok(false);
+            } else if surplus <= uncertain {
+                return Err(End::Undecided);
+            }
+        }
         if !interval.accepted {
             // An arrival that is refused beforehand costs nothing; there is one at most for each interval taken.
             let tried = interval.forward || interval.error < T::ONE;
@@ -669,11 +705,6 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             match roll {
                 Some(z) => self.split(interval, course, turning_point, z),
                 None => self.observer.observe(self.law, interval, course.rebound),
-            }
-            let enters = !course.rebound && self.law.may_have_barrier();
-            if enters && self.at.s < self.barrier.0 && interval.end.s > self.barrier.0 && !self.passes_barrier(interval)
-            {
-                return Err(End::Undecided);
             }
             let middle = interval.y.get(N / 2).copied().unwrap_or(T::ZERO);
             let largest = interval.end.speed_squared.max(middle * middle);
