@@ -187,3 +187,38 @@ impl<E> defmt::Format for Receiver<'_, E> {
         defmt::write!(f, "Receiver {{ waiting: {=usize}, lost: {=u32} }}", self.consumer.len(), self.lost());
     }
 }
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+
+    use std::thread;
+    use std::vec::Vec;
+
+    use super::Queue;
+
+    /// Two threads in place of an interrupt and a main loop. Miri looks for data races in fewer events.
+    #[test]
+    fn events_cross_threads_in_order_or_are_counted_as_lost() {
+        const EVENTS: u32 = if cfg!(miri) { 300 } else { 1_000_000 };
+        let mut queue = Queue::<u32, 8>::new();
+        let (mut interrupt, mut main_loop) = queue.split();
+        let (received, refused) = thread::scope(|scope| {
+            let sender = scope.spawn(move || (0..EVENTS).filter(|&event| interrupt.send(event).is_err()).count());
+            let mut received = Vec::new();
+            loop {
+                let finished = sender.is_finished();
+                match main_loop.receive() {
+                    Some(event) => received.push(event),
+                    None if finished => break,
+                    None => thread::yield_now(),
+                }
+            }
+            (received, sender.join())
+        });
+        assert!(received.is_sorted_by(|earlier, later| earlier < later));
+        assert_eq!(refused.ok(), Some(EVENTS as usize - received.len()));
+        assert_eq!(main_loop.lost() as usize, EVENTS as usize - received.len());
+        assert!(main_loop.is_empty());
+    }
+}

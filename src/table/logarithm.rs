@@ -121,14 +121,14 @@ mod tests {
     #[test]
     fn errors_over_an_octave() {
         let (mut greatest, mut of_exact) = (0.0_f64, 0.0_f64);
-        for fraction in 0..OCTAVE {
+        for fraction in (0..OCTAVE).step_by(if cfg!(miri) { 100_003 } else { 1 }) {
             let x = f32::from_bits(127 * OCTAVE + fraction);
             greatest = greatest.max((from_one(logarithm(x)) - reference(x)).abs());
             of_exact = of_exact.max((from_one(exact_logarithm(x)) - reference(x)).abs());
         }
         assert!(greatest <= f64::from(LARGEST_ERROR), "{greatest}");
         // A bound far above the actual error would widen every margin.
-        assert!(greatest > 0.9 * f64::from(LARGEST_ERROR), "{greatest}");
+        assert!(cfg!(miri) || greatest > 0.9 * f64::from(LARGEST_ERROR), "{greatest}");
         assert!(of_exact <= 2.0, "{of_exact}");
     }
 
@@ -146,7 +146,7 @@ mod tests {
         let mut x = 1e-12_f32;
         while x < 1e6 {
             assert!((logarithm(number(logarithm(x))) - logarithm(x)).abs() <= 1, "{x}");
-            x *= 1.000_37;
+            x *= if cfg!(miri) { 1.37 } else { 1.000_37 };
         }
     }
 }

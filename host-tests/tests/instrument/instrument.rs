@@ -1,7 +1,5 @@
 //! The way from an interrupt to a class: nothing is lost silently, and statistics stay exact.
 
-use std::thread;
-
 use embedded_hal_mock::eh1::MockError;
 use embedded_hal_mock::eh1::digital::{Mock, State, Transaction};
 use microimpact::contact::{Collocation, Contact, FixedCost, Impulses, RingScene};
@@ -93,31 +91,6 @@ proptest! {
         prop_assert_eq!(counted + fast, tally.count(Class::ReboundSliding) + tally.count(Class::ReboundRolling));
         prop_assert_eq!(tally.restitution_beyond().count(), fast);
     }
-}
-
-/// Two threads in place of an interrupt and a main loop.
-#[test]
-fn events_cross_threads_in_order_or_are_counted_as_lost() {
-    const EVENTS: u32 = 1_000_000;
-    let mut queue = Queue::<u32, 8>::new();
-    let (mut interrupt, mut main_loop) = queue.split();
-    let (received, refused) = thread::scope(|scope| {
-        let sender = scope.spawn(move || (0..EVENTS).filter(|&event| interrupt.send(event).is_err()).count());
-        let mut received = Vec::new();
-        loop {
-            let finished = sender.is_finished();
-            match main_loop.receive() {
-                Some(event) => received.push(event),
-                None if finished => break,
-                None => thread::yield_now(),
-            }
-        }
-        (received, sender.join().unwrap())
-    });
-    assert!(received.is_sorted_by(|earlier, later| earlier < later));
-    assert_eq!(received.len() + refused, EVENTS as usize);
-    assert_eq!(main_loop.lost() as usize, refused);
-    assert!(main_loop.is_empty());
 }
 
 /// Every kind of scene gives the class and restitution that its own functions give.
