@@ -19,8 +19,8 @@ pub enum Outcome {
     Rebound,
     /// The surface holds the sphere.
     Capture,
-    /// The remaining energy is smaller than its error bound, so that a simulation knows neither. The rigid-body model always
-    /// decides.
+    /// The remaining energy, or that with which the sphere passes the barrier of an external force, is smaller than its error bound,
+    /// so that a simulation knows neither. The rigid-body model always decides.
     Undecided,
 }
 

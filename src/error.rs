@@ -344,7 +344,7 @@ impl fmt::Display for InputError {
             Fault::ExceedsRadius => f.write_str("not exceed the radius of the sphere"),
             Fault::BelowPrecision => f.write_str("be at least 1e-6 in single and 1e-13 in double precision"),
             Fault::TooFewNodes => f.write_str(
-                "be at least 1e-3 with four nodes, 1e-4 with five, 1e-5 with six, 1e-7 with seven, 1e-9 with eight and 1e-11 \
+                "be at least 1e-3 with four nodes, 3e-4 with five, 1e-5 with six, 1e-7 with seven, 1e-9 with eight and 1e-11 \
                  with nine; use more nodes or `Adaptive`",
             ),
             Fault::NotFinite => write!(f, "be a number from {} to {}{unit}", Number(smallest), Number(largest)),

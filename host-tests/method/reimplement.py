@@ -510,6 +510,11 @@ class Phase:
         self.u = np.maximum(old + self.h * (target - old * old), 1e-3)
         return 0.5 * (self.G.w @ (self.loss * self.u)), float(np.sum((self.u - old) ** 2))
 
+    def tail(self):
+        """What the nodes do not resolve of the energy lost, and this energy."""
+        power = self.loss * self.u
+        return 0.5 * abs(self.G.high @ power), 0.5 * abs(self.G.w @ power)
+
     def errors(self):
         G, power, slow = self.G, self.loss * self.u, 1 / self.u
         lost = 0.5 * abs(G.w @ power) / self.E
@@ -521,32 +526,51 @@ class Phase:
 
 def fixed_cost(law, E, n, iterations):
     ph = Phase(law, E, n)
-    lost, moved = ph.lost, 0.0
+    drag = lambda: abs(ph.loss[0]) * 2 * ph.h[0]
+    lost, moved = ph.lost, E
     for i in range(iterations):
         if i > 0:
             ph.describe(False)
         if abs(moved) > 0.01 * E:
             ph.h = 0.5 / ph.u
-        before = lost
+        before, earlier = lost, moved
         lost, _ = ph.iterate()
         moved = lost - before
         E_peak = ph.correct_peak(lost)
-    unconverged = abs(moved)
+    bound = unconverged(iterations, moved, earlier, drag(), lost)
+    tail_in, lost_in = ph.tail()
+    mild = ph.loss[0] <= 8 * ph.u[0]
     ph.turn()
-    gained = moved = 0.0
+    gained, moved = 0.0, E
     for _ in range(iterations):
         if abs(moved) > 0.01 * E:
             ph.h = 0.5 / ph.u
         else:
             ph.h[-1] = 0.5 / ph.u[-1]
-        before = gained
+        before, earlier = gained, moved
         gained, _ = ph.iterate()
         moved = gained - before
-    unconverged += abs(moved)
+    tail_out, lost_out = ph.tail()
+    lost = lost_in + lost_out
+    q_in, q_out = tail_in**2 / (lost_in + TINY), tail_out**2 / (lost_out + TINY)
+    bound += unconverged(iterations, moved, earlier, drag(), gained)
+    bound += abs(law.V(ph.a) - E_peak) * 5 * lost / (ph.a * law.V1(ph.a))
+    bound += 2 * n * np.finfo(float).eps * (E + lost)
+    bound += 1.5 * (abs(q_out - q_in) + 0.1 * (q_in + q_out)) + 10 * lost / n**7
     left = E_peak + gained
-    mild = -ph.loss[0] <= 30 * ph.u[0] and left <= 1.0001 * E
-    good = unconverged <= 0.003 * E or (left < 0 and unconverged < -0.25 * left)
-    return dict(E=left, peak=ph.a, ok=mild and good)
+    if iterations > 2 and (left - moved - earlier > 0) != (left > 0):
+        bound = max(bound, abs(moved) + abs(earlier))
+    mild = mild and -ph.loss[0] <= 8 * ph.u[0] and left - E <= bound
+    good = bound <= 0.003 * E and left > bound or (bound <= 0.1 and left < -2 * bound)
+    return dict(E=left, peak=ph.a, bound=bound, ok=mild and good)
+
+
+def unconverged(iterations, last, before, drag, lost):
+    """Bound of the energy that the iterations leave."""
+    if iterations < 3:
+        return 2 * abs(last) + 1e-3 * abs(lost)
+    beta = min(max(2 * abs(last) / (abs(before - last) + TINY), 0.5), 10)
+    return max(beta * abs(last), (0.1 * drag) ** 2 * abs(before))
 
 
 def converged_phases(law, E, n):
@@ -699,6 +723,7 @@ def main():
     for n, it, tol in ((5, 3, 1e-5), (7, 3, 1e-6), (7, 8, 2e-6), (14, 12, 1e-11)):
         got = fixed_cost(q["law"], q["E"], n, it)
         check(f"Table 1, FixedCost<{n}> in {it}, ok={got['ok']}", e(got), reference, tol)
+        check("its bound", e(got) ** 2, reference**2, got["bound"] / q["E"])
     q = units(4.3e-6, 2600.0, 7.5e10, 250.0, 10.5, 6.25, 2.8)
     check("r = 4.3 um", e(collocation(q["law"], q["E"], 9, 1e-9)), 0.620, 5e-4)
 

@@ -232,9 +232,13 @@ pub const PLANES: [Plane; 6] = [
 
 fn beside_critical(distance: f64, zeta_h: f64) -> Option<Impact> {
     let impact = Impact { zeta_h, zeta_a: ADHESION_OVER_MATERIAL * zeta_h, ..Impact::PAPER };
+    Some(Impact { speed: critical_speed(&impact)? * (1.0 + distance), ..impact })
+}
+
+fn critical_speed(impact: &Impact) -> Option<f64> {
     let method = Collocation::<14, f64>::new(1e-13).ok()?;
     match impact.scene::<f64>().ok()?.critical_speed(&method).ok()? {
-        CriticalSpeed::At(critical) => Some(Impact { speed: critical * (1.0 + distance), ..impact }),
+        CriticalSpeed::At(critical) => Some(critical),
         CriticalSpeed::AlwaysRebounds | CriticalSpeed::NeverRebounds => None,
     }
 }
@@ -273,6 +277,26 @@ pub fn random_impacts(seed: u64) -> impl Iterator<Item = (Impact, f64)> {
         let (zeta_h, zeta_a, speed) = (decades(-4.0, 4.0), decades(-4.0, 4.0), decades(-9.0, 4.0));
         (Impact { radius, stiffness, speed, zeta_h, strength, zeta_a }, decades(-12.0, -3.0))
     })
+}
+
+/// Random impacts with an adhesion over inertia q from 1e-3 to 1e3 and with groups h and g of the damping from 1e-6 to 30, as single
+/// precision sees them. Every other one has a speed close to the critical one, down to a billionth of it above or below.
+pub fn impacts_of_random_groups(seed: u64) -> impl Iterator<Item = Impact> {
+    let mut random = StdRng::seed_from_u64(seed);
+    iter::repeat_with(move || {
+        let mut decades = |from: f64, to: f64| 10_f64.powf(random.random_range(from..to));
+        let (ratio, material, adhesion) = (decades(-3.0, 3.0), decades(-6.0, 1.5), decades(-6.0, 1.5));
+        let (close, above): (bool, bool) = random.random();
+        let distance = random.random_range(-9.0..0.0);
+        let impact = Impact::of_groups(ratio, material, adhesion).ok()?;
+        if !close {
+            return Some(impact.in_single_precision());
+        }
+        let distance = 10_f64.powf(distance);
+        let speed = critical_speed(&impact)? * if above { 1.0 + distance } else { 1.0 - 0.9 * distance };
+        Some(Impact { speed, ..impact }.in_single_precision())
+    })
+    .flatten()
 }
 
 /// Largest group of the damping that fixed point holds.

@@ -2,6 +2,7 @@
 
 use microimpact::contact::{Collocation, Contact, FixedCost, Impulses, Method, PhaseSamples, Status};
 use microimpact::{NormalMotion, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
+use reference::grids::PLANES;
 use reference::{Case, cases};
 
 /// Cases of these families whose outcome the method leaves open: they are too strongly damped for so few iterations, or too
@@ -111,4 +112,29 @@ fn strong_damping_is_reported() {
         );
     }
     assert!(unsolved > 50);
+}
+
+/// Largest fraction of the planes of scenes up to that damping, close to the critical speed and far from it, that it refuses.
+const MOST_REFUSED: f64 = 0.02;
+
+#[test]
+fn few_mildly_damped_scenes_are_refused() {
+    const ACROSS: usize = 24;
+    const MILD: f64 = 1.0;
+    let method = FixedCost::<7>::new(3).unwrap();
+    let (mut refused, mut all) = (0, 0);
+    for plane in &PLANES {
+        for (x, y) in
+            plane.x.values(ACROSS).into_iter().flat_map(|x| plane.y.values(ACROSS).into_iter().map(move |y| (x, y)))
+        {
+            let Some(impact) = (plane.impact)(x, y).map(|impact| impact.in_single_precision()) else { continue };
+            let Ok(groups) = impact.scene::<f64>().unwrap().groups(&impact.motion().unwrap()) else { continue };
+            if groups.material_damping.max(groups.adhesion_damping) <= MILD {
+                let impact = impact.scene::<f32>().unwrap().solve(&impact.motion().unwrap(), &method).unwrap();
+                all += 1;
+                refused += u32::from(impact.normal.status() != Status::Solved);
+            }
+        }
+    }
+    assert!(all > 1000 && f64::from(refused) < MOST_REFUSED * f64::from(all), "{refused} of {all}");
 }

@@ -8,6 +8,7 @@ mod chosen;
 mod contest;
 mod critical_speed;
 mod dual;
+mod error_bounds;
 mod everything;
 mod fixed_cost;
 mod fixed_point;

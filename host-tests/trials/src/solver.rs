@@ -133,6 +133,7 @@ pub fn solvers() -> Vec<Solver> {
         Solver::controlled("Adaptive 1e-6", Double, Adaptive::new(1e-6_f64)),
         Solver::controlled("Adaptive 1e-9", Double, Adaptive::new(1e-9_f64)),
         Solver::controlled("Adaptive 1e-12", Double, Adaptive::new(1e-12_f64)),
+        Solver::controlled("Collocation 5, 3e-4", Double, Collocation::<5, f64>::new(3e-4)),
         Solver::controlled("Collocation 7, 1e-6", Double, Collocation::<7, f64>::new(1e-6)),
         Solver::controlled("Collocation 9, 1e-9", Double, Collocation::<9, f64>::new(1e-9)),
         Solver::controlled("Collocation 12, 1e-12", Double, Collocation::<12, f64>::new(1e-12)),
@@ -143,6 +144,7 @@ pub fn solvers() -> Vec<Solver> {
         Solver::new::<f64>("FixedCost 7 x 40", Double, 1e-6, seven(40)),
         Solver::new::<f64>("FixedCost 9 x 6", Double, 1e-7, nine(6)),
         Solver::new::<f64>("FixedCost 9 x 20", Double, 1e-7, nine(20)),
+        Solver::new::<f64>("RungeKuttaGill 50", Double, 1e-2, Ok(RungeKuttaGill::new(50))),
         Solver::new::<f64>("RungeKuttaGill 2000", Double, 1e-4, Ok(RungeKuttaGill::new(2000))),
         Solver::controlled("Adaptive 1e-4", Single, Adaptive::new(1e-4_f32)),
         Solver::controlled("Adaptive 1e-6", Single, Adaptive::new(1e-6_f32)),
@@ -150,6 +152,7 @@ pub fn solvers() -> Vec<Solver> {
         Solver::new::<f32>("FixedCost 5 x 3", Single, 1e-5, five(3)),
         Solver::new::<f32>("FixedCost 7 x 3", Single, 1e-6, seven(3)),
         Solver::new::<f32>("FixedCost 7 x 12", Single, 1e-6, seven(12)),
+        Solver::new::<f32>("RungeKuttaGill 5000", Single, 1e-4, Ok(RungeKuttaGill::new(5000))),
         Solver::fixed::<4>("FixedCost 4 x 2", 2, 1e-4),
         Solver::fixed::<5>("FixedCost 5 x 4", 4, 1e-4),
     ]

@@ -15,9 +15,9 @@ use crate::{InputError, Parameter, Real};
 /// nodes for outputs.
 ///
 /// The error of e over the scenes of the paper and others as mildly damped is 1e-5 with five nodes and 1e-6 with seven, both
-/// in three iterations. Stronger damping needs more iterations. The bound of the error of e^2 consists of the change by the last
-/// iterations, an estimate of what the nodes do not resolve, and rounding. If it exceeds 0.003, the status of the result is not
-/// *solved*; if e^2 is smaller, the outcome is *undecided*. Use [`Collocation`] for such impacts.
+/// in three iterations. Stronger damping needs more iterations. The bound of the error of e^2 consists of what the iterations leave,
+/// what the nodes do not resolve, and rounding; the chapter on the [method](crate::contact::method) derives it. If it exceeds 0.003,
+/// the status of a rebound is not *solved*; if e^2 is smaller, the outcome is *undecided*. Use [`Collocation`] for such impacts.
 ///
 /// ```
 /// use microimpact::contact::{Contact, FixedCost};

@@ -261,6 +261,9 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
                 }
             } else if path.end == End::Undecided {
                 uncertain = margin.max(changed).max((escape - left).abs());
+                if uncertain > energy {
+                    path.end = End::Budget;
+                }
             } else if path.end == End::Budget && state.0[0] >= outside {
                 let held = lack.is_some_and(|lack| left < escape - margin.max(changed).max(lack));
                 path.end = if held { End::Capture } else { End::Budget };

@@ -61,7 +61,9 @@ pub struct RunReport<T> {
     pub refused: u32,
     /// Evaluations of a speed from the forces, or of the forces in time.
     pub evaluations: u32,
-    /// Bound of the error of e^2. If e^2 differs from zero by less, the outcome is undecided.
+    /// Bound of the error of e^2, and of the energy with which the sphere passes a barrier, over the kinetic energy before the
+    /// impact. If either differs from zero by less, the outcome is undecided: in front of the barrier of a force out of the surface
+    /// e^2 may then be anything.
     pub error_bound: T,
     /// Largest estimated error of an interval or phase, over the energy there; zero where a method has no estimate.
     pub estimated_error: T,
