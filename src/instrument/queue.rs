@@ -192,6 +192,7 @@ impl<E> defmt::Format for Receiver<'_, E> {
 mod tests {
     extern crate std;
 
+    use core::iter;
     use std::thread;
     use std::vec::Vec;
 
@@ -206,15 +207,16 @@ mod tests {
         let (received, refused) = thread::scope(|scope| {
             let sender = scope.spawn(move || (0..EVENTS).filter(|&event| interrupt.send(event).is_err()).count());
             let mut received = Vec::new();
-            loop {
-                let finished = sender.is_finished();
+            while !sender.is_finished() {
                 match main_loop.receive() {
                     Some(event) => received.push(event),
-                    None if finished => break,
                     None => thread::yield_now(),
                 }
             }
-            (received, sender.join())
+            let refused = sender.join();
+            // Only now is all certain to be seen that the other thread has sent.
+            received.extend(iter::from_fn(|| main_loop.receive()));
+            (received, refused)
         });
         assert!(received.is_sorted_by(|earlier, later| earlier < later));
         assert_eq!(refused.ok(), Some(EVENTS as usize - received.len()));
