@@ -10,7 +10,7 @@ mod rigid_body;
 use clap::{Args, ValueEnum};
 use microimpact::contact::TangentialVelocities;
 use microimpact::{NormalMotion, PlanarMotion, Sphere};
-use sheet::{Input, Row, Scalar, reason};
+use sheet::{Input, Row, Scalar};
 
 use crate::Streams;
 use crate::command::{BadRow, BadRows, Number, TABLE_HELP, TableCommand, TableOptions, Work};
@@ -172,12 +172,12 @@ const SCENE_INPUTS: [Input; 7] = {
 fn sphere_and_motion<T: Scalar>(row: &Row<'_>) -> Result<(Sphere<T>, PlanarMotion<T>), String> {
     let gyration_ratio = row.number("gyration_ratio")?.unwrap_or(T::constant(0.4));
     let sphere = Sphere::new(row.required("radius_m")?, row.required("density_kg_m3")?, gyration_ratio);
-    let sphere = sphere.map_err(reason)?;
+    let sphere = sphere.map_err(|error| row.reason(error))?;
     let (speed, tangential) = (row.required("speed_normal_m_s")?, row.or_zero("speed_tangential_m_s")?);
     let spin = row.or_zero("spin_rad_s")?;
     let motion = NormalMotion::new(speed)
         .and_then(|motion| motion.with_tangential(tangential))
         .and_then(|motion| motion.with_spin(&sphere, spin))
-        .map_err(reason)?;
+        .map_err(|error| row.reason(error))?;
     Ok((sphere, motion))
 }
