@@ -6,7 +6,7 @@ use microimpact::contact::{
 };
 use microimpact::rigid::EnergyLedger;
 use microimpact::{Class, InputError, Outcome, PlanarMotion, SurfaceMotion};
-use sheet::{Input, Row, reason};
+use sheet::{Input, Row};
 
 use super::method::Simulator;
 use super::{SCENE_INPUTS, sphere_and_motion};
@@ -118,15 +118,17 @@ impl<T: Number> SimulationModel<T> {
     /// Builds the scene of a row and simulates its impact.
     pub fn compute(&self, row: &Row<'_>) -> Result<Simulated<T>, String> {
         let (sphere, before) = sphere_and_motion(row)?;
-        let scene = Contact::new(sphere, contact_law(row)?).with_friction(row.or_zero("friction")?).map_err(reason)?;
-        let groups = groups(&scene, &before).map_err(reason)?;
+        let scene = Contact::new(sphere, contact_law(row)?)
+            .with_friction(row.or_zero("friction")?)
+            .map_err(|error| row.reason(error))?;
+        let groups = groups(&scene, &before).map_err(|error| row.reason(error))?;
         // Without a moment this is the same motion; so the solver is compiled for one scene only.
-        let scene = scene.with_peeling(row.or_zero("peeling_n_m")?).map_err(reason)?;
+        let scene = scene.with_peeling(row.or_zero("peeling_n_m")?).map_err(|error| row.reason(error))?;
         let (impact, ((times, impulses, works), (slip, energy))) =
-            (self.simulator.simulate)(&scene, &before).map_err(reason)?;
+            (self.simulator.simulate)(&scene, &before).map_err(|error| row.reason(error))?;
         let (normal, tangential, status) = (impact.normal, impact.tangential, impact.run.status);
         let (Status::Solved, Some(outcome), Some(class)) = (status, normal.outcome(), impact.class()) else {
-            return Err(self.simulator.refusal(status));
+            return Err(self.simulator.refusal(status, &scene, &before));
         };
         let follows_captures = self.simulator.follows_captures;
         Ok(Simulated {
