@@ -33,13 +33,15 @@ pub use method::OfferedNodes;
 ///   stiffness_pa (K), adhesion_n_m (f0) [0], zeta_h [0], zeta_a [0], peeling_n_m (lambda) [0],
 ///   external_force_n (positive out of the surface) [0].
 ///
-/// Computed by the simulation: restitution is the overall restitution. time_roll_s is the time at which slip ends: 0 if
-/// there was no slip, -1 if slip does not end. A cell is empty if its quantity does not exist. A captured sphere is followed
-/// to its first turning point: motion (rolling includes resting), velocities, impulses and works are those there. The methods
-/// fixed-cost and runge-kutta-gill do not follow it so far, and leave these cells empty. The summary gives its class and
-/// velocities when slip has ended. The outcome is undecided where a method cannot distinguish rebound from capture; the
-/// cells that depend on it are then empty. A row that a method cannot solve has its reason in the column error, and no
-/// outcome. With both models, columns of the rigid body begin with rigid_body_.
+/// Computed by the simulation: restitution is the overall restitution. motion is sliding, rolling or resting, at separation
+/// or, for a captured sphere, when its slip has ended. time_roll_s is the time at which slip ends: 0 if there was no slip, -1
+/// if slip does not end. A cell is empty if its quantity does not exist or is not computed. A captured sphere is followed to
+/// its first turning point: velocities, impulses and works are those there, and time_roll_s is empty if slip ends later. A
+/// sphere that creeps to rest has no turning point. The methods fixed-cost and runge-kutta-gill do not follow a captured
+/// sphere so far. In both cases the cells of a turning point are empty. The summary gives the velocities when slip has ended. The outcome is
+/// undecided where a method cannot distinguish rebound from capture; the cells that depend on it are then empty. A row that a
+/// method cannot solve has its reason in the column error, and no outcome. With both models, columns of the rigid body begin
+/// with rigid_body_.
 #[derive(Args)]
 #[command(verbatim_doc_comment, after_long_help = TABLE_HELP)]
 pub struct Options {
