@@ -80,15 +80,17 @@ fails, for example because it cannot read the table.";
 /// Options of a command that simulates contacts.
 #[derive(Args)]
 pub struct SimulationOptions {
-    /// Tolerance of the simulation [default: 1e-9].
+    /// Tolerance of the simulation [default: 1e-9 in f64, 1e-6 in f32].
     ///
-    /// It bounds the error of the squared restitution, and the relative error of a critical speed. Rounding limits it: in f32
-    /// the tolerance is 1e-6 at least.
+    /// It bounds the error of the squared restitution, and the relative error of a critical speed. Rounding limits it: it must
+    /// be at least 1e-13 in f64, and 1e-6 in f32.
     #[arg(long)]
     tolerance: Option<f64>,
 }
 
+/// Default tolerances of f64 and f32.
 const TOLERANCE: f64 = 1e-9;
+const SINGLE_TOLERANCE: f64 = 1e-6;
 
 impl SimulationOptions {
     /// Whether a tolerance was given.
@@ -96,9 +98,10 @@ impl SimulationOptions {
         self.tolerance.is_some()
     }
 
-    /// The tolerance.
+    /// The tolerance: without the option, one that the number type can keep.
     pub fn tolerance<T: Real>(&self) -> T {
-        T::constant(self.tolerance.unwrap_or(TOLERANCE))
+        let default = if T::EPSILON < T::constant(TOLERANCE) { TOLERANCE } else { SINGLE_TOLERANCE };
+        T::constant(self.tolerance.unwrap_or(default))
     }
 
     /// The method that keeps this tolerance.

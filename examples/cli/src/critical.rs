@@ -6,7 +6,7 @@
 use clap::Args;
 use microimpact::contact::{Adaptive, Contact};
 use microimpact::{CriticalSpeed, Sphere};
-use sheet::{Input, Row, reason};
+use sheet::{Input, Row};
 
 use crate::Streams;
 use crate::command::{BadRow, BadRows, Number, SimulationOptions, TABLE_HELP, TableCommand, TableOptions, Work};
@@ -65,8 +65,9 @@ struct Critical<T> {
 
 impl<T: Number> Critical<T> {
     fn find(&self, row: &Row<'_>) -> Result<CriticalSpeed<T>, String> {
-        let sphere = Sphere::solid(row.required("radius_m")?, row.required("density_kg_m3")?).map_err(reason)?;
-        Contact::new(sphere, contact_law(row)?).critical_speed(&self.method).map_err(reason)
+        let sphere = Sphere::solid(row.required("radius_m")?, row.required("density_kg_m3")?)
+            .map_err(|error| row.reason(error))?;
+        Contact::new(sphere, contact_law(row)?).critical_speed(&self.method).map_err(|error| row.reason(error))
     }
 }
 

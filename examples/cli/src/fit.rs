@@ -9,6 +9,7 @@ use std::path::PathBuf;
 use clap::Args;
 use comfy_table::Table;
 use joint_fit::{Impact, JointFit, Known, NAMES};
+use microimpact::Parameter;
 use sheet::Input;
 
 use crate::Streams;
@@ -100,10 +101,13 @@ fn read(options: &Options, errors: &mut dyn Write) -> Result<Vec<Impact>, String
     let mut sheet = options.reading.open(NAME, open(&options.file)?, &INPUTS, &[], errors)?;
     let mut impacts = Vec::new();
     while let Some(row) = sheet.next_row()? {
-        let number = |column: &str| row.required(column);
-        let impact = row
-            .check()
-            .and_then(|()| Ok(Impact { speed: number("speed_normal_m_s")?, restitution: number("restitution")? }));
+        let within = |parameter: Parameter, column: &str| {
+            parameter.check(row.required::<f64>(column)?).map_err(|error| row.reason(error))
+        };
+        let impact = row.check().and_then(|()| {
+            let speed = within(Parameter::ApproachSpeed, "speed_normal_m_s")?;
+            Ok(Impact { speed, restitution: within(Parameter::Restitution, "restitution")? })
+        });
         impacts.push(impact.map_err(|reason| format!("row {}: {reason}", row.index()))?);
     }
     Ok(impacts)

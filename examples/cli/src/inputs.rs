@@ -2,7 +2,7 @@
 
 use microimpact::contact::AnyLaw;
 use microimpact::{ConstantRestitution, Real, RestitutionLaw, SpeedRestitution, Stiffness};
-use sheet::{Input, Row, Scalar, reason};
+use sheet::{Input, Row, Scalar};
 
 /// The numbers of a law of contact.
 pub const LAW_INPUTS: [Input; 5] = [
@@ -34,18 +34,19 @@ pub const MOTION_INPUTS: [Input; 3] = [
 
 /// The law of contact of a row: Hertz's, with a ring of adhesion if the row gives one of its columns.
 pub fn contact_law<T: Scalar>(row: &Row<'_>) -> Result<AnyLaw<T>, String> {
-    let stiffness = Stiffness::new(row.required("stiffness_pa")?).map_err(reason)?;
+    let stiffness = Stiffness::new(row.required("stiffness_pa")?).map_err(|error| row.reason(error))?;
     let mut law = AnyLaw::hertz(stiffness);
     // The peeling moment is proportional to the damping of the ring.
     if ["adhesion_n_m", "zeta_a", "peeling_n_m"].iter().any(|column| row.text(column).is_some()) {
-        law = AnyLaw::ring(stiffness, row.or_zero("adhesion_n_m")?, row.or_zero("zeta_a")?).map_err(reason)?;
+        law = AnyLaw::ring(stiffness, row.or_zero("adhesion_n_m")?, row.or_zero("zeta_a")?)
+            .map_err(|error| row.reason(error))?;
     }
     if let Some(zeta) = row.number("zeta_h")? {
-        law = law.with_damping(zeta).map_err(reason)?;
+        law = law.with_damping(zeta).map_err(|error| row.reason(error))?;
     }
     let force = row.or_zero("external_force_n")?;
     if force != T::ZERO {
-        law = law.with_external_force(force).map_err(reason)?;
+        law = law.with_external_force(force).map_err(|error| row.reason(error))?;
     }
     Ok(law)
 }
@@ -76,8 +77,12 @@ impl<T: Real> RestitutionLaw<T> for AnyRestitution<T> {
 /// The restitution law of a row, in numbers that `number` makes of those in its cells.
 pub fn restitution_law<T: Scalar, N: Real>(row: &Row<'_>, number: fn(T) -> N) -> Result<AnyRestitution<N>, String> {
     match (row.number("restitution")?, row.number("restitution_speed_m_s")?) {
-        (Some(r), None) => ConstantRestitution::new(number(r)).map(AnyRestitution::Constant).map_err(reason),
-        (None, Some(k)) => SpeedRestitution::new(number(k)).map(AnyRestitution::Speed).map_err(reason),
+        (Some(r), None) => {
+            ConstantRestitution::new(number(r)).map(AnyRestitution::Constant).map_err(|error| row.reason(error))
+        }
+        (None, Some(k)) => {
+            SpeedRestitution::new(number(k)).map(AnyRestitution::Speed).map_err(|error| row.reason(error))
+        }
         (None, None) => Err("restitution: missing; give restitution or restitution_speed_m_s".into()),
         (Some(_), Some(_)) => {
             Err("restitution: given twice, as restitution and restitution_speed_m_s; leave one of them empty".into())

@@ -95,16 +95,27 @@ fn impossible_rows_say_why() {
         ("gains energy,1e-5,2600,130,0.02,2.8,4,0,2,3.5,-2e6", "kinetic energy after the impact exceeds"),
         (
             "receding,1e-5,2600,130,0.02,-2.8,0,,2,0,",
-            "approach speed is -2.8 m/s, but must be 1e-12 to 1e6 m/s; enter -2.8 m/s as 2.8",
+            "speed_normal_m_s: \"-2.8\" is refused: approach speed must be 1e-12 to 1e6 m/s; enter -2.8 m/s as 2.8",
         ),
-        ("through the wall,1e-5,2600,130,0.02,2.8,0,,-2,0,", "rebound speed is -2 m/s, but must be 0 to 1e6 m/s"),
+        (
+            "through the wall,1e-5,2600,130,0.02,2.8,0,,-2,0,",
+            "rebound_speed_m_s: \"-2\" is refused: rebound speed must be 0 to 1e6 m/s",
+        ),
+        (
+            "too large,10,2600,130,0.02,2.8,0,,2,0,",
+            "diameter_m: \"10\" is refused: half of it, the radius, must be 1e-10",
+        ),
+        (
+            "out too fast,1e-5,2600,130,0.02,2.8,1,0,2,-1e300,",
+            "speed_tangential_out_m_s: \"-1e300\" is refused: tangential velocity must be -1e7 to 1e7 m/s",
+        ),
         ("no size,,2600,130,0.02,2.8,0,,2,0,", "diameter_m: missing"),
         ("no law,1e-5,2600,,0.02,2.8,0,,2,0,", "restitution: missing"),
         ("half of the spins,1e-5,2600,130,0.02,2.8,0,,2,0,10", "spin_out_rad_s: not without spin_rad_s"),
         ("words,1e-5,heavy,130,0.02,2.8,0,,2,0,", "density_kg_m3: \"heavy\" is not a number"),
         (
             "not a number,1e-5,2600,130,0.02,2.8,0,,nan,0,",
-            "rebound speed is NaN, but must be a number from 0 to 1e6 m/s",
+            "rebound_speed_m_s: \"nan\" is refused: rebound speed must be a number from 0 to 1e6 m/s",
         ),
     ];
     let table: Vec<_> = bad.iter().map(|(row, _)| format!("{row}\n")).collect();
@@ -204,6 +215,6 @@ fn long_tables_are_sampled() {
 fn nothing_to_read() {
     assert_eq!(run(&["-"], b"").status, 2);
     let output = run(&["-", "--format", "csv"], HEADER.as_bytes());
-    assert_eq!(output.status, 0);
-    assert!(String::from_utf8(output.stderr).unwrap().contains("impacts: none"));
+    assert_eq!(output.status, 2);
+    assert!(output.complaint().contains("the table has no rows below its header"), "{}", output.complaint());
 }

@@ -67,9 +67,9 @@ fn one_row_out_for_every_row_in() {
     assert_eq!(status, 1);
     assert_eq!(written.rows.len(), rows.len());
     for (row, reason) in [
-        (1, "radius is -1 m, but must be 1e-10 to 1 m"),
-        (2, "approach speed is -2.8 m/s, but must be 1e-12 to 1e6 m/s; enter -2.8 m/s as 2.8"),
-        (3, "restitution is NaN, but must be a number from 0 to 1"),
+        (1, "radius_m: \"-1\" is refused: radius must be 1e-10 to 1 m"),
+        (2, "\"-2.8\" is refused: approach speed must be 1e-12 to 1e6 m/s; enter -2.8 m/s as 2.8"),
+        (3, "restitution: \"nan\" is refused: restitution must be a number from 0 to 1"),
         (4, "density_kg_m3: \"heavy\" is not a number"),
         (5, "restitution: missing"),
         (6, "speed_normal_m_s: missing"),
@@ -255,7 +255,7 @@ fn both_models_side_by_side() {
     assert!(
         written
             .text(3, "error")
-            .starts_with("approach speed is -2.8 m/s, but must be 1e-12 to 1e6 m/s; enter -2.8 m/s as 2.8")
+            .starts_with("speed_normal_m_s: \"-2.8\" is refused: approach speed must be 1e-12 to 1e6 m/s; enter")
     );
 
     for model in ["simulation", "both"] {
@@ -277,11 +277,37 @@ fn single_precision() {
     assert_ne!(single.number(0, "energy_before_j"), double.number(0, "energy_before_j"));
 }
 
+/// What an error of the library holds as f32, the message shows as it was written.
+#[test]
+fn refused_cells_are_quoted() {
+    let refused = |scalar: &str, radius: &str, speed: &str| {
+        let table = format!("radius_m;density_kg_m3;restitution;speed_normal_m_s\n{radius};1;1;{speed}\n");
+        let output = run(&["-", "--format", "csv", "--scalar", scalar], table.as_bytes());
+        assert_eq!(output.status, 1, "{speed}");
+        Written::read(&output.stdout, b';').text(0, "error").to_owned()
+    };
+    for (scalar, radius, speed, words) in [
+        ("f64", "1", "1e300", "speed_normal_m_s: \"1e300\" is refused: approach speed must be 1e-12 to 1e6 m/s"),
+        ("f32", "1", "1e300", "speed_normal_m_s: \"1e300\" is refused: approach speed must be a number from 1e-12"),
+        ("f64", "1", "1e-300", "speed_normal_m_s: \"1e-300\" is refused: approach speed must be 1e-12 to 1e6 m/s"),
+        ("f64", "1", "2,5e-300", "speed_normal_m_s: \"2,5e-300\" is refused: approach speed must be 1e-12 to 1e6 m/s"),
+        ("f64", "1", "1e-400", "speed_normal_m_s: \"1e-400\" is refused: it is too small for f64"),
+        ("f32", "1", "1e-50", "speed_normal_m_s: \"1e-50\" is refused: it is too small for f32"),
+        ("f64", "1", "0e-400", "speed_normal_m_s: \"0e-400\" is refused: approach speed must be 1e-12 to 1e6 m/s"),
+        ("f64", "5", "1", "radius_m: \"5\" is refused: radius must be 1e-10 to 1 m; enter 5 um as 5e-6"),
+    ] {
+        let error = refused(scalar, radius, speed);
+        assert!(error.starts_with(words), "{error}");
+    }
+}
+
 #[test]
 fn unusable_input_is_said_and_exits_with_2() {
     for (arguments, input, word) in [
         (["missing.csv", "--format", "csv"], "", "missing.csv"),
         (["-", "--format", "csv"], "", "empty"),
+        (["-", "--format", "csv"], HEADER, "no rows below its header"),
+        (["-", "--decimal", "point"], HEADER, "no rows below its header"),
         (["-", "--format", "csv"], "radius_m,RADIUS_M\n1,2\n", "twice"),
         (["-", "--format", "pdf"], "", "pdf"),
         (["-", "--tolerance", "0"], "radius_m\n", "tolerance"),

@@ -70,7 +70,7 @@ fn says_what_it_cannot_find() {
             (false, "speed", true)
         ]
     );
-    assert!(rows[2][9].contains("radius is -1 m, but must be 1e-10 to 1 m"));
+    assert!(rows[2][9].contains("radius_m: \"-1\" is refused: radius must be 1e-10 to 1 m"));
     assert!(rows[3][9].contains("stiffness_pa: missing"));
 }
 

@@ -156,6 +156,8 @@ fn tables_that_cannot_be_read_say_where() {
         ("marks", format!("{header}2,5;0,5\n3,5;0.5\n"), "restitution: \"0.5\" in row 2 has a decimal point"),
         ("ambiguous", format!("{header}2;1\n2.500;1\n"), "speed_normal_m_s: \"2.500\" is ambiguous in row 2"),
         ("word", format!("{header}2,5;0,5\n\"3\";half\n"), "row 2: restitution: \"half\" is not a number"),
+        ("rows", header.into(), "the table has no rows below its header"),
+        ("range", format!("{header}2,5;0,5\n1e300;0,5\n"), "row 2: speed_normal_m_s: \"1e300\" is refused"),
         ("few", format!("{header}2,5;0,5\n"), "needs 15 impacts"),
     ] {
         let output = run_on(name, table.as_bytes());

@@ -259,6 +259,10 @@ fn columns_used_defaulted_and_not_read() {
         ("friction_coefficient", "friction"),
         ("peeling", "peeling_n_m"),
         ("speed_tangential", "speed_tangential_m_s"),
+        ("force_n", "external_force_n"),
+        ("lambda", "peeling_n_m"),
+        ("lambda_n_m", "peeling_n_m"),
+        ("f0", "adhesion_n_m"),
     ] {
         let table = format!("radius_m,density_kg_m3,stiffness_pa,speed_normal_m_s,{name}\n5e-6,2600,7.5e10,3,1\n");
         let complaint = said(&table, "classify", &["--model", "simulation"]);
@@ -277,7 +281,7 @@ fn columns_used_defaulted_and_not_read() {
     let absent = said("radius_m,density_kg_m3,stiffness_pa,zeta\n2.5e-6,2600,7.5e10,1\n", "critical", &[]);
     assert!(absent.contains("adhesion_n_m (0 N/m), zeta_h (0), zeta_a (0), external_force_n (0 N)"), "{absent}");
     let measured = said(
-        "diameter_m,density_kg_m3,restitution,speed_normal_m_s,rebound_speed_m_s,speed_tangential_out_m_s\n",
+        "diameter_m,density_kg_m3,restitution,speed_normal_m_s,rebound_speed_m_s,speed_tangential_out_m_s\n1e-5,1,1,1,1,0\n",
         "analyse",
         &[],
     );
@@ -320,8 +324,7 @@ fn absent_required_columns_are_one_error() {
 /// The help of a command names all columns that the command reads.
 #[test]
 fn help_names_all_columns() {
-    let required =
-        "radius_m,density_kg_m3,stiffness_pa,restitution,speed_normal_m_s,rebound_speed_m_s,speed_tangential_out_m_s\n";
+    let required = "radius_m,density_kg_m3,stiffness_pa,restitution,speed_normal_m_s,rebound_speed_m_s,speed_tangential_out_m_s\n1\n";
     for (command, arguments) in [
         ("classify", &["--model", "both"][..]),
         ("classify", &["--model", "simulation"]),

@@ -41,23 +41,72 @@ impl Input {
 /// misspelt words, and keeps quantities apart that begin alike (`impulse_ratio` and `impulse_hertz_n_s`).
 const NEAR: f64 = 0.875;
 
-/// The nearest of some names, if it is near.
-fn nearest<'a>(name: &str, others: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    others
-        .map(|other| (strsim::jaro_winkler(name, other), other))
-        .filter(|(similarity, _)| *similarity > NEAR)
-        .max_by(|(a, _), (b, _)| a.total_cmp(b))
-        .map(|(_, other)| other)
+/// Symbols of the paper, in lower case, and other common names of a quantity, with the columns that may be meant by them.
+const SYMBOLS: [(&str, &[&str]); 17] = [
+    ("d", &["diameter_m"]),
+    ("f", &["friction"]),
+    ("f0", &["adhesion_n_m"]),
+    ("k", &["stiffness_pa", "restitution_speed_m_s"]),
+    ("kappa", &["gyration_ratio"]),
+    ("lambda", &["peeling_n_m"]),
+    ("mu", &["impulse_ratio"]),
+    ("omega", &["spin_rad_s"]),
+    ("r", &["radius_m", "restitution"]),
+    ("rho", &["adhesion_coefficient", "density_kg_m3"]),
+    ("v_n", &["speed_normal_m_s"]),
+    ("v_t", &["speed_tangential_m_s"]),
+    ("velocity_normal", &["speed_normal_m_s"]),
+    ("velocity_tangential", &["speed_tangential_m_s"]),
+    ("w_a", &["work_of_adhesion_j"]),
+    ("zetaa", &["zeta_a"]),
+    ("zetah", &["zeta_h"]),
+];
+
+/// Whether a name is a symbol of a column, alone or with the unit of the column: `lambda` or `lambda_n_m`.
+fn is_symbol(name: &str, column: &str) -> bool {
+    SYMBOLS.iter().filter(|(_, columns)| columns.contains(&column)).any(|(symbol, _)| {
+        name.strip_prefix(symbol)
+            .is_some_and(|unit| unit.is_empty() || (unit.starts_with('_') && column.ends_with(unit)))
+    })
+}
+
+/// Least length of a word that says which quantity is meant; shorter ones are units and indices.
+const WORD: usize = 4;
+
+/// Whether all words of a name are words of a column, as those of `force_n` are of `external_force_n`.
+fn has_words_of(column: &str, name: &str) -> bool {
+    name.split('_').any(|word| word.len() >= WORD)
+        && name.split('_').all(|word| column.split('_').any(|other| other == word))
+}
+
+/// How likely it is that a column is meant by a name, larger for a better guess; `None` if it is unlikely.
+fn likeness(name: &str, column: &str) -> Option<f64> {
+    let similarity = strsim::jaro_winkler(name, column);
+    if is_symbol(name, column) {
+        // The columns of a symbol are alike, so that the first of them is chosen.
+        return Some(2.0);
+    }
+    // Words that agree are a better guess than a similar beginning.
+    if has_words_of(column, name) {
+        return Some(1.0 + similarity);
+    }
+    (similarity > NEAR).then_some(similarity)
+}
+
+/// The likeliest of some names or columns.
+fn likeliest<'a>(others: impl Iterator<Item = &'a str>, likeness: impl Fn(&'a str) -> Option<f64>) -> Option<&'a str> {
+    let likely = others.filter_map(|other| Some((likeness(other)?, other)));
+    likely.reduce(|best, next| if next.0 > best.0 { next } else { best }).map(|(_, other)| other)
 }
 
 /// Checks that a header has all required columns.
 ///
 /// # Errors
-/// Those that are absent, each with the nearest name of the header, and the header.
+/// Those that are absent, each with the likeliest name in the header, and the header.
 pub(crate) fn check(header: &[String], inputs: &[Input]) -> Result<(), String> {
     let unread = || header.iter().map(String::as_str).filter(|name| *name != LABEL && !is_read(name, inputs));
     let absent = inputs.iter().filter(|input| input.default.is_none() && !input.is_in(header)).map(|input| {
-        let near = input.columns.iter().find_map(|column| nearest(column, unread()));
+        let near = input.columns.iter().find_map(|column| likeliest(unread(), |name| likeness(name, column)));
         let near = near.map_or_else(String::new, |near| format!(" (did you mean it by `{near}`?)"));
         format!("{}{near}", input.in_words())
     });
@@ -85,7 +134,7 @@ pub(crate) fn in_words(header: &[String], inputs: &[Input], computed: &[String])
         columns.filter(|column| !header.iter().any(|name| name == column))
     };
     let unread = header.iter().filter(|name| !name.is_empty() && *name != LABEL && !is_read(name, inputs));
-    let unread = unread.map(|name| match nearest(name, absent()) {
+    let unread = unread.map(|name| match likeliest(absent(), |column| likeness(name, column)) {
         Some(near) if !computed.contains(name) => format!("{name} (did you mean `{near}`?)"),
         _ => name.clone(),
     });

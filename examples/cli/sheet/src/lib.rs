@@ -5,6 +5,7 @@
 
 mod columns;
 mod decimal;
+mod refusal;
 
 use std::collections::VecDeque;
 use std::error::Error;
@@ -65,19 +66,19 @@ pub struct Sheet<R> {
     dialect: Dialect,
     inputs: Vec<Input>,
     convention: Convention,
-    /// Rows that were read to judge the decimal mark.
+    /// Rows that were read when the table was opened.
     judged: VecDeque<ByteRecord>,
     /// Rows that were given out.
     given: usize,
 }
 
 impl<'a> Sheet<Box<dyn BufRead + 'a>> {
-    /// Opens a table from which a command reads `inputs`: reads its header and, unless `decimal` gives the decimal mark, its
-    /// first 1000 rows, from which the mark is judged.
+    /// Opens a table from which a command reads `inputs`: reads its header and its first row. Unless `decimal` gives the
+    /// decimal mark, it reads the first 1000 rows and judges the mark from them.
     ///
     /// # Errors
-    /// What is wrong with the table or the cell, in words: required columns are absent, or the marks of all cells may
-    /// separate thousands.
+    /// What is wrong with the table or the cell, in words: required columns are absent, there are no rows, or the marks of all
+    /// cells may separate thousands.
     pub fn open(mut source: impl BufRead + 'a, inputs: &[Input], decimal: Option<Decimal>) -> Result<Self, String> {
         let mut header_line = Vec::new();
         source.read_until(b'\n', &mut header_line).map_err(|error| error.to_string())?;
@@ -93,7 +94,10 @@ impl<'a> Sheet<Box<dyn BufRead + 'a>> {
             return Err(format!("the header names the column {} twice; rename or remove one", twice.1));
         }
         columns::check(&names, inputs)?;
-        let mut judged = VecDeque::new();
+        let mut judged: VecDeque<_> = next_cells(&mut rows)?.into_iter().collect();
+        if judged.is_empty() {
+            return Err("the table has no rows below its header, so there is nothing to compute".into());
+        }
         let convention = match decimal {
             Some(decimal) => Convention::chosen(decimal),
             None => {
@@ -103,11 +107,13 @@ impl<'a> Sheet<Box<dyn BufRead + 'a>> {
                 while judged.len() < JUDGED_ROWS
                     && let Some(cells) = next_cells(&mut rows)?
                 {
-                    for (index, column) in &read {
-                        let text = text(&cells, *index);
-                        judge.add(&Cell { row: judged.len() + 1, column, text: &text });
-                    }
                     judged.push_back(cells);
+                }
+                for (row, cells) in judged.iter().enumerate() {
+                    for (index, column) in &read {
+                        let text = text(cells, *index);
+                        judge.add(&Cell { row: row + 1, column, text: &text });
+                    }
                 }
                 judge.convention(dialect.delimiter == b',')?
             }
@@ -214,14 +220,22 @@ impl Row<'_> {
     /// which the table was opened.
     ///
     /// # Errors
-    /// What is wrong with the table or the cell, in words.
+    /// What is wrong with the table or the cell, in words. A number that the type rounds to zero is an error.
     pub fn number<T: Scalar>(&self, column: &str) -> Result<Option<T>, String> {
         debug_assert!(self.inputs.iter().any(|input| input.columns().contains(&column)), "{column} is no input");
         let Some(text) = self.text(column) else {
             return Ok(None);
         };
         let number = self.convention.with_point(&Cell { row: self.number, column, text: &text })?;
-        number.parse().map(Some).map_err(|_| format!("{column}: \"{text}\" is not a number"))
+        let value: T = number.parse().map_err(|_| format!("{column}: \"{text}\" is not a number"))?;
+        let mantissa = number.split(['e', 'E']).next().unwrap_or_default();
+        if value == T::ZERO && mantissa.contains(|c: char| matches!(c, '1'..='9')) {
+            let scalar = std::any::type_name::<T>();
+            return Err(format!(
+                "{column}: \"{text}\" is refused: it is too small for {scalar}, which would make it 0"
+            ));
+        }
+        Ok(Some(value))
     }
 
     /// The number in a cell that must not be empty.

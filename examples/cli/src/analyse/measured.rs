@@ -5,7 +5,7 @@ use microimpact::{
     Classification, ContactClass, Dual, Impact, NormalMotion, Oblique, Outcome, Real, RigidBody, Sphere, SurfaceMotion,
     TangentialImpact,
 };
-use sheet::{Input, Row, reason};
+use sheet::{Input, Row};
 
 use crate::command::Number;
 use crate::inputs::{DENSITY_INPUT, GYRATION_INPUT, RESTITUTION_INPUT, restitution_law};
@@ -63,13 +63,15 @@ impl<T: Number> Measured<T> {
             row.required("speed_tangential_out_m_s")?,
             peripheral(spin_out),
         ]);
-        let before = NormalMotion::new(normal).and_then(|motion| motion.with_tangential(tangential)).map_err(reason)?;
+        let before = NormalMotion::new(normal)
+            .and_then(|motion| motion.with_tangential(tangential))
+            .map_err(|error| row.reason(error))?;
         let after = Departure { normal: normal_out, tangential: tangential_out };
         // The slip after the impact is V_t (1 + 1/kappa) - v_t/kappa - r w.
         let inverse = T::ONE / sphere.gyration_ratio().value;
         let slip_error = error * (T::constant(2.0) * (T::ONE + inverse + inverse * inverse)).sqrt();
         let tolerance = T::constant(ROLLING) * slip_error;
-        let spinning = before.with_peripheral_velocity(turning).map_err(reason)?;
+        let spinning = before.with_peripheral_velocity(turning).map_err(|error| row.reason(error))?;
         let impact = match (spin, spin_out) {
             (None, None) => infer_assuming_rolling(&sphere, &law, &before, &after),
             (None, Some(_)) => {
@@ -81,7 +83,7 @@ impl<T: Number> Measured<T> {
                 infer_with_spins(&sphere, &law, &spinning, &after, spin_out, Dual::fixed(tolerance))
             }
         }
-        .map_err(reason)?;
+        .map_err(|error| row.reason(error))?;
         let errors = [error; 6];
         let classification = RigidBody::new(sphere, law).classify_impact(&impact);
         let mut confidence = T::ONE;
@@ -151,5 +153,6 @@ fn sphere<T: Number>(row: &Row<'_>) -> Result<Sphere<Inputs<T>>, String> {
         }
     };
     let kappa = row.number("gyration_ratio")?.unwrap_or(T::constant(0.4));
-    Sphere::new(Dual::fixed(radius), Dual::fixed(row.required("density_kg_m3")?), Dual::fixed(kappa)).map_err(reason)
+    Sphere::new(Dual::fixed(radius), Dual::fixed(row.required("density_kg_m3")?), Dual::fixed(kappa))
+        .map_err(|error| row.reason(error))
 }

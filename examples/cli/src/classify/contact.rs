@@ -6,7 +6,7 @@ use microimpact::contact::{
 };
 use microimpact::rigid::EnergyLedger;
 use microimpact::{Class, InputError, Outcome, PlanarMotion, SurfaceMotion};
-use sheet::{Input, Row, reason};
+use sheet::{Input, Row};
 
 use super::method::Simulator;
 use super::{SCENE_INPUTS, sphere_and_motion};
@@ -49,7 +49,7 @@ impl<T: Number> Simulated<T> {
         self.followed().then_some(&self.tangential)
     }
 
-    /// Whether the motion was followed to separation, or to the turning point of a captured sphere.
+    /// Whether the motion was followed to separation, or beyond the peak of a captured sphere.
     fn followed(&self) -> bool {
         match self.outcome {
             Outcome::Rebound => true,
@@ -58,22 +58,33 @@ impl<T: Number> Simulated<T> {
         }
     }
 
+    /// Whether the motion was followed to separation, or to the turning point of a captured sphere. A sphere that creeps to
+    /// rest has none.
+    fn followed_to_end(&self) -> bool {
+        self.followed() && (self.outcome == Outcome::Rebound || self.normal.turning_indentation().is_some())
+    }
+
     /// The cells of the columns that the model computes.
     fn cells(&self, row: &Row<'_>) -> Vec<String> {
         let Self { outcome, normal, times, impulses, works, slip, groups, .. } = self;
-        let followed = self.followed();
+        let (followed, to_end) = (self.followed(), self.followed_to_end());
         let optional = |value: Option<T>| value.map(|value| row.cell(value)).unwrap_or_default();
-        let at_end = |value: T| optional(followed.then_some(value));
-        let motion = if slip.slides { SurfaceMotion::Sliding } else { SurfaceMotion::Rolling };
+        let at_end = |value: T| optional(to_end.then_some(value));
+        let motion = (*outcome != Outcome::Undecided).then(|| self.tangential.motion());
+        // The slip of a captured sphere may end after it was followed; then the time is not known.
+        let slip_ends = match (slip.rolls_from, motion) {
+            (None, Some(SurfaceMotion::Sliding)) => Some(-T::ONE),
+            (time, _) => time,
+        };
         vec![
             outcome_name(*outcome).into(),
-            if followed { motion_name(motion).into() } else { String::new() },
+            motion.map_or_else(String::new, |motion| motion_name(motion).into()),
             optional(self.restitution()),
             optional(normal.peak_indentation()),
             optional(normal.turning_indentation().filter(|_| followed)),
             optional(times.peak),
             optional(times.contact.filter(|_| followed)),
-            at_end(slip.rolls_from.unwrap_or(-T::ONE)),
+            optional(slip_ends.filter(|_| followed)),
             at_end(impulses.elastic),
             at_end(impulses.adhesion_rebound),
             at_end(works.material),
@@ -105,8 +116,8 @@ impl<T: Number> Simulated<T> {
             optional(self.along().map(|along| format!("{:.2e}", along.spin() + T::ZERO))),
             nano(normal.peak_indentation()),
             nano(times.contact.filter(|_| followed)),
-            match (outcome, slip.slides) {
-                (Outcome::Rebound, true) => "always".into(),
+            match (outcome, self.tangential.motion()) {
+                (Outcome::Rebound, SurfaceMotion::Sliding) => "always".into(),
                 _ => nano(slip.rolls_from.filter(|_| followed)),
             },
             optional(lost.map(|lost| format!("{lost:.1}"))),
@@ -118,15 +129,17 @@ impl<T: Number> SimulationModel<T> {
     /// Builds the scene of a row and simulates its impact.
     pub fn compute(&self, row: &Row<'_>) -> Result<Simulated<T>, String> {
         let (sphere, before) = sphere_and_motion(row)?;
-        let scene = Contact::new(sphere, contact_law(row)?).with_friction(row.or_zero("friction")?).map_err(reason)?;
-        let groups = groups(&scene, &before).map_err(reason)?;
+        let scene = Contact::new(sphere, contact_law(row)?)
+            .with_friction(row.or_zero("friction")?)
+            .map_err(|error| row.reason(error))?;
+        let groups = groups(&scene, &before).map_err(|error| row.reason(error))?;
         // Without a moment this is the same motion; so the solver is compiled for one scene only.
-        let scene = scene.with_peeling(row.or_zero("peeling_n_m")?).map_err(reason)?;
+        let scene = scene.with_peeling(row.or_zero("peeling_n_m")?).map_err(|error| row.reason(error))?;
         let (impact, ((times, impulses, works), (slip, energy))) =
-            (self.simulator.simulate)(&scene, &before).map_err(reason)?;
+            (self.simulator.simulate)(&scene, &before).map_err(|error| row.reason(error))?;
         let (normal, tangential, status) = (impact.normal, impact.tangential, impact.run.status);
         let (Status::Solved, Some(outcome), Some(class)) = (status, normal.outcome(), impact.class()) else {
-            return Err(self.simulator.refusal(status));
+            return Err(self.simulator.refusal(status, &scene, &before));
         };
         let follows_captures = self.simulator.follows_captures;
         Ok(Simulated {

@@ -7,7 +7,7 @@ use microimpact::contact::{
     Times, Works,
 };
 use microimpact::rigid::EnergyLedger;
-use microimpact::{InputError, PlanarMotion};
+use microimpact::{InputError, Parameter, PlanarMotion};
 use sheet::reason;
 
 use crate::command::{Number, SimulationOptions};
@@ -19,13 +19,17 @@ pub struct MethodOptions {
     #[arg(long, value_enum)]
     method: Option<MethodName>,
     /// Nodes of each interval of collocation, 5 to 14 [default: 9], or of each phase of fixed-cost, 5 to 9 [default: 7].
+    ///
+    /// The least tolerance of collocation depends on its nodes: 1e-4 with 5 nodes, 1e-5 with 6, 1e-7 with 7, 1e-9 with 8, 1e-11
+    /// with 9. With 10 or more, only rounding limits it.
     #[arg(long)]
     nodes: Option<u32>,
     /// Iterations of fixed-cost for each phase, 1 to 40 [default: 3].
     #[arg(long)]
     iterations: Option<u32>,
-    /// Time steps of runge-kutta-gill in the duration of an impact without adhesion and damping, 4 or more [default: 2000].
-    #[arg(long, value_parser = clap::value_parser!(u32).range(4..))]
+    /// Time steps of runge-kutta-gill in the duration of an impact without adhesion and damping, 16 to 1000000 [default:
+    /// 2000].
+    #[arg(long, value_parser = clap::value_parser!(u32).range(16..=1_000_000))]
     steps: Option<u32>,
     #[command(flatten)]
     simulation: SimulationOptions,
@@ -74,15 +78,22 @@ pub struct Simulator<T> {
     pub follows_captures: bool,
     /// What to do where it did not converge.
     advice: &'static str,
+    /// The same method with the most iterations, if it has a number of iterations below that.
+    with_most_iterations: Option<Simulate<T>>,
 }
 
 impl<T> Simulator<T> {
-    /// Why a method has no solution.
-    pub fn refusal(&self, status: Status) -> String {
-        match status {
-            Status::Unsupported => "the method cannot represent this contact; use --method adaptive".into(),
-            _ => format!("the simulation did not converge; use {}", self.advice),
+    /// Why a method has no solution, and what to do. More iterations are advised only if the largest number of them solves the
+    /// impact.
+    pub fn refusal(&self, status: Status, scene: &AnyContact<T>, before: &PlanarMotion<T>) -> String {
+        if status == Status::Unsupported {
+            return "the method cannot represent this contact; use --method adaptive".into();
         }
+        let more_help = self.with_most_iterations.as_ref().is_some_and(|simulate| {
+            simulate(scene, before).is_ok_and(|(impact, _)| impact.run.status == Status::Solved)
+        });
+        let more = if more_help { "more --iterations, or " } else { "" };
+        format!("the simulation did not converge; use {more}{}", self.advice)
     }
 }
 
@@ -126,23 +137,28 @@ impl MethodOptions {
             let (name, methods) = (name.in_words(), methods.join(" and "));
             return Err(format!("{option} does not apply to --method {name}, only to {methods}"));
         }
+        let (fixed_cost_nodes, iterations) =
+            (self.nodes.unwrap_or(FIXED_COST_NODES), self.iterations.unwrap_or(ITERATIONS));
         let simulate = match name {
             MethodName::Adaptive => by(self.simulation.method().map_err(reason)?),
             MethodName::Collocation => {
                 collocation(self.nodes.unwrap_or(COLLOCATION_NODES), self.simulation.tolerance())?
             }
-            MethodName::FixedCost => {
-                fixed_cost(self.nodes.unwrap_or(FIXED_COST_NODES), self.iterations.unwrap_or(ITERATIONS))?
-            }
+            MethodName::FixedCost => fixed_cost(fixed_cost_nodes, iterations)?,
             MethodName::RungeKuttaGill => by(RungeKuttaGill::new(self.steps.unwrap_or(STEPS))),
+        };
+        let most = Parameter::Iterations.range().1 as u32;
+        let with_most_iterations = match name {
+            MethodName::FixedCost if iterations < most => Some(fixed_cost(fixed_cost_nodes, most)?),
+            _ => None,
         };
         Ok(Simulator {
             simulate,
+            with_most_iterations,
             follows_captures: matches!(name, MethodName::Adaptive | MethodName::Collocation),
             advice: match name {
                 MethodName::Adaptive | MethodName::Collocation => "a larger --tolerance",
-                MethodName::FixedCost => "more --iterations, or --method adaptive",
-                MethodName::RungeKuttaGill => "--method adaptive",
+                MethodName::FixedCost | MethodName::RungeKuttaGill => "--method adaptive",
             },
         })
     }

@@ -10,7 +10,7 @@ mod rigid_body;
 use clap::{Args, ValueEnum};
 use microimpact::contact::TangentialVelocities;
 use microimpact::{NormalMotion, PlanarMotion, Sphere};
-use sheet::{Input, Row, Scalar, reason};
+use sheet::{Input, Row, Scalar};
 
 use crate::Streams;
 use crate::command::{BadRow, BadRows, Number, TABLE_HELP, TableCommand, TableOptions, Work};
@@ -33,13 +33,15 @@ pub use method::OfferedNodes;
 ///   stiffness_pa (K), adhesion_n_m (f0) [0], zeta_h [0], zeta_a [0], peeling_n_m (lambda) [0],
 ///   external_force_n (positive out of the surface) [0].
 ///
-/// Computed by the simulation: restitution is the overall restitution. time_roll_s is the time at which slip ends: 0 if
-/// there was no slip, -1 if slip does not end. A cell is empty if its quantity does not exist. A captured sphere is followed
-/// to its first turning point: motion (rolling includes resting), velocities, impulses and works are those there. The methods
-/// fixed-cost and runge-kutta-gill do not follow it so far, and leave these cells empty. The summary gives its class and
-/// velocities when slip has ended. The outcome is undecided where a method cannot distinguish rebound from capture; the
-/// cells that depend on it are then empty. A row that a method cannot solve has its reason in the column error, and no
-/// outcome. With both models, columns of the rigid body begin with rigid_body_.
+/// Computed by the simulation: restitution is the overall restitution. motion is sliding, rolling or resting, at separation
+/// or, for a captured sphere, when its slip has ended. time_roll_s is the time at which slip ends: 0 if there was no slip, -1
+/// if slip does not end. A cell is empty if its quantity does not exist or is not computed. A captured sphere is followed to
+/// its first turning point: velocities, impulses and works are those there, and time_roll_s is empty if slip ends later. A
+/// sphere that creeps to rest has no turning point. The methods fixed-cost and runge-kutta-gill do not follow a captured
+/// sphere so far. In both cases the cells of a turning point are empty. The summary gives the velocities when slip has ended. The outcome is
+/// undecided where a method cannot distinguish rebound from capture; the cells that depend on it are then empty. A row that a
+/// method cannot solve has its reason in the column error, and no outcome. With both models, columns of the rigid body begin
+/// with rigid_body_.
 #[derive(Args)]
 #[command(verbatim_doc_comment, after_long_help = TABLE_HELP)]
 pub struct Options {
@@ -172,12 +174,12 @@ const SCENE_INPUTS: [Input; 7] = {
 fn sphere_and_motion<T: Scalar>(row: &Row<'_>) -> Result<(Sphere<T>, PlanarMotion<T>), String> {
     let gyration_ratio = row.number("gyration_ratio")?.unwrap_or(T::constant(0.4));
     let sphere = Sphere::new(row.required("radius_m")?, row.required("density_kg_m3")?, gyration_ratio);
-    let sphere = sphere.map_err(reason)?;
+    let sphere = sphere.map_err(|error| row.reason(error))?;
     let (speed, tangential) = (row.required("speed_normal_m_s")?, row.or_zero("speed_tangential_m_s")?);
     let spin = row.or_zero("spin_rad_s")?;
     let motion = NormalMotion::new(speed)
         .and_then(|motion| motion.with_tangential(tangential))
         .and_then(|motion| motion.with_spin(&sphere, spin))
-        .map_err(reason)?;
+        .map_err(|error| row.reason(error))?;
     Ok((sphere, motion))
 }

@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 
 use microimpact::rigid::ReboundAdhesion;
 use microimpact::{Classification, ContactClass, Impact, PlanarMotion, RigidBody, Sphere, TangentialImpact};
-use sheet::{Input, Row, Scalar, reason};
+use sheet::{Input, Row, Scalar};
 
 use super::{SCENE_INPUTS, sphere_and_motion};
 use crate::command::{BadRow, Work};
@@ -42,8 +42,12 @@ impl<T: Scalar> RigidBodyModel<T> {
         let scene = RigidBody::new(sphere, restitution_law(row, |number: T| number)?);
         match (row.number("adhesion_coefficient")?, row.number("work_of_adhesion_j")?) {
             (None, None) => with_adhesion(row, &before, scene),
-            (Some(rho), None) => with_adhesion(row, &before, scene.with_adhesion_coefficient(rho).map_err(reason)?),
-            (None, Some(work)) => with_adhesion(row, &before, scene.with_work_of_adhesion(work).map_err(reason)?),
+            (Some(rho), None) => {
+                with_adhesion(row, &before, scene.with_adhesion_coefficient(rho).map_err(|error| row.reason(error))?)
+            }
+            (None, Some(work)) => {
+                with_adhesion(row, &before, scene.with_work_of_adhesion(work).map_err(|error| row.reason(error))?)
+            }
             (Some(_), Some(_)) => {
                 let columns = "adhesion_coefficient and work_of_adhesion_j";
                 Err(format!("adhesion: given twice, as {columns}; leave one of them empty"))
@@ -60,11 +64,11 @@ fn with_adhesion<T: Scalar>(
 ) -> Result<Classified<T>, String> {
     let friction = row.or_zero("friction")?;
     let impact = match (row.number("impulse_ratio")?, row.number("rolling_arm_m")?) {
-        (Some(mu), None) => scene.impact_with_ratio(before, mu).map_err(reason)?,
-        (None, None) => scene.with_friction(friction).map_err(reason)?.impact(before),
+        (Some(mu), None) => scene.impact_with_ratio(before, mu).map_err(|error| row.reason(error))?,
+        (None, None) => scene.with_friction(friction).map_err(|error| row.reason(error))?.impact(before),
         (None, Some(arm)) => {
             let scene = scene.with_friction(friction).and_then(|scene| scene.with_rolling_dissipation(arm));
-            scene.map_err(reason)?.impact(before)
+            scene.map_err(|error| row.reason(error))?.impact(before)
         }
         (Some(_), Some(_)) => {
             return Err("rolling_arm_m: impulse_ratio is given too and includes it; leave one of them empty".into());
