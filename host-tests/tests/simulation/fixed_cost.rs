@@ -128,9 +128,11 @@ fn few_mildly_damped_scenes_are_refused() {
             plane.x.values(ACROSS).into_iter().flat_map(|x| plane.y.values(ACROSS).into_iter().map(move |y| (x, y)))
         {
             let Some(impact) = (plane.impact)(x, y).map(|impact| impact.in_single_precision()) else { continue };
-            let Ok(groups) = impact.scene::<f64>().unwrap().groups(&impact.motion().unwrap()) else { continue };
+            let (Ok(scene), Ok(motion)) = (impact.scene::<f64>(), impact.motion()) else { continue };
+            let Ok(groups) = scene.groups(&motion) else { continue };
             if groups.material_damping.max(groups.adhesion_damping) <= MILD {
-                let impact = impact.scene::<f32>().unwrap().solve(&impact.motion().unwrap(), &method).unwrap();
+                let (Ok(scene), Ok(motion)) = (impact.scene::<f32>(), impact.motion()) else { continue };
+                let impact = scene.solve(&motion, &method).unwrap();
                 all += 1;
                 refused += u32::from(impact.normal.status() != Status::Solved);
             }

@@ -107,7 +107,7 @@ impl Record {
 
 /// Square of the restitution to 1e-12; `None` for a capture.
 fn exact_square([p, h, g]: [f64; 3]) -> Option<f64> {
-    let contact = DimensionlessImpact::new(p, h, g).unwrap().solve(&Collocation::<9, f64>::new(1e-12).unwrap());
+    let contact = DimensionlessImpact::new(p, h, g).unwrap().solve(&Collocation::<12, f64>::new(1e-12).unwrap());
     match contact.outcome {
         Some(Outcome::Rebound) => Some(contact.restitution_squared),
         Some(Outcome::Capture) => None,

@@ -31,14 +31,14 @@ fn sphere<T: Real>() -> Sphere<T> {
 }
 
 impl Scene {
-    fn run<T: Nodes<9>, const N: usize>(self, tolerance: f64) -> Impact<T, N> {
+    fn run<T: Nodes<12>, const N: usize>(self, tolerance: f64) -> Impact<T, N> {
         let c = T::constant;
         let Self(speed, slip, zeta, strength, zeta_adhesion) = self;
         let scene = Contact::hertz(sphere(), Stiffness::new(c(7.5e10)).unwrap());
         let scene = scene.with_damping(c(zeta)).unwrap().with_ring(c(strength), c(zeta_adhesion)).unwrap();
         let oblique = NormalMotion::new(c(speed)).unwrap().with_tangential(c(slip)).unwrap();
         let motion: PlanarMotion<T> = oblique.with_peripheral_velocity(T::ZERO).unwrap();
-        let method = Collocation::<9, T>::new(c(tolerance).max(c(8.0) * T::EPSILON)).unwrap();
+        let method = Collocation::<12, T>::new(c(tolerance).max(c(8.0) * T::EPSILON)).unwrap();
         scene.with_friction(c(0.1)).unwrap().solve_for(&motion, &method, (EVERYTHING, Recording::<N>)).unwrap()
     }
 
@@ -55,7 +55,7 @@ fn largest<T: Real>(gaps: &[T]) -> T {
     gaps.iter().copied().fold(T::ZERO, Real::max)
 }
 
-fn assert_keeps_what_it_must<T: Nodes<9>, const N: usize>(scene: Scene, close: T) {
+fn assert_keeps_what_it_must<T: Nodes<12>, const N: usize>(scene: Scene, close: T) {
     let (impact, ((times, _, _, slip), trajectory)) = scene.run::<T, N>(1e-9);
     let normal = impact.normal;
     let samples: Vec<Sample<T>> = trajectory.samples().collect();

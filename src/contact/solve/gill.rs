@@ -183,6 +183,9 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
             let followed = coarse.path.end == End::Capture || coarse.path.statistics.intervals >= most / 2;
             (followed && coarse.left < escape).then(|| T::constant(LEAST_LACK) * (escape - coarse.left))
         });
+        // Square of a speed that is only rounding, as that of a sphere that creeps.
+        let rounding = T::constant(ROUNDINGS) * T::EPSILON;
+        let standstill = rounding * rounding * energy.max(half);
         // What rounding has taken from the state.
         let mut carry = state.combine(state, |_, _| zero);
         while path.statistics.intervals < most {
@@ -210,13 +213,13 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
             if !is_bounded(&next) {
                 break;
             }
-            if y >= zero && speed < zero {
+            if y >= zero && speed < zero && y * y + speed * speed > standstill {
                 let to_peak = duration * y / (y - speed);
                 times.peak = times.now + to_peak;
                 path.peak = law.coordinate(x + half * to_peak * y)?;
                 at_peak = law.potential(path.peak);
                 let changed = change(at_peak, |other| other.at_peak);
-                margin = T::constant(CAPTURE_MARGIN) * changed + T::constant(ROUNDINGS) * T::EPSILON * energy.max(half);
+                margin = T::constant(CAPTURE_MARGIN) * changed + rounding * energy.max(half);
                 observer.stepped(law, times.peak, path.peak, zero, false);
             }
             let before = (x, left);

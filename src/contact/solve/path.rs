@@ -257,7 +257,8 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
 
     /// The sphere comes slower than the barrier is high: it turns back in front of it and has none to pass on its way out.
     fn turns_in_front(&mut self) {
-        self.in_front_of = Some(self.barrier.0);
+        // A law that starts farther in than it ends is beyond its barrier from the beginning.
+        self.in_front_of = Some(self.barrier.0).filter(|place| *place > self.at.s);
         self.barrier = (self.law.end(), T::ZERO);
     }
 

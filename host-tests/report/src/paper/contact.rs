@@ -1,6 +1,6 @@
 //! Figures of the simulation: 6, 7, 8 and 9.
 
-use microimpact::contact::{Collocation, Recording, RingScene, Status};
+use microimpact::contact::{Recording, RingScene, RungeKuttaGill, Status};
 use microimpact::{InputError, NormalMotion, RigidBody, SpeedRestitution};
 
 use super::{LAW_SPEED, Outcome, RADIUS, SPEED, WORK, column, contact, figure, glass, method, spaced};
@@ -54,8 +54,8 @@ fn figure_6() -> Outcome<Part> {
 /// Figures 7, 8 and 9: one impact in time, normalized as the paper does.
 fn figures_in_time() -> Outcome<[Part; 3]> {
     let scene = contact(RADIUS)?;
-    // Few nodes make many intervals, and so many samples.
-    let method = Collocation::<5, f64>::new(1e-11)?;
+    // Steps in time make many samples.
+    let method = RungeKuttaGill::new(20_000);
     let (impact, trajectory) = scene.solve_for(&NormalMotion::new(SPEED)?, &method, Recording::<SAMPLES>)?;
     if impact.run.status != Status::Solved {
         return Err("the impact of Table 1 is not solved".into());
