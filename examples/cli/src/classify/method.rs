@@ -20,7 +20,7 @@ pub struct MethodOptions {
     method: Option<MethodName>,
     /// Nodes of each interval of collocation, 5 to 14 [default: 9], or of each phase of fixed-cost, 5 to 9 [default: 7].
     ///
-    /// The least tolerance of collocation depends on its nodes: 1e-4 with 5 nodes, 1e-5 with 6, 1e-7 with 7, 1e-9 with 8, 1e-11
+    /// The least tolerance of collocation depends on its nodes: 3e-4 with 5 nodes, 1e-5 with 6, 1e-7 with 7, 1e-9 with 8, 1e-11
     /// with 9. With 10 or more, only rounding limits it.
     #[arg(long)]
     nodes: Option<u32>,
