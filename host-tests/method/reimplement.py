@@ -526,7 +526,7 @@ class Phase:
 
 def fixed_cost(law, E, n, iterations):
     ph = Phase(law, E, n)
-    drag = lambda: abs(ph.loss[0]) * 2 * ph.h[0]
+    drag = lambda: abs(ph.loss[0]) / ph.free[0] ** 0.5
     lost, moved = ph.lost, E
     for i in range(iterations):
         if i > 0:
@@ -539,7 +539,7 @@ def fixed_cost(law, E, n, iterations):
         E_peak = ph.correct_peak(lost)
     bound = unconverged(iterations, moved, earlier, drag(), lost)
     tail_in, lost_in = ph.tail()
-    mild = ph.loss[0] <= 8 * ph.u[0]
+    mild = drag() <= 8
     ph.turn()
     gained, moved = 0.0, E
     for _ in range(iterations):
@@ -554,13 +554,13 @@ def fixed_cost(law, E, n, iterations):
     lost = lost_in + lost_out
     q_in, q_out = tail_in**2 / (lost_in + TINY), tail_out**2 / (lost_out + TINY)
     bound += unconverged(iterations, moved, earlier, drag(), gained)
-    bound += abs(law.V(ph.a) - E_peak) * 5 * lost / (ph.a * law.V1(ph.a))
+    bound += abs(law.V(ph.a) - E_peak) * 10 * lost
     bound += 2 * n * np.finfo(float).eps * (E + lost)
     bound += 1.5 * (abs(q_out - q_in) + 0.1 * (q_in + q_out)) + 10 * lost / n**7
     left = E_peak + gained
     if iterations > 2 and (left - moved - earlier > 0) != (left > 0):
         bound = max(bound, abs(moved) + abs(earlier))
-    mild = mild and -ph.loss[0] <= 8 * ph.u[0] and left - E <= bound
+    mild = mild and drag() <= 8 and left - E <= bound
     good = bound <= 0.003 * E and left > bound or (bound <= 0.1 and left < -2 * bound)
     return dict(E=left, peak=ph.a, bound=bound, ok=mild and good)
 
@@ -570,7 +570,7 @@ def unconverged(iterations, last, before, drag, lost):
     if iterations < 3:
         return 2 * abs(last) + 1e-3 * abs(lost)
     beta = min(max(2 * abs(last) / (abs(before - last) + TINY), 0.5), 10)
-    return max(beta * abs(last), (0.1 * drag) ** 2 * abs(before))
+    return max(beta * abs(last), (0.15 * drag) ** 2 * abs(before))
 
 
 def converged_phases(law, E, n):

@@ -84,6 +84,9 @@ const ROUNDINGS: f64 = 2.0;
 /// Largest bound of the error of e^2, and of the relative error of times, with which a result counts as solved.
 const LARGEST_ERROR: f64 = 3e-3;
 
+/// Largest reciprocal of the slope of the potential, over the peak, where there is no barrier and a sphere can rebound.
+const LARGEST_FLATNESS: f64 = 2.0;
+
 /// Change of the remaining energy by an iteration, over the energy before, above which the reciprocals of the speeds are
 /// renewed: below it their error changes the energy by less than its square.
 const UNSTEADY: f64 = 0.01;
@@ -118,7 +121,7 @@ const LARGEST_MARGIN: f64 = 10.0;
 
 /// Largest factor by which an iteration multiplies an error, over the drag at the peak: the last change may be small by chance, the one
 /// before is not as well.
-const CONTRACTION: f64 = 0.1;
+const CONTRACTION: f64 = 0.15;
 
 /// The same over the last change after fewer iterations than three, when it says little of the next,
 const EARLY_MARGIN: f64 = 2.0;
@@ -162,7 +165,7 @@ where
             (earlier, moved) = (moved, lost - before);
             at_peak = phase.correct_peak(law, energy, lost);
         }
-        let of_approach = self.unconverged(moved, earlier, phase.drag(), lost);
+        let of_approach = self.unconverged(moved, earlier, phase.drag_squared(), lost);
         let approach = phase.tails(lost);
         // Where the approach comes to a stand before its peak, there is another one.
         let arrives = phase.is_represented(STRONGEST) && (!law.may_have_barrier() || phase.is_moving());
@@ -185,11 +188,15 @@ where
         let lost_in_all = approach.lost + rebound.lost;
         // One step for the peak leaves an error there, which changes the losses; large where the potential is flat.
         let misplaced = (law.potential(phase.peak) - at_peak).abs();
-        let growth = T::constant(law.energy_power()) * lost_in_all;
-        let flat = misplaced * growth.saturating_div(phase.peak * law.slope(phase.peak));
+        let mut growth = T::constant(law.energy_power()) * lost_in_all;
+        growth = if law.may_have_barrier() {
+            growth.saturating_div(phase.peak * law.slope(phase.peak)).abs()
+        } else {
+            T::constant(LARGEST_FLATNESS) * growth
+        };
         let rounding = T::constant(ROUNDINGS * N as f64) * (T::EPSILON * (energy + lost_in_all) + T::SMALLEST);
-        let of_approach = of_approach + flat.abs() + rounding;
-        let mut uncertain = of_approach + self.unconverged(moved, earlier, phase.drag(), gained);
+        let of_approach = of_approach + misplaced * growth + rounding;
+        let mut uncertain = of_approach + self.unconverged(moved, earlier, phase.drag_squared(), gained);
         uncertain = uncertain + approach.bound_with::<N>(&rebound).min(T::ONE);
         if law.may_have_barrier() {
             // In front of a barrier the sphere may be slowest on its way, where no polynomial is exact.
@@ -221,13 +228,9 @@ where
             End::Undecided
         } else if known && timely && uncertain <= largest * energy && phase.is_moving() && left - energy <= uncertain {
             End::Separation
-        } else if observed
-            && !law.may_have_barrier()
-            && law.potential(phase.peak) < T::ZERO
-            && phase.least_loss(law) > energy
-        {
-            // The sphere comes to a stand where the potential is negative: had it come further, to a peak where it is zero, it
-            // would have lost more than its energy.
+        } else if observed && !law.may_have_barrier() && at_peak + at_peak < -approach.lost {
+            // The approach loses twice the energy that there is, so that the sphere comes to a stand where the potential is negative,
+            // even if iterations that have not converged are wrong by half. Losses on the way out only add to that.
             End::Capture
         } else {
             End::Budget
@@ -249,15 +252,15 @@ where
 impl<const N: usize, const M: usize> FixedCost<N, M> {
     /// Bound of the error that iterations leave, from the changes by the last and the one before, the drag, and the energy lost.
     #[inline]
-    fn unconverged<T: Real>(&self, last: T, before: T, drag: T, lost: T) -> T {
+    fn unconverged<T: Real>(&self, last: T, before: T, drag_squared: T, lost: T) -> T {
         let size = last.abs();
         if self.iterations < 3 {
             return T::constant(EARLY_MARGIN) * size + T::constant(EARLY_LOSSES) * lost.abs();
         }
         let fraction = size.saturating_div((before - last).abs() + T::SMALLEST);
         let margin = T::constant(CHANGE_MARGIN) * fraction;
-        let contraction = T::constant(CONTRACTION) * drag;
+        let contraction_squared = T::constant(CONTRACTION * CONTRACTION) * drag_squared;
         let of_change = size * margin.max(T::constant(LEAST_MARGIN)).min(T::constant(LARGEST_MARGIN));
-        of_change.max(contraction * contraction * before.abs())
+        of_change.max(contraction_squared * before.abs())
     }
 }

@@ -157,6 +157,7 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
 
     /// Follows the motion, whose error those with half and with a quarter as many steps show. Without them the sphere is captured where
     /// it turns back.
+    #[inline(never)]
     fn follow<O: Observer<T>>(&self, coarser: Option<[&Followed<T>; 2]>, observer: &mut O) -> Option<Followed<T>> {
         let Self { law, energy, step, most, barrier: (place, escape) } = *self;
         let (half, zero) = (T::constant(0.5), T::ZERO);
@@ -317,7 +318,7 @@ where
 }
 
 /// The change in a step by Gill's coefficients.
-#[inline]
+#[inline(never)]
 fn gill<T, L, O>(law: &L, observer: &O, from: &State<T, O::State>, step: T) -> State<T, O::State>
 where
     T: Real,

@@ -249,7 +249,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let mut follower = Self::from(law, control, observer, at);
         follower.barrier = well::barrier(law);
         let (surplus, uncertain) = follower.surplus();
-        if surplus < -uncertain {
+        if law.may_have_barrier() && surplus < -uncertain {
             follower.turns_in_front();
         }
         follower
@@ -315,10 +315,11 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     }
 
     /// Energy beyond that of the barrier, where an interval passes it on the way in.
+    #[inline(never)]
     fn surplus_at_barrier<const N: usize>(&self, interval: &Interval<T, N>) -> T {
         let ((place, height), end) = (self.barrier, interval.end);
         let (mut before, mut after) = ((self.at.s, self.at.energy), (end.s, end.energy));
-        for (s, y) in interval.s.into_iter().zip(interval.y) {
+        for (&s, &y) in interval.s.iter().zip(&interval.y) {
             let energy = T::constant(0.5) * y * y + self.law.potential(s);
             if s <= place && s > before.0 {
                 before = (s, energy);
@@ -351,7 +352,9 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let mut beyond = self.undamped_peak();
         let mut length = T::constant(FIRST_LENGTH);
         loop {
-            if let Some(place) = self.in_front_of {
+            if self.law.may_have_barrier()
+                && let Some(place) = self.in_front_of
+            {
                 beyond = self.turning_point_in_front(place);
             }
             // Without an external force no peak lies beyond one.
@@ -369,7 +372,9 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 length = self.first_length();
             }
             loop {
-                if let Some(place) = self.in_front_of {
+                if self.law.may_have_barrier()
+                    && let Some(place) = self.in_front_of
+                {
                     length = length.min(half * (place - self.at.s));
                 }
                 let interval = self.pass::<N>(length, Course::APPROACH);

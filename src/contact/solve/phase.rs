@@ -37,9 +37,6 @@ const UNCANCELLED: f64 = 0.1;
 /// N^-7. Over random rebounds with five, seven and nine nodes the error is below the bound.
 const SLOW_END_BOUND: f64 = 10.0;
 
-/// Part of an integral without losses that the quadrature has for certain.
-const QUADRATURE_MARGIN: f64 = 0.95;
-
 /// Estimated relative error of times over the parts of the losses and, to the fourth power, of the reciprocal speed that the
 /// nodes do not resolve. The same tests hold them, and those of impulses under Hunt and Crossley's damping.
 const TIME_ERROR_OF_LOSSES: f64 = 6e-3;
@@ -231,28 +228,16 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         Tails { lost: gained.abs(), power: T::constant(0.5) * power_tail.abs(), slowness }
     }
 
-    /// A lower bound of the energy that an approach to this peak loses: what it loses at the speeds of a motion without losses, which are
-    /// lower, since with losses more energy is needed to come as far.
-    pub(crate) fn least_loss(&mut self, law: &impl ContactLaw<T>) -> T {
-        self.describe(law, false);
-        let mut lost = T::ZERO;
-        for j in 0..N {
-            lost = lost + T::WEIGHTS[j] * self.loss[j] * self.free[j].max(T::ZERO).sqrt();
-        }
-        T::constant(0.5 * QUADRATURE_MARGIN) * lost
-    }
-
     /// Whether damping is so mild that iterations converge to the solution.
     #[inline]
     pub(crate) fn is_represented(&self, strongest: f64) -> bool {
-        self.loss[0].abs() <= T::constant(strongest) * self.speed[0]
+        self.loss[0] * self.loss[0] <= T::constant(strongest * strongest) * self.free[0]
     }
 
-    /// Losses over the speed at the peak.
+    /// Square of the drag: losses over the speed without losses, next to the peak.
     #[inline]
-    pub(crate) fn drag(&self) -> T {
-        let half = self.loss[0].abs() * self.half_inverse[0];
-        half + half
+    pub(crate) fn drag_squared(&self) -> T {
+        (self.loss[0] * self.loss[0]).saturating_div(self.free[0].max(T::SMALLEST))
     }
 
     /// Whether the sphere moves at all nodes.

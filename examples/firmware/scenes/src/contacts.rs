@@ -43,7 +43,7 @@ macro_rules! setting {
 setting!(FixedCost<4>, "simulation/fixed-class", Self::new(black_box(2)).ok());
 setting!(FixedCost<5>, "simulation/fixed-1e-5", Self::new(black_box(3)).ok());
 setting!(FixedCost<7>, "simulation/fixed-1e-6", Self::new(black_box(3)).ok());
-setting!(Collocation<6, f32>, "simulation/normal-1e-5", Self::new(given(1e-5)).ok());
+setting!(Collocation<5, f32>, "simulation/normal-3e-4", Self::new(given(3e-4)).ok());
 setting!(Collocation<7, f32>, "simulation/normal", Self::new(given(1e-6)).ok());
 setting!(Collocation<9, f64>, "simulation/normal", Self::new(given(1e-9)).ok());
 setting!(
@@ -215,7 +215,7 @@ pub fn visit_contacts(visitor: &mut impl Visitor) {
     visitor.visit::<f32, NormalContacts<f32, FixedCost<7>>>();
     visitor.visit::<f32, ObliqueContacts<f32, FixedCost<5, 7>, ()>>();
     visitor.visit::<f32, ObliqueContacts<f32, FixedCost<7, 9>, ()>>();
-    visitor.visit::<f32, NormalContacts<f32, Collocation<6, f32>>>();
+    visitor.visit::<f32, NormalContacts<f32, Collocation<5, f32>>>();
     visitor.visit::<f32, NormalContacts<f32, Collocation<7, f32>>>();
     visitor.visit::<f32, ObliqueContacts<f32, Collocation<7, f32>, Slip>>();
     visitor.visit::<f64, NormalContacts<f64, Collocation<9, f64>>>();
