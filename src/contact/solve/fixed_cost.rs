@@ -6,7 +6,7 @@ use super::adaptive::show;
 use super::nodes::{PhaseSamples, WEIGHT_POWER};
 use super::observer::Observer;
 use super::path::{End, Method, NormalPath, Statistics};
-use super::phase::Phase;
+use super::phase::{Phase, Tails};
 use super::well::barrier;
 use crate::contact::law::ContactLaw;
 use crate::{InputError, Parameter, Real};
@@ -165,7 +165,7 @@ where
             (earlier, moved) = (moved, lost - before);
             at_peak = phase.correct_peak(law, energy, lost);
         }
-        let of_approach = self.unconverged(moved, earlier, phase.drag_squared(), lost);
+        let (moved_in, earlier_in) = (moved, earlier);
         let approach = phase.tails(lost);
         // Where the approach comes to a stand before its peak, there is another one.
         let arrives = phase.is_represented(STRONGEST) && (!law.may_have_barrier() || phase.is_moving());
@@ -194,17 +194,21 @@ where
         } else {
             T::constant(LARGEST_FLATNESS) * growth
         };
-        let rounding = T::constant(ROUNDINGS * N as f64) * (T::EPSILON * (energy + lost_in_all) + T::SMALLEST);
-        let of_approach = of_approach + misplaced * growth + rounding;
-        let mut uncertain = of_approach + self.unconverged(moved, earlier, phase.drag_squared(), gained);
+        let roundings = T::constant(ROUNDINGS * N as f64);
+        let rounding = roundings * T::EPSILON * (energy + lost_in_all) + roundings * T::SMALLEST;
+        // On the way out damping is at least as strong as on the way in.
+        let drag_squared = phase.drag_squared();
+        let of_approach = self.unconverged(moved_in, earlier_in, drag_squared, lost) + misplaced * growth + rounding;
+        let mut uncertain = of_approach + self.unconverged(moved, earlier, drag_squared, gained);
         uncertain = uncertain + approach.bound_with::<N>(&rebound).min(T::ONE);
         if law.may_have_barrier() {
             // In front of a barrier the sphere may be slowest on its way, where no polynomial is exact.
             represented &= approach.slowness.max(rebound.slowness) <= T::constant(LARGEST_SLOWNESS);
         }
         let largest = T::constant(LARGEST_ERROR);
-        let error_in = if O::TIMED { approach_error.max(approach.error_of_times(energy)) } else { approach_error };
-        let timely = error_in <= largest && (!O::TIMED || rebound.error_of_times(energy) <= largest);
+        let in_time = |tails: &Tails<T>| !O::TIMED || tails.error_of_times(energy) <= largest;
+        let observed_in = in_time(&approach) && (!O::DEMANDS || approach_error <= largest);
+        let timely = observed_in && in_time(&rebound);
         let left = at_peak + gained;
         // A sphere that comes slower than a barrier is high, or loses so much on its way there, never meets the peak computed here.
         let (_, escape) = barrier(law);
@@ -220,7 +224,7 @@ where
         let captured = uncertain <= T::constant(LARGEST_LOSS_ERROR) && excess < -(uncertain + uncertain);
         // What is told of a capture ends at the peak, where the energy is that of the adhesion too.
         let arrived = arrives && of_approach <= largest * (energy + approach.lost);
-        let observed = !O::TO_TURNING_POINT || (arrived && error_in <= largest);
+        let observed = !O::TO_TURNING_POINT || (arrived && observed_in);
         let known = represented && passes;
         let mut end = if known && captured && observed {
             End::Capture
@@ -257,10 +261,9 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
         if self.iterations < 3 {
             return T::constant(EARLY_MARGIN) * size + T::constant(EARLY_LOSSES) * lost.abs();
         }
-        let fraction = size.saturating_div((before - last).abs() + T::SMALLEST);
-        let margin = T::constant(CHANGE_MARGIN) * fraction;
         let contraction_squared = T::constant(CONTRACTION * CONTRACTION) * drag_squared;
-        let of_change = size * margin.max(T::constant(LEAST_MARGIN)).min(T::constant(LARGEST_MARGIN));
-        of_change.max(contraction_squared * before.abs())
+        let apart = (before - last).abs().max(T::constant(CHANGE_MARGIN / LARGEST_MARGIN) * size) + T::SMALLEST;
+        let of_changes = T::constant(CHANGE_MARGIN) * size * size.saturating_div(apart);
+        of_changes.max(T::constant(LEAST_MARGIN) * size).max(contraction_squared * before.abs())
     }
 }
