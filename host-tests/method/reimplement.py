@@ -558,8 +558,6 @@ def fixed_cost(law, E, n, iterations):
     bound += 2 * n * np.finfo(float).eps * (E + lost)
     bound += 1.5 * (abs(q_out - q_in) + 0.1 * (q_in + q_out)) + 10 * lost / n**7
     left = E_peak + gained
-    if iterations > 2 and (left - moved - earlier > 0) != (left > 0):
-        bound = max(bound, abs(moved) + abs(earlier))
     mild = mild and drag() <= 8 and left - E <= bound
     good = bound <= 0.003 * E and left > bound or (bound <= 0.1 and left < -2 * bound)
     return dict(E=left, peak=ph.a, bound=bound, ok=mild and good)

@@ -216,11 +216,6 @@ where
         let clear = T::constant(BARRIER_MARGIN) * energy;
         let passes =
             !law.may_have_barrier() || (at_peak - escape > clear && (escape == T::ZERO || excess.abs() > clear));
-        // Where the last iterations have changed the outcome, the next may change it again.
-        let before = excess - moved - earlier;
-        if self.iterations > 2 && (before > T::ZERO) != (excess > T::ZERO) {
-            uncertain = uncertain.max(moved.abs() + earlier.abs());
-        }
         let captured = uncertain <= T::constant(LARGEST_LOSS_ERROR) && excess < -(uncertain + uncertain);
         // What is told of a capture ends at the peak, where the energy is that of the adhesion too.
         let arrived = arrives && of_approach <= largest * (energy + approach.lost);
@@ -262,8 +257,9 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             return T::constant(EARLY_MARGIN) * size + T::constant(EARLY_LOSSES) * lost.abs();
         }
         let contraction_squared = T::constant(CONTRACTION * CONTRACTION) * drag_squared;
-        let apart = (before - last).abs().max(T::constant(CHANGE_MARGIN / LARGEST_MARGIN) * size) + T::SMALLEST;
+        let apart = (before - last).abs().max(T::constant(CHANGE_MARGIN / LARGEST_MARGIN) * size);
         let of_changes = T::constant(CHANGE_MARGIN) * size * size.saturating_div(apart);
-        of_changes.max(T::constant(LEAST_MARGIN) * size).max(contraction_squared * before.abs())
+        // Of two changes that vanish the quotient is no number, which the maximum leaves out.
+        (T::constant(LEAST_MARGIN) * size).max(of_changes).max(contraction_squared * before.abs())
     }
 }

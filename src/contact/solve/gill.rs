@@ -130,12 +130,13 @@ struct Run<'a, T, L> {
     barrier: (T, T),
 }
 
-/// A motion with the time and the energy of its peak, and the energies where it passes the barrier and at its end, with which another
+/// A motion with the time and the energy of its peak, and the energies where it passes the barrier on both ways and at its end, with which another
 /// is compared.
 struct Followed<T> {
     path: NormalPath<T>,
     peak_time: T,
     at_peak: T,
+    at_entry: T,
     at_barrier: T,
     left: T,
 }
@@ -170,7 +171,7 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
             NormalPath { end: End::Budget, energy, peak: zero, turning: zero, error_bound: zero, statistics };
         let total = |s: T, speed: T| half * speed * speed + law.potential(s);
         let (mut at_peak, mut left, mut margin) = (energy, energy, zero);
-        let mut at_barrier = None;
+        let (mut at_entry, mut at_barrier) = (None, None);
         // Change of a quantity by half as many steps.
         let change = |now: T, of: fn(&Followed<T>) -> T| {
             coarser.map_or(zero, |[coarse, coarsest]| {
@@ -228,8 +229,11 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
             times.now = times.now + duration;
             let s = law.coordinate(depth)?;
             left = total(s, speed);
+            let here = || left + (before.1 - left) * (outside - depth) / (before.0 - depth);
             if speed < zero && before.0 > outside && depth <= outside {
-                at_barrier = Some(left + (before.1 - left) * (outside - depth) / (before.0 - depth));
+                at_barrier = Some(here());
+            } else if speed > zero && before.0 < outside && depth >= outside {
+                at_entry = Some(here());
             }
             observer.stepped(law, times.now, s, speed.abs(), speed < zero);
             if rolls {
@@ -247,7 +251,7 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
                 break;
             }
         }
-        let at_barrier = at_barrier.unwrap_or(left);
+        let (entry, at_barrier) = (at_entry.unwrap_or(at_peak), at_barrier.unwrap_or(left));
         if coarser.is_some() {
             let changed = change(left, |other| other.left);
             let mut uncertain = margin;
@@ -272,6 +276,12 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
                 let held = lack.is_some_and(|lack| left < escape - margin.max(changed).max(lack));
                 path.end = if held { End::Capture } else { End::Budget };
             }
+            let entry_change = T::constant(CAPTURE_MARGIN) * change(entry, |other| other.at_entry);
+            if path.end != End::Budget && at_entry.is_some() && entry - escape <= entry_change {
+                // Whether it passes the barrier on its way in is not known.
+                path.end = End::Undecided;
+                uncertain = uncertain.max(entry_change);
+            }
             path.error_bound = uncertain.min(energy) / energy;
             if change(times.peak, |other| other.peak_time) > T::constant(LARGEST_TIME_CHANGE) * times.now {
                 path.end = End::Budget;
@@ -280,7 +290,7 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
         path.energy = left;
         path.statistics.iterations = path.statistics.intervals + path.statistics.refused;
         observer.ended(&state.1, &times);
-        Some(Followed { path, peak_time: times.peak, at_peak, at_barrier, left })
+        Some(Followed { path, peak_time: times.peak, at_peak, at_entry: entry, at_barrier, left })
     }
 }
 
