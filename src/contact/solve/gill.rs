@@ -263,6 +263,9 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
                     path.end = End::Undecided;
                 }
                 uncertain = T::constant(CHANGE_MARGIN) * passing.max(changed);
+                if path.end == End::Undecided {
+                    uncertain = uncertain.max((at_barrier - escape).abs());
+                }
                 let surplus = left - energy - law.potential(law.start());
                 if !(uncertain <= T::constant(LARGEST_ERROR) * energy && surplus <= uncertain) {
                     path.end = End::Budget;
@@ -280,7 +283,7 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
             if path.end != End::Budget && at_entry.is_some() && entry - escape <= entry_change {
                 // Whether it passes the barrier on its way in is not known.
                 path.end = End::Undecided;
-                uncertain = uncertain.max(entry_change);
+                uncertain = uncertain.max(entry_change).max((entry - escape).abs());
             }
             path.error_bound = uncertain.min(energy) / energy;
             if change(times.peak, |other| other.peak_time) > T::constant(LARGEST_TIME_CHANGE) * times.now {
