@@ -130,8 +130,8 @@ struct Run<'a, T, L> {
     barrier: (T, T),
 }
 
-/// A motion with the time and the energy of its peak, and the energies where it passes the barrier on both ways and at its end, with which another
-/// is compared.
+/// A motion with the time and the energy of its peak, and the energies where it passes the barrier on both ways and at its end, with
+/// which another is compared.
 struct Followed<T> {
     path: NormalPath<T>,
     peak_time: T,
