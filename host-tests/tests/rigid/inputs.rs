@@ -103,7 +103,7 @@ fn supply<T: Single + NormalDistribution + Into<f64>>(parameter: Parameter, valu
             .and_then(|scene| scene.with_friction(c(0.1)))
             .and_then(|scene| scene.with_peeling(value))
             .map(drop),
-        Parameter::Tolerance => Collocation::<7, T>::new(value).map(drop),
+        Parameter::Tolerance => Collocation::<12, T>::new(value).map(drop),
         Parameter::ContactRadiusRatio => {
             let sphere = sphere::<T>();
             ring_strength(&sphere, stiffness(), value * sphere.radius()).map(drop)
