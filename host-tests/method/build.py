@@ -44,7 +44,7 @@ def mathml(tex, block):
     out = re.sub(r"<msup>(<mi>[^<]*</mi>)(?:<mrow>)?<m[io]>&#x0*2033;</m[io]>(?:</mrow>)?</msup>", r'<mrow>\1<mtext style="font-family:serif">″</mtext></mrow>', out)
     if number:
         out = out[: -len("</math>")] + f'<mspace width="2em"/><mtext>({number})</mtext></math>'
-    return out
+    return re.sub(r"<mspace ([^>]*)/>", r"<mspace \1></mspace>", out)
 
 
 def block(m):
