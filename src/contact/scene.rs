@@ -406,7 +406,7 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
 
     /// The approach speed, m/s, that separates capture from rebound (B6), to the relative tolerance of `method`. In single
     /// precision rounding leaves an error of up to 5e-4 where damping is so strong that little depends on the speed, and a well that
-    /// an external force has nearly flattened may not be seen.
+    /// an external force has flattened to a millionth may not be seen.
     ///
     /// A sphere that just separates arrived with exactly the energy that damping dissipates. That energy grows with the
     /// damping, and the damping falls with the speed (B4), so there is at most one such speed. A law of your own must have

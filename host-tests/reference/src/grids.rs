@@ -280,7 +280,7 @@ pub fn random_impacts(seed: u64) -> impl Iterator<Item = (Impact, f64)> {
 }
 
 /// Random impacts with an adhesion over inertia q from 1e-3 to 1e3 and with groups h and g of the damping from 1e-6 to 30, as single
-/// precision sees them. Every other one has a speed close to the critical one, down to a billionth of it above or below.
+/// precision sees them. Every other one has a speed close to the critical one, down to a billionth of it above or below, if that is in its range.
 pub fn impacts_of_random_groups(seed: u64) -> impl Iterator<Item = Impact> {
     let mut random = StdRng::seed_from_u64(seed);
     iter::repeat_with(move || {
@@ -294,7 +294,8 @@ pub fn impacts_of_random_groups(seed: u64) -> impl Iterator<Item = Impact> {
         }
         let distance = 10_f64.powf(distance);
         let speed = critical_speed(&impact)? * if above { 1.0 + distance } else { 1.0 - 0.9 * distance };
-        Some(Impact { speed, ..impact }.in_single_precision())
+        let impact = Impact { speed, ..impact }.in_single_precision();
+        impact.motion::<f32>().is_ok().then_some(impact)
     })
     .flatten()
 }

@@ -75,6 +75,12 @@ impl Inputs {
         2.0 * PI * self.adhesion * (self.radius * self.equilibrium()).sqrt()
     }
 
+    /// Largest force with which the surface holds a resting sphere.
+    fn largest_tension(&self) -> f64 {
+        // Adhesion less elasticity is largest at a third of the equilibrium indentation.
+        2.0 / 3.0 * (1.0_f64 / 3.0).sqrt() * self.adhesion_force()
+    }
+
     /// The unit of speed in which the critical speed depends on the damping alone.
     fn unit(&self) -> f64 {
         self.equilibrium() * (self.stiffness * (self.radius * self.equilibrium()).sqrt() / self.mass()).sqrt()
@@ -177,6 +183,26 @@ fn tolerance_is_kept_over_random_scenes() {
         }
     }
     assert!(all > 100 && beyond * 100 < all, "{beyond} of {all}");
+}
+
+/// A well that is flat but for a millionth of the forces is still seen in single precision.
+#[test]
+fn a_nearly_flattened_well_is_seen_in_single_precision() {
+    const SEED: u64 = 1;
+    const FLAT: f64 = 1e-6;
+    let (mut seen, mut nearly_flat) = (0, 0);
+    for number in 0..reference::repetitions(1500, 500) {
+        let inputs = Inputs::of(&Kind::LargestTension.scene(SEED, number).in_single_precision());
+        let left = 1.0 - inputs.force / inputs.largest_tension();
+        if left < FLAT || !matches!(inputs.critical::<12, f64>(1e-12), Ok(found) if found != CriticalSpeed::AlwaysRebounds)
+        {
+            continue;
+        }
+        assert_ne!(inputs.critical::<7, f32>(1e-6), Ok(CriticalSpeed::AlwaysRebounds), "{left:e} {inputs:?}");
+        seen += 1;
+        nearly_flat += u32::from(left < 30.0 * FLAT);
+    }
+    assert!(seen > 30 && nearly_flat > 3, "{nearly_flat} of {seen}");
 }
 
 /// Damping that depends on the speed is at the critical speed what it would be if held constant.

@@ -100,7 +100,7 @@ pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(toleranc
         return Trial::Free;
     };
     let rest = law.potential(barrier);
-    let depth = rest - law.potential(bottom);
+    let depth = law.mean_slope(barrier, bottom) * (barrier - bottom);
     // Losses count in proportion to themselves, which at the critical speed make up all of the energy of the impact;
     // the error of an interval is in proportion to what moves in the well, and a square.
     let fraction = (energy / (energy + depth)).max(T::constant(LEAST_DEPTH_FRACTION));

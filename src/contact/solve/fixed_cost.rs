@@ -197,7 +197,7 @@ where
         let roundings = T::constant(ROUNDINGS * N as f64);
         let rounding = roundings * T::EPSILON * (energy + lost_in_all) + roundings * T::SMALLEST;
         // On the way out damping is at least as strong as on the way in.
-        let drag_squared = phase.drag_squared();
+        let drag_squared = phase.drag_squared(STRONGEST);
         let of_approach = self.unconverged(moved_in, earlier_in, drag_squared, lost) + misplaced * growth + rounding;
         let mut uncertain = of_approach + self.unconverged(moved, earlier, drag_squared, gained);
         uncertain = uncertain + approach.bound_with::<N>(&rebound).min(T::ONE);

@@ -234,10 +234,12 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         self.loss[0] * self.loss[0] <= T::constant(strongest * strongest) * self.free[0]
     }
 
-    /// Square of the drag: losses over the speed without losses, next to the peak.
+    /// Square of the drag, losses over the speed without losses next to the peak, up to that of the `strongest`: fixed point holds no
+    /// larger one.
     #[inline]
-    pub(crate) fn drag_squared(&self) -> T {
-        (self.loss[0] * self.loss[0]).saturating_div(self.free[0].max(T::SMALLEST))
+    pub(crate) fn drag_squared(&self, strongest: f64) -> T {
+        let square = self.loss[0] * self.loss[0];
+        square.saturating_div(self.free[0].max(square * T::constant(1.0 / (strongest * strongest))).max(T::SMALLEST))
     }
 
     /// Whether the sphere moves at all nodes.

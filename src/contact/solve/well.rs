@@ -50,7 +50,8 @@ pub(crate) fn well<T: Real>(law: &impl ContactLaw<T>) -> Option<(T, T)> {
             }
         }
     }
-    (law.potential(barrier) > law.potential(bottom)).then_some((barrier, bottom))
+    // Where a force has nearly flattened the well, a difference of potentials is less than their rounding.
+    (law.mean_slope(barrier, bottom) < T::ZERO).then_some((barrier, bottom))
 }
 
 /// Whether a coordinate is no smaller than that of the minimum of the potential, by slope and curvature there.
