@@ -15,9 +15,6 @@ pub const NEAREST: u8 = 2;
 /// Rounding to f32.
 pub const SINGLE: u8 = 3;
 
-/// Largest number of fixed point, at which its divisions saturate.
-const LARGEST_QUOTIENT: f64 = 127.99;
-
 thread_local! {
     static LARGEST: Cell<f64> = const { Cell::new(0.0) };
 }
@@ -104,8 +101,7 @@ impl<const ROUNDING: u8> Real for Checked<ROUNDING> {
     }
 
     fn saturating_div(self, divisor: Self) -> Self {
-        let quotient = self.0 / divisor.0;
-        Self::recorded(if ROUNDING == SINGLE { quotient } else { quotient.clamp(-LARGEST_QUOTIENT, LARGEST_QUOTIENT) })
+        self / divisor
     }
 }
 

@@ -231,7 +231,8 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     /// Whether damping is so mild that iterations converge to the solution.
     #[inline]
     pub(crate) fn is_represented(&self, strongest: f64) -> bool {
-        self.loss[0] * self.loss[0] <= T::constant(strongest * strongest) * self.free[0]
+        let part = T::constant(1.0 / strongest) * self.loss[0];
+        part * part <= self.free[0]
     }
 
     /// Square of the drag, losses over the speed without losses next to the peak, up to that of the `strongest`: fixed point holds no
