@@ -141,6 +141,14 @@ parameters! {
         MaterialDamping: "material damping", "1", 0.0 to 1e9;
         /// Strength f0 of the adhesion ring.
         AdhesionStrength: "adhesion strength", "N/m", 0.0 to 1e9;
+        /// Relaxation time A of a viscous material.
+        RelaxationTime: "relaxation time", "s", 0.0 to 1.0;
+        /// Restitution e that constant damping leaves without adhesion.
+        NominalRestitution: "nominal restitution", "1", 1e-3 to 1.0;
+        /// Work of adhesion G per area: twice the surface energy of equal materials.
+        AdhesionEnergy: "work of adhesion per area", "J/m^2", 0.0 to 1e6;
+        /// Distance between the atoms of two surfaces in contact, z_0.
+        AtomicSpacing: "atomic spacing", "m", 1e-11 to 1e-7;
         /// Strength zeta_A of the adhesion damping.
         AdhesionDamping: "adhesion damping", "1", 0.0 to 1e9;
         /// Strength lambda of the peeling moment.
@@ -283,6 +291,8 @@ pub enum Fault {
     BelowPrecision,
     /// The tolerance is below what the number of nodes can keep.
     TooFewNodes,
+    /// The law of contact does not go with this quantity.
+    OtherLaw,
 }
 
 /// An invalid input: the parameter, the value found, and how the value misses its range.
@@ -347,6 +357,7 @@ impl fmt::Display for InputError {
                 "be at least 1e-3 with four nodes, 3e-4 with five, 1e-5 with six, 1e-7 with seven, 1e-9 with eight and 1e-11 \
                  with nine; use more nodes or `Adaptive`",
             ),
+            Fault::OtherLaw => f.write_str("be zero with this law of contact; choose another law"),
             Fault::NotFinite => write!(f, "be a number from {} to {}{unit}", Number(smallest), Number(largest)),
             Fault::TooSmall | Fault::TooLarge => {
                 write!(f, "be {} to {}{unit}", Number(smallest), Number(largest))?;

@@ -1,10 +1,12 @@
 //! What collides: spheres, the materials they and the surface are made of, and the elastic contact between them.
 
+mod adhesion;
 mod hertz;
 mod material;
 mod sphere;
 mod stiffness;
 
+pub use adhesion::{AdhesionRegime, Sticking};
 pub use hertz::Hertz;
 pub use material::Material;
 pub use sphere::Sphere;

@@ -1,6 +1,6 @@
 //! An impact as the solver sees it: a few numbers near one, which any number type holds.
 
-use super::law::{Attraction, Damping, HertzLaw, HystereticDamping, NoForce, Ring};
+use super::law::{HertzLaw, HystereticDamping, NoForce, ProportionalDamping, Ring, RingStrength};
 use super::scene::Contact;
 use super::solve::path::NormalPath;
 use super::solve::{Method, Status};
@@ -135,7 +135,7 @@ impl<T: Real> DimensionlessImpact<T> {
     }
 }
 
-impl<T: Real, D: Damping<T>, A: Attraction<T>, S> Contact<T, HertzLaw<T, D, A>, S> {
+impl<T: Real, D: ProportionalDamping<T>, A: RingStrength<T>, S> Contact<T, HertzLaw<T, D, A>, S> {
     /// The impact of a sphere that arrives with `motion`, in units of its own.
     ///
     /// # Errors
@@ -152,7 +152,7 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, S> Contact<T, HertzLaw<T, D, A>, 
     pub fn dimensionless(&self, motion: &impl Approach<T>) -> Result<DimensionlessImpact<T>, InputError> {
         let (law, units) = self.in_units(motion.normal().speed())?;
         Ok(DimensionlessImpact {
-            adhesion: law.adhesion_strength(),
+            adhesion: law.adhesion.strength(),
             energy: units.energy,
             material_damping: law.damping.rate(),
             adhesion_damping: law.adhesion.damping_rate(),

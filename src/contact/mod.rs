@@ -1,11 +1,31 @@
 //! The contact simulation (Appendix B): forces and time during contact, solved to a tolerance.
 //!
-//! A scene has a law of contact along the normal (Hertz's force with hysteretic damping, ring adhesion and a constant
-//! external force, B6, or a law of your own) and, if it needs one, a law along the surface (Coulomb friction with spin,
-//! and a peeling moment, B7 to B10). Each term is a type, and a scene contains only the terms that you add. The solver follows
+//! A scene has a law of contact along the normal and, if it needs one, a law along the surface (Coulomb friction with spin, and a
+//! peeling moment, B7 to B10). The law along the normal of the paper is Hertz's force with hysteretic damping, ring adhesion and a
+//! constant external force (B6); there are [others](#laws-of-contact). Each term is a type, and a scene contains only the terms that you add. The solver follows
 //! the kinetic energy against a coordinate in which the normal motion is smooth from first contact to separation. All other
 //! results are integrals along this path. [The chapter on the method](method) has the mathematics.
 //!
+//! # Laws of contact
+//! | law | adhesion | in a scene |
+//! | --- | --- | --- |
+//! | Hertz | none | [`Contact::hertz`] |
+//! | Hertz, to zero force | none; contact ends before damping pulls | `.without_tension()` |
+//! | Hertz and ring (the paper) | 2 pi a f0, with damping on rebound | `.with_ring(f0, zeta_A)` |
+//! | Derjaguin, Muller and Toporov | 2 pi G r | `.with_dmt(G)` |
+//! | Johnson, Kendall and Roberts | deforms the sphere; ends at [snap-off or pull-off](JkrEnd) | [`JkrLaw`] |
+//!
+//! | damping | force for each unit of speed | in a scene |
+//! | --- | --- | --- |
+//! | none | 0 | |
+//! | hysteretic (the paper; Hunt and Crossley) | c_H K a^3/r | `.with_damping(zeta_H)` |
+//! | viscous (Kuwabara and Kono) | (3/2) A K a | `.with_viscous_damping(A)` |
+//! | constant (Tsuji, Tanaka and Ishida) | alpha sqrt(m K a) | `.with_constant_damping(e)` |
+//!
+//! Every damping goes with every law, and an external force with all but the second and the last. G is the work of adhesion for
+//! each area, twice the surface energy of equal materials.
+//!
+//! # Figures
 //! Figures 6 and 7 of the paper, by this simulation:
 //!
 //! | restitution against approach speed | normal force in time |
@@ -16,6 +36,7 @@
 
 mod along;
 mod dimensionless;
+mod force;
 mod law;
 #[cfg(doc)]
 #[doc = include_str!("method.md")]
@@ -29,9 +50,11 @@ mod units;
 
 pub use along::{Peeling, Surface, TangentialVelocities};
 pub use dimensionless::{DimensionlessContact, DimensionlessImpact};
+pub use force::ContactForce;
 pub use law::{
-    AnyDamping, AnyForce, AnyLaw, Attraction, ConstantForce, ContactLaw, Damping, Fraction, Groups, HertzLaw,
-    HystereticDamping, NoDamping, NoForce, Ring, Units,
+    AnyDamping, AnyForce, AnyLaw, Attraction, ConstantDamping, ConstantForce, ContactLaw, Damping, Dmt, Fraction,
+    Groups, HertzLaw, HystereticDamping, JkrEnd, JkrLaw, NoDamping, NoForce, NoTension, ProportionalDamping, Ring,
+    RingStrength, Units, ViscousDamping,
 };
 pub use outputs::{
     ContactImpulses, ContactTimes, ContactWorks, Energy, Impulses, Output, Slip, SlipHistory, Times, Works,

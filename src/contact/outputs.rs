@@ -308,8 +308,12 @@ impl Energy {
         if end.path.end != End::Separation {
             return None;
         }
-        let works = ContactWorks::new(works, end);
         let joules = |energy: T| end.sphere.mass() * end.units.speed * (end.units.speed * energy);
+        let mut works = ContactWorks::new(works, end);
+        if end.law.release_speed(end.law.end()).is_some() {
+            // What the materials have not given back where damping cancels their force remains in them.
+            works.material = joules(end.units.energy - end.path.energy);
+        }
         Some(EnergyLedger {
             before: joules(end.units.energy + after + friction + peeling),
             after: joules(end.path.energy.max(T::ZERO) + after),

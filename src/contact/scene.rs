@@ -2,7 +2,8 @@
 
 use super::along::{Peeling, Surface};
 use super::law::{
-    AnyLaw, Attraction, ConstantForce, ContactLaw, Damping, Groups, HertzLaw, HystereticDamping, Ring, Units,
+    AnyLaw, Attraction, ConstantDamping, ConstantForce, ContactLaw, Dmt, Groups, HertzLaw, HystereticDamping,
+    NoTension, ProportionalDamping, Ring, RingStrength, Units, ViscousDamping,
 };
 use super::outputs::{Ended, Output};
 use super::result::{NormalContact, SettledImpact, SimulatedImpact};
@@ -97,6 +98,44 @@ impl<T: Real, D, A, X, S> Contact<T, HertzLaw<T, D, A, X>, S> {
         Ok(Contact { sphere: self.sphere, law: self.law.with_damping(zeta)?, surface: self.surface })
     }
 
+    /// The same scene with damping of a viscous material of the relaxation time A >= 0, s.
+    ///
+    /// # Errors
+    /// A time outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Sphere, Stiffness, contact::Contact};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// assert!(scene.with_viscous_damping(-1e-9).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_viscous_damping(
+        self,
+        time: T,
+    ) -> Result<Contact<T, HertzLaw<T, ViscousDamping<T>, A, X>, S>, InputError> {
+        Ok(Contact { sphere: self.sphere, law: self.law.with_viscous_damping(time)?, surface: self.surface })
+    }
+
+    /// The same scene with damping that, without adhesion, leaves a restitution e at every speed.
+    ///
+    /// # Errors
+    /// A restitution outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Sphere, Stiffness, contact::Contact};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// assert!(scene.with_constant_damping(0.0).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_constant_damping(
+        self,
+        restitution: T,
+    ) -> Result<Contact<T, HertzLaw<T, ConstantDamping<T>, A, X>, S>, InputError> {
+        Ok(Contact { sphere: self.sphere, law: self.law.with_constant_damping(restitution)?, surface: self.surface })
+    }
+
     /// The same scene with a constant external force, N, positive out of the surface.
     ///
     /// # Errors
@@ -133,6 +172,47 @@ impl<T: Real, D, X, S> Contact<T, HertzLaw<T, D, NoAdhesion, X>, S> {
     /// ```
     pub fn with_ring(self, strength: T, zeta: T) -> Result<Contact<T, HertzLaw<T, D, Ring<T>, X>, S>, InputError> {
         Ok(Contact { sphere: self.sphere, law: self.law.with_ring(strength, zeta)?, surface: self.surface })
+    }
+
+    /// The same scene with the adhesion of Derjaguin, Muller and Toporov, of a work of adhesion G >= 0, J/m^2.
+    ///
+    /// # Errors
+    /// A work outside its range.
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// // 2 pi G r = 1, m = r = K = 1.
+    /// let sphere = Sphere::solid(1.0, 0.75 / core::f64::consts::PI)?;
+    /// let scene = Contact::hertz(sphere, Stiffness::new(1.0)?)
+    ///     .with_dmt(0.5 / core::f64::consts::PI)?
+    ///     .with_viscous_damping(0.05)?;
+    /// let impact = scene.solve(&NormalMotion::new(1.0)?, &Adaptive::new(1e-9)?)?;
+    /// assert!((impact.normal.overall_restitution() - 0.5921461602612_f64).abs() < 1e-9);
+    /// assert!(Contact::hertz(sphere, Stiffness::new(1.0)?).with_dmt(-1.0).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_dmt(self, work: T) -> Result<Contact<T, HertzLaw<T, D, Dmt<T>, X>, S>, InputError> {
+        Ok(Contact { sphere: self.sphere, law: self.law.with_dmt(work)?, surface: self.surface })
+    }
+}
+
+impl<T: Real, D, S> Contact<T, HertzLaw<T, D>, S> {
+    /// The same scene with an end of contact where damping cancels the elastic force, and not at zero indentation.
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(1e-3, 1000.0)?, Stiffness::new(1e9)?).with_constant_damping(0.5)?;
+    /// let (motion, method) = (NormalMotion::new(1.0)?, Adaptive::new(1e-9)?);
+    /// let e = scene.without_tension().solve(&motion, &method)?.normal.overall_restitution();
+    /// assert!((e - 0.550_283_169_6_f64).abs() < 1e-9);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn without_tension(self) -> Contact<T, HertzLaw<T, D, NoTension>, S> {
+        Contact { sphere: self.sphere, law: self.law.without_tension(), surface: self.surface }
     }
 }
 
@@ -226,7 +306,7 @@ impl<T: Real> AnyScene<T> {
         if lambda > T::ZERO && !matches!(law, AnyLaw::Ring(_)) {
             return Err(InputError {
                 parameter: Parameter::PeelingMoment,
-                fault: Fault::TooLarge,
+                fault: Fault::OtherLaw,
                 value: lambda.to_f64() as f32,
             });
         }
@@ -517,8 +597,8 @@ impl<T: Real> Classified<T> for TangentialVelocities<T> {
 impl<T, D, A, X, S> Contact<T, HertzLaw<T, D, A, X>, S>
 where
     T: Real,
-    D: Damping<T>,
-    A: Attraction<T>,
+    D: ProportionalDamping<T>,
+    A: RingStrength<T>,
     X: Attraction<T>,
 {
     /// The dimensionless groups of the impact of a sphere that arrives with the motion `before`; the external force is not

@@ -4,9 +4,11 @@ mod dual;
 #[cfg(feature = "fixed")]
 mod fixed;
 mod real;
+mod roots;
 mod tables;
 
 pub use dual::Dual;
 #[cfg(feature = "fixed")]
 pub use fixed::{FixedPoint, InFixedPoint};
 pub use real::Real;
+pub(crate) use roots::cube_root;

@@ -13,10 +13,10 @@ use microimpact::rigid::{
 };
 use microimpact::table::Single;
 use microimpact::{
-    Approach, Class, Classification, ConstantRestitution, ContactClass, Coulomb, Fault, Hertz, Impact, ImpactError,
-    InputError, Material, NoAdhesion, NoFriction, NormalImpact, NormalMotion, Oblique, ObliqueMotion, Outcome,
-    Parameter, PlanarMotion, Real, RestitutionLaw, RigidBody, SpeedRestitution, Sphere, Stiffness, SurfaceMotion,
-    TangentialImpact,
+    AdhesionRegime, Approach, Class, Classification, ConstantRestitution, ContactClass, Coulomb, Fault, Hertz, Impact,
+    ImpactError, InputError, Material, NoAdhesion, NoFriction, NormalImpact, NormalMotion, Oblique, ObliqueMotion,
+    Outcome, Parameter, PlanarMotion, Real, RestitutionLaw, RigidBody, SpeedRestitution, Sphere, Sticking, Stiffness,
+    SurfaceMotion, TangentialImpact,
 };
 
 mod contact;
@@ -97,6 +97,8 @@ fn elasticity<T: Real>() -> Result<(), InputError> {
         keep((sphere.gyration_ratio(), sphere.radius_of_gyration()));
         keep(sphere.contact_inertia());
         let (normal, oblique, planar) = motions(&sphere)?;
+        keep(Sticking::new(&sphere, stiffness, any())?);
+        keep(AdhesionRegime::of(&sphere, stiffness, any(), any())?);
         keep(Hertz::new(&sphere, stiffness, &normal));
         keep(Hertz::new(&sphere, stiffness, &oblique));
         keep(Hertz::new(&sphere, stiffness, &planar));

@@ -61,12 +61,18 @@ const OF_THE_RIGID_BODY: [Term; 4] = [
 ];
 
 /// What no simulation of the proof uses.
-const OF_THE_SIMULATION: [Term; 8] = [
+const OF_THE_SIMULATION: [Term; 9] = [
     Term {
         name: "laws chosen at run time",
         modules: &["chosen"],
         types: &["AnyLaw", "AnyDamping", "AnyForce"],
         ..TERM
+    },
+    Term {
+        name: "other laws and dampings",
+        modules: &["dmt", "jkr", "tension"],
+        types: &["Dmt", "JkrLaw", "JkrEnd", "NoTension", "ViscousDamping", "ConstantDamping"],
+        methods: &["with_dmt", "with_viscous_damping", "with_constant_damping", "without_tension"],
     },
     Term { name: "peeling", modules: &["peeling"], types: &["Peeling"], methods: &["with_peeling"] },
     Term { name: "external force", types: &["ConstantForce"], methods: &["with_external_force"], ..TERM },

@@ -3,8 +3,8 @@
 use std::fmt::Debug;
 
 use microimpact::contact::{
-    Adaptive, AdaptiveNodes, AnyLaw, Collocation, Contact, ContactLaw, Energy, FixedCost, Impulses, Output,
-    PhaseSamples, Recording, RestCriterion, RungeKuttaGill, Slip, Surface, Times, Works,
+    Adaptive, AdaptiveNodes, AnyLaw, Collocation, Contact, ContactLaw, Energy, FixedCost, HertzLaw, Impulses, JkrEnd,
+    JkrLaw, Output, PhaseSamples, Recording, RestCriterion, RungeKuttaGill, Slip, Surface, Times, Works,
 };
 use microimpact::{InputError, NormalMotion, PlanarMotion, Sphere, Stiffness};
 use rand::rngs::StdRng;
@@ -121,6 +121,42 @@ fn compare_laws<T: Number>(inputs: &Inputs) -> Result<(), InputError> {
     Ok(())
 }
 
+/// Compares two scenes without friction by one method.
+fn compare_along_the_normal<L: ContactLaw<f64> + Debug>(typed: L, chosen: AnyLaw<f64>, inputs: &Inputs) {
+    let (sphere, motion) = (Sphere::solid(inputs.radius, 2600.0).unwrap(), NormalMotion::new(inputs.speed).unwrap());
+    let method = Collocation::<9, f64>::new(1e-9).unwrap();
+    let (typed, chosen) = (Contact::new(sphere, typed), Contact::new(sphere, chosen));
+    let found = told(typed.solve_for(&motion, &method, Times));
+    assert_eq!(found, told(chosen.solve_for(&motion, &method, Times)), "{typed:?}, {motion:?}");
+    assert_eq!(told(typed.critical_speed(&method)), told(chosen.critical_speed(&method)), "{typed:?}");
+}
+
+/// Every other law once, and every damping.
+fn compare_other_laws(inputs: &Inputs) -> Result<(), InputError> {
+    let Inputs { zeta_h, strength, zeta_a, force, .. } = *inputs;
+    let (time, e) = (1e-10 * zeta_h, 1.0 / (1.0 + zeta_a));
+    let (work, end) = (1e-3 * strength, JkrEnd::PullOff);
+    let stiffness = Stiffness::new(inputs.stiffness)?;
+    let (hertz, any) = (HertzLaw::new(stiffness), AnyLaw::hertz(stiffness));
+    compare_along_the_normal(hertz.with_constant_damping(e)?, any.with_constant_damping(e)?, inputs);
+    let (ring, any) = (hertz.with_ring(strength, zeta_a)?, AnyLaw::ring(stiffness, strength, zeta_a)?);
+    compare_along_the_normal(ring.with_viscous_damping(time)?, any.with_viscous_damping(time)?, inputs);
+    compare_along_the_normal(ring.with_constant_damping(e)?, any.with_constant_damping(e)?, inputs);
+    let (dmt, any) = (hertz.with_dmt(work)?, AnyLaw::dmt(stiffness, work)?);
+    compare_along_the_normal(dmt.with_damping(zeta_h)?, any.with_damping(zeta_h)?, inputs);
+    let (pulled, any) = (dmt.with_external_force(force)?, any.with_external_force(force)?);
+    compare_along_the_normal(pulled.with_constant_damping(e)?, any.with_constant_damping(e)?, inputs);
+    let (ends, any) = (hertz.with_viscous_damping(time)?.without_tension(), AnyLaw::without_tension(stiffness));
+    compare_along_the_normal(ends, any.with_viscous_damping(time)?, inputs);
+    let (jkr, any) = (JkrLaw::new(stiffness, work)?, AnyLaw::jkr(stiffness, work, JkrEnd::SnapOff)?);
+    compare_along_the_normal(jkr, any, inputs);
+    compare_along_the_normal(jkr.with_damping(zeta_h)?, any.with_damping(zeta_h)?, inputs);
+    let (pulled_off, any) = (jkr.ending_at(end), AnyLaw::jkr(stiffness, work, end)?);
+    compare_along_the_normal(pulled_off.with_viscous_damping(time)?, any.with_viscous_damping(time)?, inputs);
+    compare_along_the_normal(pulled_off.with_constant_damping(e)?, any.with_constant_damping(e)?, inputs);
+    Ok(())
+}
+
 #[test]
 fn chosen_laws_agree_with_typed_ones_to_the_last_bit() -> Result<(), InputError> {
     let mut random = StdRng::seed_from_u64(12);
@@ -128,6 +164,7 @@ fn chosen_laws_agree_with_typed_ones_to_the_last_bit() -> Result<(), InputError>
         let inputs = Inputs::random(&mut random);
         compare_laws::<f64>(&inputs)?;
         compare_laws::<f32>(&inputs)?;
+        compare_other_laws(&inputs)?;
     }
     Ok(())
 }

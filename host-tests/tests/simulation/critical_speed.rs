@@ -194,7 +194,8 @@ fn a_nearly_flattened_well_is_seen_in_single_precision() {
     for number in 0..reference::repetitions(1500, 500) {
         let inputs = Inputs::of(&Kind::LargestTension.scene(SEED, number).in_single_precision());
         let left = 1.0 - inputs.force / inputs.largest_tension();
-        if left < FLAT || !matches!(inputs.critical::<12, f64>(1e-12), Ok(found) if found != CriticalSpeed::AlwaysRebounds)
+        if left < FLAT
+            || !matches!(inputs.critical::<12, f64>(1e-12), Ok(found) if found != CriticalSpeed::AlwaysRebounds)
         {
             continue;
         }

@@ -2,6 +2,8 @@
 
 mod attraction;
 mod jkr;
+mod random;
+mod reference;
 mod spring;
 
 use microimpact::contact::{Contact, ContactLaw, Method, Status};

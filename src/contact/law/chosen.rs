@@ -1,8 +1,11 @@
 //! Laws that are chosen at run time: one type, and so one copy of the solver, for all of them.
 
 use super::hertz::HertzUnits;
-use super::{Attraction, ConstantForce, ContactLaw, Damping, Fraction, HertzLaw, HystereticDamping, Ring, Units};
-use crate::{InputError, NoAdhesion, Real, Sphere, Stiffness};
+use super::{
+    Attraction, ConstantDamping, ConstantForce, ContactLaw, Damping, Dmt, Fraction, HertzLaw, HystereticDamping,
+    JkrEnd, JkrLaw, NoDamping, NoTension, Ring, Units, ViscousDamping,
+};
+use crate::{Fault, InputError, NoAdhesion, Parameter, Real, Sphere, Stiffness};
 
 /// Any law of contact, chosen at run time.
 ///
@@ -34,6 +37,25 @@ pub enum AnyLaw<T> {
     Hertz(HertzLaw<T, AnyDamping<T>, NoAdhesion, AnyForce<T>>),
     /// Hertz's contact with the paper's ring of adhesion.
     Ring(HertzLaw<T, AnyDamping<T>, Ring<T>, AnyForce<T>>),
+    /// Hertz's contact with the adhesion of Derjaguin, Muller and Toporov.
+    Dmt(HertzLaw<T, AnyDamping<T>, Dmt<T>, AnyForce<T>>),
+    /// Hertz's contact without adhesion, which ends where damping cancels the elastic force.
+    WithoutTension(HertzLaw<T, AnyDamping<T>, NoTension>),
+    /// The contact of Johnson, Kendall and Roberts.
+    Jkr(JkrLaw<T, AnyDamping<T>>),
+}
+
+/// Does the same with the law that is there.
+macro_rules! for_law {
+    ($self:expr, $law:ident => $result:expr) => {
+        match $self {
+            AnyLaw::Hertz($law) => $result,
+            AnyLaw::Ring($law) => $result,
+            AnyLaw::Dmt($law) => $result,
+            AnyLaw::WithoutTension($law) => $result,
+            AnyLaw::Jkr($law) => $result,
+        }
+    };
 }
 
 impl<T: Real> AnyLaw<T> {
@@ -46,12 +68,7 @@ impl<T: Real> AnyLaw<T> {
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn hertz(stiffness: Stiffness<T>) -> Self {
-        Self::Hertz(HertzLaw {
-            stiffness: stiffness.pascals(),
-            damping: AnyDamping::None,
-            adhesion: NoAdhesion,
-            force: AnyForce::None,
-        })
+        Self::Hertz(plain(stiffness, NoAdhesion))
     }
 
     /// Hertz's contact with a ring force of strength f0 >= 0 (N/m) and its damping zeta_A >= 0 on rebound.
@@ -66,12 +83,59 @@ impl<T: Real> AnyLaw<T> {
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn ring(stiffness: Stiffness<T>, strength: T, zeta: T) -> Result<Self, InputError> {
-        Ok(Self::Ring(HertzLaw {
-            stiffness: stiffness.pascals(),
-            damping: AnyDamping::None,
-            adhesion: Ring::new(strength, zeta)?,
-            force: AnyForce::None,
-        }))
+        Ok(Self::Ring(plain(stiffness, Ring::new(strength, zeta)?)))
+    }
+
+    /// Hertz's contact with the adhesion of Derjaguin, Muller and Toporov, of a work of adhesion G >= 0, J/m^2.
+    ///
+    /// # Errors
+    /// A work outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Stiffness, contact::AnyLaw};
+    ///
+    /// assert!(AnyLaw::dmt(Stiffness::new(1e10)?, -0.1).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn dmt(stiffness: Stiffness<T>, work: T) -> Result<Self, InputError> {
+        Ok(Self::Dmt(plain(stiffness, Dmt::new(work)?)))
+    }
+
+    /// The contact of Johnson, Kendall and Roberts with a work of adhesion G >= 0, J/m^2.
+    ///
+    /// # Errors
+    /// A work outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Stiffness, contact::{AnyLaw, JkrEnd}};
+    ///
+    /// assert!(AnyLaw::jkr(Stiffness::new(1e10)?, -0.1, JkrEnd::SnapOff).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn jkr(stiffness: Stiffness<T>, work: T, end: JkrEnd) -> Result<Self, InputError> {
+        Ok(Self::Jkr(JkrLaw::new(stiffness, work)?.ending_at(end).damped(AnyDamping::None)))
+    }
+
+    /// Hertz's contact without adhesion, which ends where damping cancels the elastic force.
+    ///
+    /// ```
+    /// use microimpact::{Stiffness, contact::AnyLaw};
+    ///
+    /// assert!(AnyLaw::without_tension(Stiffness::new(1e10)?).with_external_force(1.0).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn without_tension(stiffness: Stiffness<T>) -> Self {
+        Self::WithoutTension(HertzLaw::new(stiffness).without_tension().damped(AnyDamping::None))
+    }
+
+    fn damped(self, damping: AnyDamping<T>) -> Self {
+        match self {
+            Self::Hertz(law) => Self::Hertz(law.damped(damping)),
+            Self::Ring(law) => Self::Ring(law.damped(damping)),
+            Self::Dmt(law) => Self::Dmt(law.damped(damping)),
+            Self::WithoutTension(law) => Self::WithoutTension(law.damped(damping)),
+            Self::Jkr(law) => Self::Jkr(law.damped(damping)),
+        }
     }
 
     /// The same law with hysteretic damping of strength zeta_H >= 0 in the materials.
@@ -85,34 +149,73 @@ impl<T: Real> AnyLaw<T> {
     /// assert!(AnyLaw::hertz(Stiffness::new(1e10)?).with_damping(f64::NAN).is_err());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn with_damping(mut self, zeta: T) -> Result<Self, InputError> {
-        let damping = AnyDamping::Hysteretic(HystereticDamping::new(zeta)?);
-        match &mut self {
-            Self::Hertz(law) => law.damping = damping,
-            Self::Ring(law) => law.damping = damping,
-        }
-        Ok(self)
+    pub fn with_damping(self, zeta: T) -> Result<Self, InputError> {
+        Ok(self.damped(AnyDamping::Hysteretic(HystereticDamping::new(zeta)?)))
+    }
+
+    /// The same law with damping of a viscous material of the relaxation time A >= 0, s.
+    ///
+    /// # Errors
+    /// A time outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Stiffness, contact::AnyLaw};
+    ///
+    /// assert!(AnyLaw::hertz(Stiffness::new(1e10)?).with_viscous_damping(-1.0).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_viscous_damping(self, time: T) -> Result<Self, InputError> {
+        Ok(self.damped(AnyDamping::Viscous(ViscousDamping::new(time)?)))
+    }
+
+    /// The same law with damping that, without adhesion, leaves a restitution e at every speed.
+    ///
+    /// # Errors
+    /// A restitution outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Stiffness, contact::AnyLaw};
+    ///
+    /// assert!(AnyLaw::hertz(Stiffness::new(1e10)?).with_constant_damping(0.0).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_constant_damping(self, restitution: T) -> Result<Self, InputError> {
+        Ok(self.damped(AnyDamping::Constant(ConstantDamping::new(restitution)?)))
     }
 
     /// The same law with a constant external force, N, positive out of the surface.
     ///
     /// # Errors
-    /// A force outside its range.
+    /// A force outside its range, or not zero where the law takes none.
     ///
     /// ```
-    /// use microimpact::{Stiffness, contact::AnyLaw};
+    /// use microimpact::{Fault, Stiffness, contact::{AnyLaw, JkrEnd}};
     ///
-    /// assert!(AnyLaw::hertz(Stiffness::new(1e10)?).with_external_force(f64::NAN).is_err());
+    /// let stiffness = Stiffness::new(1e10)?;
+    /// assert!(AnyLaw::hertz(stiffness).with_external_force(f64::NAN).is_err());
+    /// let refused = AnyLaw::jkr(stiffness, 0.1, JkrEnd::SnapOff)?.with_external_force(1e-9).unwrap_err();
+    /// assert_eq!(refused.fault, Fault::OtherLaw);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn with_external_force(mut self, force: T) -> Result<Self, InputError> {
-        let force = AnyForce::Constant(ConstantForce::new(force)?);
+        let constant = AnyForce::Constant(ConstantForce::new(force)?);
         match &mut self {
-            Self::Hertz(law) => law.force = force,
-            Self::Ring(law) => law.force = force,
+            Self::Hertz(law) => law.force = constant,
+            Self::Ring(law) => law.force = constant,
+            Self::Dmt(law) => law.force = constant,
+            Self::WithoutTension(_) | Self::Jkr(_) if force == T::ZERO => {}
+            Self::WithoutTension(_) | Self::Jkr(_) => {
+                let (parameter, value) = (Parameter::ExternalForce, force.to_f64() as f32);
+                return Err(InputError { parameter, fault: Fault::OtherLaw, value });
+            }
         }
         Ok(self)
     }
+}
+
+/// Hertz's contact with an adhesion, and no damping or force so far.
+fn plain<T: Real, A>(stiffness: Stiffness<T>, adhesion: A) -> HertzLaw<T, AnyDamping<T>, A, AnyForce<T>> {
+    HertzLaw { stiffness: stiffness.pascals(), damping: AnyDamping::None, adhesion, force: AnyForce::None }
 }
 
 /// Any damping of the materials, chosen at run time.
@@ -120,7 +223,7 @@ impl<T: Real> AnyLaw<T> {
 /// ```
 /// use microimpact::contact::{AnyDamping, Damping};
 ///
-/// assert_eq!(AnyDamping::<f64>::None.rate(), 0.0);
+/// assert_eq!(AnyDamping::<f64>::None.force(1.25, 1.0, 1.0), 0.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -131,22 +234,48 @@ pub enum AnyDamping<T> {
     None,
     /// Damping of Hunt and Crossley.
     Hysteretic(HystereticDamping<T>),
+    /// Damping of a viscous material.
+    Viscous(ViscousDamping<T>),
+    /// Damping that leaves a constant restitution.
+    Constant(ConstantDamping<T>),
+}
+
+/// Passes a call on to the damping that is there.
+macro_rules! of_damping {
+    ($($function:ident($($argument:ident: $type:ty),*);)*) => {
+        $(
+            #[inline]
+            fn $function(&self, $($argument: $type),*) -> T {
+                match self {
+                    Self::None => NoDamping.$function($($argument),*),
+                    Self::Hysteretic(damping) => damping.$function($($argument),*),
+                    Self::Viscous(damping) => damping.$function($($argument),*),
+                    Self::Constant(damping) => damping.$function($($argument),*),
+                }
+            }
+        )*
+    };
 }
 
 impl<T: Real> Damping<T> for AnyDamping<T> {
-    fn in_units(&self, unit: T) -> Result<Self, InputError> {
+    fn in_units(&self, units: &HertzUnits<T>) -> Result<Self, InputError> {
         match self {
             Self::None => Ok(Self::None),
-            Self::Hysteretic(damping) => damping.in_units(unit).map(Self::Hysteretic),
+            Self::Hysteretic(damping) => damping.in_units(units).map(Self::Hysteretic),
+            Self::Viscous(damping) => damping.in_units(units).map(Self::Viscous),
+            Self::Constant(damping) => damping.in_units(units).map(Self::Constant),
         }
     }
 
     #[inline]
-    fn rate(&self) -> T {
-        match self {
-            Self::None => T::ZERO,
-            Self::Hysteretic(damping) => damping.rate(),
-        }
+    fn needs_root(&self) -> bool {
+        matches!(self, Self::Constant(_))
+    }
+
+    of_damping! {
+        force(elastic: T, radius: T, root: T);
+        loss_over_square(peak: T, fraction: &Fraction<T>);
+        release_speed(radius: T, root: T);
     }
 }
 
@@ -155,7 +284,7 @@ impl<T: Real> Damping<T> for AnyDamping<T> {
 /// ```
 /// use microimpact::contact::{AnyForce, Attraction};
 ///
-/// assert!(!AnyForce::<f64>::None.is_present());
+/// assert!(!AnyForce::<f64>::None.moves_peak());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -192,7 +321,7 @@ impl<T: Real> Attraction<T> for AnyForce<T> {
     }
 
     #[inline]
-    fn is_present(&self) -> bool {
+    fn moves_peak(&self) -> bool {
         matches!(self, Self::Constant(_))
     }
 
@@ -212,10 +341,7 @@ macro_rules! of_law {
         $(
             #[inline]
             fn $function(&self, $($argument: $type),*) -> $result {
-                match self {
-                    Self::Hertz(law) => law.$function($($argument),*),
-                    Self::Ring(law) => law.$function($($argument),*),
-                }
+                for_law!(self, law => law.$function($($argument),*))
             }
         )*
     };
@@ -226,6 +352,11 @@ impl<T: Real> ContactLaw<T> for AnyLaw<T> {
         match self {
             Self::Hertz(law) => law.in_units(sphere, approach).map(|(law, units)| (Self::Hertz(law), units)),
             Self::Ring(law) => law.in_units(sphere, approach).map(|(law, units)| (Self::Ring(law), units)),
+            Self::Dmt(law) => law.in_units(sphere, approach).map(|(law, units)| (Self::Dmt(law), units)),
+            Self::WithoutTension(law) => {
+                law.in_units(sphere, approach).map(|(law, units)| (Self::WithoutTension(law), units))
+            }
+            Self::Jkr(law) => law.in_units(sphere, approach).map(|(law, units)| (Self::Jkr(law), units)),
         }
     }
 
@@ -243,9 +374,11 @@ impl<T: Real> ContactLaw<T> for AnyLaw<T> {
         indentation(s: T) -> T;
         indentation_slope(s: T) -> T;
         coordinate(indentation: T) -> Option<T>;
+        coordinate_in_contact(indentation: T) -> Option<T>;
         contact_radius(s: T) -> T;
         start() -> T;
         end() -> T;
+        release_speed(s: T) -> Option<T>;
         may_have_barrier() -> bool;
         energy_power() -> f64;
         speed_of_adhesion(sphere: &Sphere<T>) -> T;

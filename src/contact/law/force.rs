@@ -42,6 +42,12 @@ impl<T: Real> ConstantForce<T> {
     pub fn new(force: T) -> Result<Self, InputError> {
         Ok(Self { force: Parameter::ExternalForce.check(force)? })
     }
+
+    /// A force into the surface, in units of an impact.
+    #[inline]
+    pub(super) fn inwards(force: T) -> Self {
+        Self { force }
+    }
 }
 
 impl<T: Real> Attraction<T> for NoForce {
@@ -51,7 +57,7 @@ impl<T: Real> Attraction<T> for NoForce {
     }
 
     #[inline]
-    fn is_present(&self) -> bool {
+    fn moves_peak(&self) -> bool {
         false
     }
 }
@@ -59,9 +65,7 @@ impl<T: Real> Attraction<T> for NoForce {
 impl<T: Real> Attraction<T> for ConstantForce<T> {
     #[inline]
     fn in_units(&self, sphere: &Sphere<T>, units: &HertzUnits<T>) -> Result<Self, InputError> {
-        let acceleration = self.force / sphere.mass();
-        let inwards = -(acceleration / units.speed * (units.length / units.speed));
-        Ok(Self { force: Parameter::ForceRatio.check(inwards)? })
+        Ok(Self { force: Parameter::ForceRatio.check(-units.force(self.force, sphere))? })
     }
 
     #[inline]

@@ -5,7 +5,10 @@
 
 use core::f64::consts::PI;
 
-use super::{ConstantForce, ContactLaw, Damping, Fraction, HystereticDamping, NoDamping, NoForce, Ring};
+use super::{
+    ConstantDamping, ConstantForce, ContactLaw, Damping, Dmt, Fraction, HystereticDamping, NoDamping, NoForce,
+    NoTension, ProportionalDamping, Ring, RingStrength, ViscousDamping,
+};
 use crate::contact::units::Units;
 use crate::{InputError, NoAdhesion, Parameter, Real, Sphere, Stiffness};
 
@@ -50,16 +53,22 @@ pub trait Attraction<T: Real>: Copy {
     /// A ratio of forces that cannot be represented.
     fn in_units(&self, sphere: &Sphere<T>, units: &HertzUnits<T>) -> Result<Self, InputError>;
 
-    /// Whether there is such a force at all.
+    /// Whether the force moves the peak of the undamped motion from where [`HertzUnits`] have it.
     #[inline]
-    fn is_present(&self) -> bool {
+    fn moves_peak(&self) -> bool {
         true
     }
 
     /// Equilibrium indentation that adhesion alone would give the sphere, m.
     #[inline]
-    fn equilibrium(&self, _stiffness: T) -> T {
+    fn equilibrium(&self, _sphere: &Sphere<T>, _stiffness: T) -> T {
         T::ZERO
+    }
+
+    /// Whether contact ends where the force of the contact vanishes, before it pulls.
+    #[inline]
+    fn ends_without_force(&self) -> bool {
+        false
     }
 
     /// Energy that the force gives a sphere on its way to s.
@@ -124,7 +133,7 @@ impl<T: Real> Attraction<T> for NoAdhesion {
     }
 
     #[inline]
-    fn is_present(&self) -> bool {
+    fn moves_peak(&self) -> bool {
         false
     }
 }
@@ -168,7 +177,34 @@ impl<T: Real> HertzLaw<T> {
     }
 }
 
+impl<T: Real, D> HertzLaw<T, D> {
+    /// The same law with an end of contact where damping cancels the elastic force, and not at zero indentation.
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact, HertzLaw};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let law = HertzLaw::new(Stiffness::new(1e9)?).with_constant_damping(0.5)?;
+    /// let (sphere, motion) = (Sphere::solid(1e-3, 1000.0)?, NormalMotion::new(1.0)?);
+    /// let method = Adaptive::new(1e-9)?;
+    /// let e = Contact::new(sphere, law).solve(&motion, &method)?.normal.overall_restitution();
+    /// assert!((e - 0.5_f64).abs() < 1e-9);
+    /// let e = Contact::new(sphere, law.without_tension()).solve(&motion, &method)?.normal.overall_restitution();
+    /// assert!((e - 0.550_283_169_6).abs() < 1e-9);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn without_tension(self) -> HertzLaw<T, D, NoTension> {
+        let Self { stiffness, damping, force, .. } = self;
+        HertzLaw { stiffness, damping, adhesion: NoTension, force }
+    }
+}
+
 impl<T: Real, D, A, X> HertzLaw<T, D, A, X> {
+    pub(super) fn damped<E>(self, damping: E) -> HertzLaw<T, E, A, X> {
+        let Self { stiffness, adhesion, force, .. } = self;
+        HertzLaw { stiffness, damping, adhesion, force }
+    }
+
     /// The same law with hysteretic damping of strength zeta_H >= 0 in the materials.
     ///
     /// # Errors
@@ -181,8 +217,37 @@ impl<T: Real, D, A, X> HertzLaw<T, D, A, X> {
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn with_damping(self, zeta: T) -> Result<HertzLaw<T, HystereticDamping<T>, A, X>, InputError> {
-        let Self { stiffness, adhesion, force, .. } = self;
-        Ok(HertzLaw { stiffness, damping: HystereticDamping::new(zeta)?, adhesion, force })
+        Ok(self.damped(HystereticDamping::new(zeta)?))
+    }
+
+    /// The same law with damping of a viscous material of the relaxation time A >= 0, s.
+    ///
+    /// # Errors
+    /// A time outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Stiffness, contact::HertzLaw};
+    ///
+    /// assert!(HertzLaw::new(Stiffness::new(1e10)?).with_viscous_damping(-1e-9).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_viscous_damping(self, time: T) -> Result<HertzLaw<T, ViscousDamping<T>, A, X>, InputError> {
+        Ok(self.damped(ViscousDamping::new(time)?))
+    }
+
+    /// The same law with damping that leaves a restitution e at every speed.
+    ///
+    /// # Errors
+    /// A restitution outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Stiffness, contact::HertzLaw};
+    ///
+    /// assert!(HertzLaw::new(Stiffness::new(1e10)?).with_constant_damping(0.0).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_constant_damping(self, restitution: T) -> Result<HertzLaw<T, ConstantDamping<T>, A, X>, InputError> {
+        Ok(self.damped(ConstantDamping::new(restitution)?))
     }
 
     /// The same law with a ring force of strength f0 >= 0 (N/m) and its damping zeta_A >= 0 on rebound.
@@ -199,6 +264,22 @@ impl<T: Real, D, A, X> HertzLaw<T, D, A, X> {
     pub fn with_ring(self, strength: T, zeta: T) -> Result<HertzLaw<T, D, Ring<T>, X>, InputError> {
         let Self { stiffness, damping, force, .. } = self;
         Ok(HertzLaw { stiffness, damping, adhesion: Ring::new(strength, zeta)?, force })
+    }
+
+    /// The same law with the adhesion of Derjaguin, Muller and Toporov, of a work of adhesion G >= 0, J/m^2.
+    ///
+    /// # Errors
+    /// A work outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Stiffness, contact::HertzLaw};
+    ///
+    /// assert!(HertzLaw::new(Stiffness::new(1e10)?).with_dmt(-0.1).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_dmt(self, work: T) -> Result<HertzLaw<T, D, Dmt<T>, X>, InputError> {
+        let Self { stiffness, damping, force, .. } = self;
+        Ok(HertzLaw { stiffness, damping, adhesion: Dmt::new(work)?, force })
     }
 
     /// The same law with a constant external force, N, positive out of the surface.
@@ -250,21 +331,37 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> HertzLaw<T, D, 
     fn in_hertz_units(&self, sphere: &Sphere<T>, units: &HertzUnits<T>) -> Result<Self, InputError> {
         Ok(Self {
             stiffness: self.stiffness,
-            damping: self.damping.in_units(units.damping)?,
+            damping: self.damping.in_units(units)?,
             adhesion: self.adhesion.in_units(sphere, units)?,
             force: self.force.in_units(sphere, units)?,
         })
     }
 
-    /// Strength p of adhesion in units of an impact: its energy is (p/2) s^3.
-    pub(crate) fn adhesion_strength(&self) -> T {
-        T::constant(2.0) * self.adhesion.energy(T::ONE)
+    /// The contact radius at a coordinate, which is that radius or, where the damping needs it, the root of it.
+    #[inline]
+    fn radius(&self, s: T) -> T {
+        if self.damping.needs_root() { s * s } else { s }
     }
 
+    /// Rate of change of the potential with the contact radius.
+    #[inline]
+    fn radial_slope(&self, a: T) -> T {
+        let a2 = a * a;
+        T::constant(2.5) * a2 * a2 - self.adhesion.slope(a) - self.force.slope(a)
+    }
+
+    /// Rate of change of the contact radius with the coordinate.
+    #[inline]
+    fn stretch(&self, s: T) -> T {
+        if self.damping.needs_root() { s + s } else { T::ONE }
+    }
+}
+
+impl<T: Real, D: ProportionalDamping<T>, A: RingStrength<T>, X: Attraction<T>> HertzLaw<T, D, A, X> {
     /// The dimensionless groups of this law in units of an impact of the kinetic energy `energy`.
     pub(crate) fn groups(&self, energy: T) -> Groups<T> {
         // The undamped motion is fastest at s^2 = (3/5) p, where V = -(1/5) (3/5)^(3/2) p^(5/2).
-        let p = self.adhesion_strength();
+        let p = self.adhesion.strength();
         let fastest = energy + energy + T::constant(0.4 * 0.464_758_001_544_890_1) * p * p * p.sqrt();
         let speed = fastest.sqrt();
         Groups {
@@ -274,39 +371,42 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> HertzLaw<T, D, 
             adhesion_damping: self.adhesion.damping_rate() * speed,
         }
     }
+}
 
-    /// Coordinate at which the undamped motion under an external force turns, `None` where the force turns it back before.
-    fn undamped_peak(&self, energy: T) -> Option<T> {
-        let mut peak = T::ONE;
-        for _ in 0..PEAK_SEARCH {
-            if self.potential(peak) >= energy {
-                break;
-            }
-            peak = peak * T::constant(PEAK_GROWTH);
+/// Coordinate at which the undamped motion turns, beyond a coordinate `from` that is no nearer than the bottom of the potential;
+/// `None` where a force turns it back before.
+pub(super) fn undamped_peak<T: Real>(law: &impl ContactLaw<T>, from: T, energy: T) -> Option<T> {
+    let mut peak = from;
+    for _ in 0..PEAK_SEARCH {
+        if law.potential(peak) >= energy {
+            break;
         }
-        // From above Newton's method comes down without passing the root, as the potential is convex there.
-        for _ in 0..PEAK_SEARCH {
-            let slope = self.slope(peak);
-            if slope <= T::ZERO {
-                return None;
-            }
-            let step = (self.potential(peak) - energy) / slope;
-            peak = peak - step;
-            if step.abs() <= T::constant(PEAK_ROUNDING) * T::EPSILON * peak {
-                break;
-            }
-        }
-        Some(peak)
+        peak = peak * T::constant(PEAK_GROWTH);
     }
+    // From above Newton's method comes down without passing the root, as the potential is convex there.
+    for _ in 0..PEAK_SEARCH {
+        let slope = law.slope(peak);
+        if slope <= T::ZERO {
+            return None;
+        }
+        let step = (law.potential(peak) - energy) / slope;
+        peak = peak - step;
+        if step.abs() <= T::constant(PEAK_ROUNDING) * T::EPSILON * peak {
+            break;
+        }
+    }
+    Some(peak)
 }
 
 impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> ContactLaw<T> for HertzLaw<T, D, A, X> {
     #[inline]
     fn in_units(&self, sphere: &Sphere<T>, approach: T) -> Result<(Self, Units<T>), InputError> {
-        let mut units = HertzUnits::new(sphere, self.stiffness, self.adhesion.equilibrium(self.stiffness), approach)?;
+        let in_peak =
+            if self.adhesion.moves_peak() { T::ZERO } else { self.adhesion.equilibrium(sphere, self.stiffness) };
+        let mut units = HertzUnits::new(sphere, self.stiffness, in_peak, approach)?;
         let mut law = self.in_hertz_units(sphere, &units)?;
-        if self.force.is_present() {
-            let peak = law.undamped_peak(units.energy);
+        if self.adhesion.moves_peak() || self.force.moves_peak() {
+            let peak = undamped_peak(&law, T::ONE, units.energy).map(|peak| self.radius(peak));
             if let Some(peak) = peak.filter(|peak| *peak > T::constant(LEAST_PEAK)) {
                 let enlarged = units.enlarged(peak);
                 // Damping that is out of range in larger units stays in those of the impact without the force.
@@ -315,52 +415,62 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> ContactLaw<T> f
                 }
             }
         }
-        Ok((law, Units { length: units.length, speed: units.speed, energy: units.energy }))
+        Ok((law, units.units()))
     }
 
     #[inline]
     fn loss_power(&self) -> u32 {
-        // Material damping goes with s^4, that of a ring with s^2.
-        2
+        // Hysteretic damping goes with s^4, a viscous material and a ring with s^2, and constant damping with s^4 of its root.
+        if self.adhesion.ends_without_force() { 0 } else { 2 }
     }
 
     #[inline]
     fn may_have_barrier(&self) -> bool {
-        self.force.is_present()
+        self.force.moves_peak()
     }
 
     #[inline]
     fn potential(&self, s: T) -> T {
-        let s2 = s * s;
-        T::constant(0.5) * s2 * s2 * s - self.adhesion.energy(s) - self.force.energy(s)
+        let a = self.radius(s);
+        let a2 = a * a;
+        T::constant(0.5) * a2 * a2 * a - self.adhesion.energy(a) - self.force.energy(a)
     }
 
     #[inline]
     fn slope(&self, s: T) -> T {
-        let s2 = s * s;
-        T::constant(2.5) * s2 * s2 - self.adhesion.slope(s) - self.force.slope(s)
+        let a = self.radius(s);
+        let slope = self.radial_slope(a);
+        if self.damping.needs_root() { slope * self.stretch(s) } else { slope }
     }
 
     #[inline]
     fn curvature(&self, s: T) -> T {
-        T::constant(10.0) * s * s * s - self.adhesion.curvature(s) - self.force.curvature(s)
+        let a = self.radius(s);
+        let curvature = T::constant(10.0) * a * a * a - self.adhesion.curvature(a) - self.force.curvature(a);
+        if self.damping.needs_root() {
+            let stretch = self.stretch(s);
+            return curvature * stretch * stretch + T::constant(2.0) * self.radial_slope(a);
+        }
+        curvature
     }
 
     #[inline]
     fn mean_slope(&self, p: T, s: T) -> T {
-        let (p2, s2, product) = (p * p, s * s, p * s);
+        let (to, from) = (self.radius(p), self.radius(s));
+        let (p2, s2, product) = (to * to, from * from, to * from);
         let elastic = T::constant(0.5) * (p2 * p2 + s2 * s2 + product * (p2 + product + s2));
-        elastic - self.adhesion.mean_slope(p, s) - self.force.mean_slope(p, s)
+        let mean = elastic - self.adhesion.mean_slope(to, from) - self.force.mean_slope(to, from);
+        if self.damping.needs_root() { mean * (p + s) } else { mean }
     }
 
     #[inline]
     fn material_damping(&self, s: T) -> T {
-        self.damping.rate() * self.elastic_force(s)
+        self.damping.force(self.elastic_force(s), self.radius(s), s)
     }
 
     #[inline]
     fn adhesion_damping(&self, s: T) -> T {
-        self.adhesion.damping(s)
+        self.adhesion.damping(self.radius(s))
     }
 
     #[inline]
@@ -369,7 +479,44 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> ContactLaw<T> f
     }
 
     #[inline]
+    fn indentation(&self, s: T) -> T {
+        let a = self.radius(s);
+        a * a
+    }
+
+    #[inline]
+    fn indentation_slope(&self, s: T) -> T {
+        let a = self.radius(s);
+        let slope = a + a;
+        if self.damping.needs_root() { slope * self.stretch(s) } else { slope }
+    }
+
+    #[inline]
+    fn coordinate(&self, indentation: T) -> Option<T> {
+        let radius = indentation.max(T::ZERO).sqrt();
+        Some(if self.damping.needs_root() { radius.sqrt() } else { radius })
+    }
+
+    #[inline]
+    fn contact_radius(&self, s: T) -> T {
+        self.radius(s)
+    }
+
+    #[inline]
+    fn energy_power(&self) -> f64 {
+        if self.damping.needs_root() { 10.0 } else { 5.0 }
+    }
+
+    #[inline]
+    fn release_speed(&self, s: T) -> Option<T> {
+        self.adhesion.ends_without_force().then(|| self.damping.release_speed(self.radius(s), s))
+    }
+
+    #[inline]
     fn potential_drop(&self, peak: T, fraction: &Fraction<T>) -> T {
+        if self.damping.needs_root() {
+            return peak * self.mean_slope(peak, peak * fraction.value);
+        }
         let square = peak * peak;
         let elastic = T::constant(0.5) * square * square * peak * fraction.quintic;
         elastic - self.adhesion.energy_drop(peak, fraction) - self.force.energy_drop(peak, fraction)
@@ -377,29 +524,32 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> ContactLaw<T> f
 
     #[inline]
     fn loss_over_square(&self, peak: T, fraction: &Fraction<T>, rebound: bool) -> T {
-        let square = peak * peak;
-        let material = T::constant(2.5) * self.damping.rate() * square * square * fraction.square;
+        if self.damping.needs_root() {
+            return self.loss(peak * fraction.value, rebound) / fraction.square;
+        }
+        let material = self.damping.loss_over_square(peak, fraction);
         if rebound { material + self.adhesion.loss_over_square(peak, fraction) } else { material }
     }
 
     #[inline]
     fn elastic_force(&self, s: T) -> T {
-        T::constant(1.25) * s * s * s
+        let a = self.radius(s);
+        T::constant(1.25) * a * a * a
     }
 
     #[inline]
     fn adhesion_force(&self, s: T) -> T {
-        self.adhesion.force(s)
+        self.adhesion.force(self.radius(s))
     }
 
     #[inline]
     fn conservative_force(&self, s: T) -> T {
-        self.adhesion_force(s) + self.force.force(s) - self.elastic_force(s)
+        self.adhesion_force(s) + self.force.force(self.radius(s)) - self.elastic_force(s)
     }
 
     /// The speed at which Hertz's peak indentation is 5/3 of the equilibrium one.
     fn speed_of_adhesion(&self, sphere: &Sphere<T>) -> T {
-        let depth = self.adhesion.equilibrium(self.stiffness) / sphere.radius();
+        let depth = self.adhesion.equilibrium(sphere, self.stiffness) / sphere.radius();
         if depth <= T::ZERO {
             return T::ONE;
         }
@@ -435,7 +585,7 @@ pub struct HertzUnits<T> {
 
 impl<T: Real> HertzUnits<T> {
     /// Units for a sphere that arrives with `approach` (m/s) at a contact of equilibrium indentation `equilibrium` (m).
-    fn new(sphere: &Sphere<T>, stiffness: T, equilibrium: T, approach: T) -> Result<Self, InputError> {
+    pub(super) fn new(sphere: &Sphere<T>, stiffness: T, equilibrium: T, approach: T) -> Result<Self, InputError> {
         // w = v sqrt(m/(r^3 K)), where m/r^3 = 4 pi density/3: no product here leaves the range of single precision.
         let w = approach * (T::constant(4.0 * PI / 3.0) * sphere.density() / stiffness).sqrt();
         let root = w.two_fifths_power();
@@ -456,8 +606,19 @@ impl<T: Real> HertzUnits<T> {
         })
     }
 
+    /// As a scene has them.
+    pub(super) fn units(&self) -> Units<T> {
+        Units { length: self.length, speed: self.speed, energy: self.energy }
+    }
+
+    /// A force (N) on the sphere in units of the impact.
+    pub(super) fn force(&self, force: T, sphere: &Sphere<T>) -> T {
+        let acceleration = force / sphere.mass();
+        acceleration / self.speed * (self.length / self.speed)
+    }
+
     /// The same impact in units of a contact radius that is larger by this factor.
-    fn enlarged(&self, factor: T) -> Self {
+    pub(super) fn enlarged(&self, factor: T) -> Self {
         let area = factor * factor;
         let growth = area * factor.sqrt();
         Self {

@@ -2,17 +2,23 @@
 
 mod chosen;
 mod damping;
+mod dmt;
 mod force;
 mod fraction;
 mod hertz;
+mod jkr;
 mod ring;
+mod tension;
 
 pub use chosen::{AnyDamping, AnyForce, AnyLaw};
-pub use damping::{Damping, HystereticDamping, NoDamping};
+pub use damping::{ConstantDamping, Damping, HystereticDamping, NoDamping, ProportionalDamping, ViscousDamping};
+pub use dmt::Dmt;
 pub use force::{ConstantForce, NoForce};
 pub use fraction::Fraction;
 pub use hertz::{Attraction, Groups, HertzLaw};
-pub use ring::Ring;
+pub use jkr::{JkrEnd, JkrLaw};
+pub use ring::{Ring, RingStrength};
+pub use tension::NoTension;
 
 pub use crate::contact::units::Units;
 use crate::{InputError, Real, Sphere};
@@ -168,6 +174,14 @@ pub trait ContactLaw<T: Real>: Copy {
         Some(indentation.max(T::ZERO).sqrt())
     }
 
+    /// The coordinate of an indentation at which there is contact, the outer one of two; `None` where there is none.
+    ///
+    /// Only [`ContactForce`](crate::contact::ContactForce) needs it.
+    #[inline]
+    fn coordinate_in_contact(&self, indentation: T) -> Option<T> {
+        if indentation < T::ZERO { None } else { self.coordinate(indentation) }
+    }
+
     /// Contact radius in units of sqrt(r L), with the sphere's radius r and the unit of length L.
     #[inline]
     fn contact_radius(&self, s: T) -> T {
@@ -184,6 +198,13 @@ pub trait ContactLaw<T: Real>: Copy {
     #[inline]
     fn end(&self) -> T {
         T::ZERO
+    }
+
+    /// Outward speed at which contact ends at s, before [`end`](Self::end), for a law that ends so: the damping cancels the elastic
+    /// force there. Such a law has no adhesion. `None` unless given.
+    #[inline]
+    fn release_speed(&self, _s: T) -> Option<T> {
+        None
     }
 
     /// Whether a maximum of the potential may lie between the end of contact and the peak, as under a force out of the

@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use super::hertz::HertzUnits;
 use super::{Attraction, Fraction};
-use crate::{InputError, Parameter, Real, Sphere};
+use crate::{InputError, NoAdhesion, Parameter, Real, Sphere};
 
 /// The ring force 2 pi f0 a of the paper, with the damping factor 1 - c_A delta' on rebound (B6), c_A = zeta_A C (B5).
 ///
@@ -40,15 +40,50 @@ impl<T: Real> Ring<T> {
     }
 }
 
+/// A ring or no adhesion, on which the dimensionless groups of an impact depend: [`Ring`] or [`NoAdhesion`].
+///
+/// ```
+/// use microimpact::{NoAdhesion, contact::RingStrength};
+///
+/// assert_eq!(RingStrength::<f32>::strength(&NoAdhesion), 0.0);
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not the adhesion of a ring",
+    label = "this needs a scene without adhesion or with a ring"
+)]
+pub trait RingStrength<T: Real>: Attraction<T> {
+    /// Strength p in units of an impact: the energy of the ring is (p/2) s^3.
+    fn strength(&self) -> T;
+}
+
+impl<T: Real> RingStrength<T> for NoAdhesion {
+    #[inline]
+    fn strength(&self) -> T {
+        T::ZERO
+    }
+}
+
+impl<T: Real> RingStrength<T> for Ring<T> {
+    #[inline]
+    fn strength(&self) -> T {
+        self.strength
+    }
+}
+
 impl<T: Real> Attraction<T> for Ring<T> {
     #[inline]
     fn in_units(&self, _sphere: &Sphere<T>, units: &HertzUnits<T>) -> Result<Self, InputError> {
         Ok(Self { strength: units.adhesion, damping: Parameter::DampingRatio.check(self.damping * units.damping)? })
     }
 
+    #[inline]
+    fn moves_peak(&self) -> bool {
+        false
+    }
+
     /// delta_eq = 2 pi f0/K.
     #[inline]
-    fn equilibrium(&self, stiffness: T) -> T {
+    fn equilibrium(&self, _sphere: &Sphere<T>, stiffness: T) -> T {
         T::constant(2.0 * PI) * self.strength / stiffness
     }
 

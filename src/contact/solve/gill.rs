@@ -142,8 +142,11 @@ struct Followed<T> {
 }
 
 impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
-    /// At most so many steps; `None` where the indentation does not determine the coordinate.
+    /// At most so many steps; `None` where the indentation does not determine the coordinate, or contact does not end at one.
     fn new(law: &'a L, energy: T, step: T, most: u32) -> Option<Self> {
+        if law.release_speed(law.end()).is_some() {
+            return None;
+        }
         // A law of one's own can have an indentation that its coordinate does not invert.
         let middle = T::constant(0.5) * (law.start() + T::ONE);
         let inverse = law.coordinate(law.indentation(middle))? - middle;

@@ -201,6 +201,12 @@ const EQUILIBRIUM_START: f64 = 2.0;
 /// Its steps; where the force is a power of the coordinate, each takes a fixed fraction off.
 const EQUILIBRIUM_STEPS: u32 = 100;
 
+/// Intervals that are tried for the place where damping cancels the elastic force,
+const RELEASE_STEPS: u32 = 100;
+
+/// and the relative error of the speed there, over the tolerance: the speed is largest there, so that its error is a square.
+const RELEASE_ACCURACY: f64 = 0.1;
+
 /// Factor on the length where nothing is known of the error.
 const LENGTH_AFTER_FAILURE: f64 = 0.4;
 
@@ -364,7 +370,10 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 if self.take(&arrival, Course::APPROACH, Some(arrival.end.s))? {
                     return Ok(());
                 }
-                if self.is_held() && self.creeps(self.at.s, self.at.speed_squared.sqrt(), Course::APPROACH) {
+                if self.is_held()
+                    && (self.creeps(self.at.s, self.at.speed_squared.sqrt(), Course::APPROACH)
+                        || self.is_at_equilibrium(T::constant(AT_EQUILIBRIUM_ROUNDINGS)))
+                {
                     return Err(End::Capture);
                 }
                 length = self.braked_length(length, arrival.end.s);
@@ -386,6 +395,9 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 length = length * factor.min(T::constant(REFUSED_SHRINK));
                 if length <= T::EPSILON * T::EPSILON {
                     return Err(self.stuck(Course::APPROACH));
+                }
+                if self.is_lost_in_rounding() {
+                    return Err(End::Capture);
                 }
             }
         }
@@ -507,6 +519,11 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 let step = if to_the_end { outermost - self.at.s } else { -length };
                 let interval = self.pass::<N>(step, Course::REBOUND);
                 let factor = self.length_factor(N, &interval);
+                if interval.accepted && self.is_released(&interval.end) {
+                    return Err(
+                        self.release::<N>(step, None, |follower, length| follower.pass::<N>(length, Course::REBOUND))
+                    );
+                }
                 if self.take(&interval, Course::REBOUND, None)? {
                     length = length * factor;
                     if to_the_end {
@@ -521,10 +538,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 if !passed && self.is_undecided() {
                     return Err(End::Undecided);
                 }
-                // Where the forces left are hardly more than their rounding, errors are, squared, what that makes of them: no
-                // interval is short enough.
-                let roundings = (T::constant(ROUNDING_OF_FORCES) / self.control.error).sqrt();
-                if self.is_held() && self.is_at_equilibrium(roundings) {
+                if self.is_lost_in_rounding() {
                     return Ok(T::ZERO);
                 }
             }
@@ -537,6 +551,56 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             let separates = passed || surplus > uncertain || well::well(self.law).is_none();
             Err(if separates { End::Separation } else { End::Undecided })
         }
+    }
+
+    /// Whether contact has ended because damping cancels the elastic force.
+    #[inline]
+    fn is_released(&self, at: &Point<T>) -> bool {
+        self.law.release_speed(at.s).is_some_and(|most| at.speed_squared > most * most)
+    }
+
+    /// Goes on to where damping cancels the elastic force, by an interval no longer than `farthest`, which goes beyond: regula falsi,
+    /// and every third time the middle.
+    fn release<const N: usize>(
+        &mut self,
+        farthest: T,
+        turning_point: Option<T>,
+        interval_of: impl Fn(&mut Self, T) -> Interval<T, N>,
+    ) -> End
+    where
+        T: Nodes<N>,
+    {
+        let (half, law) = (T::constant(0.5), self.law);
+        let excess = |at: &Point<T>| at.speed_squared.max(T::ZERO).sqrt() - law.release_speed(at.s).unwrap_or(T::ZERO);
+        let (mut inside, mut outside) = ((T::ZERO, excess(&self.at)), (farthest, T::ZERO));
+        for step in 0..RELEASE_STEPS {
+            let length = match step {
+                0 => farthest,
+                _ if step % 3 == 0 => half * (inside.0 + outside.0),
+                _ => outside.0 - outside.1 * (outside.0 - inside.0) / (outside.1 - inside.1),
+            };
+            let interval = interval_of(self, length);
+            let found = excess(&interval.end);
+            let error = T::constant(RELEASE_ACCURACY) * self.control.error;
+            let close = found.abs() <= error * interval.end.speed_squared.sqrt();
+            if close || (outside.0 - inside.0).abs() <= T::EPSILON * self.at.s {
+                return match self.take(&interval, Course::REBOUND, turning_point) {
+                    Ok(true) => {
+                        // What the materials have not given back by then remains in them.
+                        self.at.energy = half * self.at.speed_squared;
+                        End::Separation
+                    }
+                    Ok(false) => self.stuck(Course::REBOUND),
+                    Err(end) => end,
+                };
+            }
+            if found > T::ZERO {
+                outside = (length, found);
+            } else {
+                inside = (length, found);
+            }
+        }
+        End::Budget
     }
 
     /// Whether what is left to lose on the way out cannot decide between rebound and capture.
@@ -576,6 +640,14 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 leave(self.law, from, signed(depth), energy, course, &self.control, iterations);
             self.check(&mut interval);
             let factor = self.length_factor(N, &interval);
+            if course.rebound && interval.accepted && self.is_released(&interval.end) {
+                return Err(self.release::<N>(depth, Some(from), |follower, depth| {
+                    let (control, iterations) = (&follower.control, &mut follower.statistics.iterations);
+                    let mut interval = leave(follower.law, from, depth, energy, course, control, iterations);
+                    follower.check(&mut interval);
+                    interval
+                }));
+            }
             if self.take(&interval, course, Some(from))? {
                 return Ok(depth);
             }
@@ -790,6 +862,13 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let reach = self.law.loss(s, true) * close;
         self.at.speed_squared <= reach * reach
             && self.equilibrium().is_some_and(|equilibrium| (s - equilibrium).abs() <= close)
+    }
+
+    /// Whether a captured sphere is where the forces are hardly more than their rounding: errors are, squared, what that makes of
+    /// them, and no interval is short enough.
+    fn is_lost_in_rounding(&self) -> bool {
+        let roundings = (T::constant(ROUNDING_OF_FORCES) / self.control.error).sqrt();
+        self.is_held() && self.is_at_equilibrium(roundings)
     }
 
     /// Contact radius at which the forces balance: the minimum of the potential, by Newton's method from above.

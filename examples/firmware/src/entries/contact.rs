@@ -6,10 +6,11 @@
 use core::hint::black_box;
 
 use microimpact::contact::{
-    Adaptive, AdaptiveNodes, AnyLaw, Attraction, Collocation, ConstantForce, Contact, ContactLaw, Damping, Energy,
-    ErrorControl, FixedCost, Groups, HertzLaw, HystereticDamping, Impulses, Nodes, NormalContact, Output, Peeling,
-    PhaseSamples, Recording, RestCriterion, Ring, RunReport, RungeKuttaGill, SimulatedImpact, Slip, SlipHistory,
-    Surface, TangentialVelocities, Times, Trajectory, Works,
+    Adaptive, AdaptiveNodes, AnyLaw, Attraction, Collocation, ConstantDamping, ConstantForce, Contact, ContactLaw,
+    Damping, Dmt, Energy, ErrorControl, FixedCost, Groups, HertzLaw, HystereticDamping, Impulses, JkrEnd, JkrLaw,
+    Nodes, NormalContact, Output, Peeling, PhaseSamples, ProportionalDamping, Recording, RestCriterion, Ring,
+    RunReport, RungeKuttaGill, SimulatedImpact, Slip, SlipHistory, Surface, TangentialVelocities, Times, Trajectory,
+    ViscousDamping, Works,
 };
 use microimpact::{Approach, Classification, ContactClass, Coulomb, InputError, PlanarMotion, Real, Sphere, Stiffness};
 
@@ -55,6 +56,7 @@ pub(super) fn call_all<T: AnyNodes>() -> Result<(), InputError> {
     at_fixed_cost::<7, 11, T>(&scene)?;
     at_fixed_cost::<8, 16, T>(&scene)?;
     outputs(&scene)?;
+    other_laws(&scene)?;
     chosen_at_run_time::<T>()?;
     with_damping(scene)?;
     with_damping(scene.with_damping(any())?)
@@ -65,6 +67,9 @@ fn terms<T: Nodes<5>>() -> Result<(), InputError> {
     keep(Ring::<T>::new(any(), any())?);
     keep(Peeling::new(Coulomb::<T>::new(any())?, any())?);
     keep(ConstantForce::<T>::new(any())?);
+    keep(Dmt::<T>::new(any())?);
+    keep(ViscousDamping::<T>::new(any())?);
+    keep(ConstantDamping::<T>::new(any())?);
     let law = HertzLaw::new(Stiffness::new(any::<T>())?).with_damping(any())?.with_ring(any(), any())?;
     keep(law.with_external_force(any())?);
     let sphere = Sphere::solid(any(), any())?;
@@ -135,11 +140,13 @@ where
 fn with_damping<T, D>(scene: Contact<T, HertzLaw<T, D>>) -> Result<(), InputError>
 where
     T: Nodes<5>,
-    D: Damping<T>,
+    D: ProportionalDamping<T>,
 {
     with_adhesion(scene)?;
     let scene = scene.with_ring(any(), any())?;
     with_adhesion(scene)?;
+    let groups: Groups<T> = scene.groups(&motions(scene.sphere())?.0)?;
+    keep(groups);
     let scene = scene.with_friction(any())?.with_peeling(any())?;
     let (_, _, planar) = motions(scene.sphere())?;
     solve(&scene, &planar)?;
@@ -165,9 +172,27 @@ where
 {
     let method = Collocation::<5, T>::new(any())?;
     let (normal, oblique, _) = motions(scene.sphere())?;
-    let groups: Groups<T> = scene.groups(&normal)?;
-    keep(groups);
     contact(&scene.solve_normal(&normal, &method)?);
+    solve(&scene.with_friction(any())?, &oblique)
+}
+
+/// The other laws and dampings.
+fn other_laws<T: AnyNodes>(elastic: &Elastic<T>) -> Result<(), InputError> {
+    let sphere = *elastic.sphere();
+    let dmt = elastic.with_viscous_damping(any())?.with_dmt(any())?;
+    keep(dmt.force(&motions(&sphere)?.0)?.at(any(), any()));
+    with_force(dmt)?;
+    with_force(elastic.with_constant_damping(any())?.without_tension())?;
+    let law = JkrLaw::new(Stiffness::new(any())?, any())?.ending_at(JkrEnd::PullOff);
+    for_jkr(Contact::new(sphere, law.with_damping(any())?))?;
+    for_jkr(Contact::new(sphere, law.with_viscous_damping(any())?))?;
+    for_jkr(Contact::new(sphere, law.with_constant_damping(any())?))
+}
+
+fn for_jkr<T: AnyNodes, D: Damping<T>>(scene: Contact<T, JkrLaw<T, D>>) -> Result<(), InputError> {
+    let (normal, oblique, _) = motions(scene.sphere())?;
+    keep(scene.force(&normal)?.at(any(), any()));
+    keep(scene.critical_speed(&Collocation::<5, T>::new(any())?)?);
     solve(&scene.with_friction(any())?, &oblique)
 }
 
@@ -216,11 +241,19 @@ fn outputs<T: AnyNodes>(scene: &Elastic<T>) -> Result<(), InputError> {
 fn chosen_at_run_time<T: AnyNodes>() -> Result<(), InputError> {
     let sphere = Sphere::solid(any(), any())?;
     let (stiffness, (_, _, planar)) = (Stiffness::new(any())?, motions(&sphere)?);
-    let law = match black_box(true) {
-        true => AnyLaw::hertz(stiffness),
-        false => AnyLaw::ring(stiffness, any(), any())?,
+    let law = match black_box(0) {
+        0 => AnyLaw::hertz(stiffness),
+        1 => AnyLaw::ring(stiffness, any(), any())?,
+        2 => AnyLaw::dmt(stiffness, any())?,
+        3 => AnyLaw::without_tension(stiffness),
+        _ => AnyLaw::jkr(stiffness, any(), JkrEnd::SnapOff)?,
     };
-    let scene = Contact::new(sphere, law.with_damping(any())?.with_external_force(any())?).with_friction(any())?;
+    let law = match black_box(0) {
+        0 => law.with_damping(any())?,
+        1 => law.with_viscous_damping(any())?,
+        _ => law.with_constant_damping(any())?,
+    };
+    let scene = Contact::new(sphere, law.with_external_force(any())?).with_friction(any())?;
     keep(scene.law());
     solve(&scene, &planar)?;
     solve(&scene.with_peeling(any())?, &planar)?;
