@@ -14,6 +14,7 @@ use sheet::{Decimal, Input, LABEL, Row, Scalar, Sheet};
 
 use crate::Streams;
 use crate::classify::OfferedNodes;
+use crate::contact_law::LAW_HELP;
 
 /// A number type that all commands can compute in.
 pub trait Number: Scalar + AdaptiveNodes + OfferedNodes + NormalDistribution + Into<f64> + 'static {}
@@ -76,6 +77,11 @@ uses, the defaults of those that are absent, and the columns that it does not re
 
 Exit status: 0 on success; 1 if a row is bad (the column `error` gives the reason); 2 if the command
 fails, for example because it cannot read the table.";
+
+/// What the help of each command that reads a table and simulates contacts says at its end.
+pub fn simulation_help() -> String {
+    format!("{LAW_HELP}\n\n{TABLE_HELP}")
+}
 
 /// Options of a command that simulates contacts.
 #[derive(Args)]
@@ -161,7 +167,7 @@ pub trait Work {
     /// Column heads of the summary.
     fn heads(&self) -> Vec<&'static str>;
 
-    /// How many columns of the summary, from the left, hold words: name and class unless given.
+    /// How many columns of the summary, from the left, hold words: two unless given.
     fn words(&self) -> usize {
         2
     }

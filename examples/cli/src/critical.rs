@@ -9,8 +9,10 @@ use microimpact::{CriticalSpeed, Sphere};
 use sheet::{Input, Row};
 
 use crate::Streams;
-use crate::command::{BadRow, BadRows, Number, SimulationOptions, TABLE_HELP, TableCommand, TableOptions, Work};
-use crate::inputs::{DENSITY_INPUT, LAW_INPUTS, contact_law};
+use crate::command::{BadRow, BadRows, Number, SimulationOptions, TableCommand, TableOptions, Work, simulation_help};
+use crate::contact_law::{LAW_INPUTS, LawName, RowLaw};
+use crate::inputs::DENSITY_INPUT;
+use crate::words::name_of;
 
 /// Spheres of the paper's figure 6 and Table 1. Its program halves the printed damping of adhesion.
 const BUNDLED: &str = "\
@@ -30,15 +32,17 @@ Figure 6: 13 um,6.5e-6,2600,7.5e10,250,10.5,6.25
 ///
 /// Input columns, in SI units. Brackets give the value that an empty or absent cell has; the other columns are required.
 ///   radius_m, density_kg_m3, stiffness_pa (K),
-///   adhesion_n_m (f0) [0], zeta_h [0], zeta_a [0], external_force_n (positive out of the surface) [0].
+///   adhesion_n_m (f0) [0], zeta_h [0], zeta_a [0], external_force_n (positive out of the surface) [0],
+///   law, work_of_adhesion_j_m2, damping, damping_value, end_rule (below).
 ///
 /// Computed columns:
 ///   critical_speed_m_s: spheres are captured at this speed and below. With a force out of the surface it is the largest
 ///     speed at which spheres are captured: the force turns back the slowest spheres before adhesion can hold them.
 ///   critical: `speed` if there is such a speed. `always rebounds` or `never rebounds` if there is none from 1e-12 to
 ///     1e6 m/s; critical_speed_m_s is then empty.
+///   law: hertz, ring, dmt or jkr.
 #[derive(Args)]
-#[command(verbatim_doc_comment, after_long_help = TABLE_HELP)]
+#[command(verbatim_doc_comment, after_long_help = simulation_help())]
 pub struct Options {
     #[command(flatten)]
     simulation: SimulationOptions,
@@ -64,10 +68,12 @@ struct Critical<T> {
 }
 
 impl<T: Number> Critical<T> {
-    fn find(&self, row: &Row<'_>) -> Result<CriticalSpeed<T>, String> {
+    fn find(&self, row: &Row<'_>) -> Result<(LawName, CriticalSpeed<T>), String> {
         let sphere = Sphere::solid(row.required("radius_m")?, row.required("density_kg_m3")?)
             .map_err(|error| row.reason(error))?;
-        Contact::new(sphere, contact_law(row)?).critical_speed(&self.method).map_err(|error| row.reason(error))
+        let law = RowLaw::read(row)?;
+        let critical = law.law().and_then(|law| Contact::new(sphere, law).critical_speed(&self.method));
+        Ok((law.name, critical.map_err(|error| row.reason(error))?))
     }
 }
 
@@ -77,30 +83,26 @@ impl<T: Number> Work for Critical<T> {
     }
 
     fn columns(&self) -> Vec<String> {
-        ["critical_speed_m_s", "critical"].map(String::from).into()
+        ["critical_speed_m_s", "critical", "law"].map(String::from).into()
     }
 
     fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
-        let critical = self.find(row)?;
+        let (law, critical) = self.find(row)?;
         let speed = if let CriticalSpeed::At(speed) = critical { row.cell(speed) } else { String::new() };
-        Ok(vec![speed, in_words(&critical).into()])
+        Ok(vec![speed, in_words(&critical).into(), name_of(&law)])
     }
 
     fn heads(&self) -> Vec<&'static str> {
-        vec!["sphere", "radius\nm", "critical speed\nm/s"]
-    }
-
-    fn words(&self) -> usize {
-        1
+        vec!["sphere", "law", "radius\nm", "critical speed\nm/s"]
     }
 
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
-        let critical = self.find(row)?;
+        let (law, critical) = self.find(row)?;
         let speed = match &critical {
             CriticalSpeed::At(speed) => row.cell(*speed),
             none => in_words(none).into(),
         };
-        Ok(vec![name, row.text("radius_m").unwrap_or_default(), speed])
+        Ok(vec![name, name_of(&law), row.text("radius_m").unwrap_or_default(), speed])
     }
 }
 

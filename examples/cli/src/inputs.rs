@@ -1,17 +1,7 @@
-//! What a row of a table states: the law of contact of a scene, and the restitution of a rigid body.
+//! What a row of a table states: the sphere and its motion, and the restitution of a rigid body.
 
-use microimpact::contact::AnyLaw;
-use microimpact::{ConstantRestitution, Real, RestitutionLaw, SpeedRestitution, Stiffness};
+use microimpact::{ConstantRestitution, Real, RestitutionLaw, SpeedRestitution};
 use sheet::{Input, Row, Scalar};
-
-/// The numbers of a law of contact.
-pub const LAW_INPUTS: [Input; 5] = [
-    Input::required(&["stiffness_pa"]),
-    Input::optional(&["adhesion_n_m"], "0 N/m"),
-    Input::optional(&["zeta_h"], "0"),
-    Input::optional(&["zeta_a"], "0"),
-    Input::optional(&["external_force_n"], "0 N"),
-];
 
 /// The numbers of a peeling moment.
 pub const PEELING_INPUT: Input = Input::optional(&["peeling_n_m"], "0 N m");
@@ -31,25 +21,6 @@ pub const MOTION_INPUTS: [Input; 3] = [
     Input::optional(&["speed_tangential_m_s"], "0 m/s"),
     Input::optional(&["spin_rad_s"], "0 rad/s"),
 ];
-
-/// The law of contact of a row: Hertz's, with a ring of adhesion if the row gives one of its columns.
-pub fn contact_law<T: Scalar>(row: &Row<'_>) -> Result<AnyLaw<T>, String> {
-    let stiffness = Stiffness::new(row.required("stiffness_pa")?).map_err(|error| row.reason(error))?;
-    let mut law = AnyLaw::hertz(stiffness);
-    // The peeling moment is proportional to the damping of the ring.
-    if ["adhesion_n_m", "zeta_a", "peeling_n_m"].iter().any(|column| row.text(column).is_some()) {
-        law = AnyLaw::ring(stiffness, row.or_zero("adhesion_n_m")?, row.or_zero("zeta_a")?)
-            .map_err(|error| row.reason(error))?;
-    }
-    if let Some(zeta) = row.number("zeta_h")? {
-        law = law.with_damping(zeta).map_err(|error| row.reason(error))?;
-    }
-    let force = row.or_zero("external_force_n")?;
-    if force != T::ZERO {
-        law = law.with_external_force(force).map_err(|error| row.reason(error))?;
-    }
-    Ok(law)
-}
 
 /// A restitution law, chosen at run time.
 #[derive(Clone, Copy)]

@@ -8,6 +8,7 @@ use command::TableCommand;
 mod analyse;
 mod classify;
 mod command;
+mod contact_law;
 mod critical;
 mod figure;
 pub mod fit;

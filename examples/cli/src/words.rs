@@ -1,6 +1,25 @@
-//! Words of computed columns.
+//! Words in cells and options.
 
+use clap::ValueEnum;
 use microimpact::{Outcome, SurfaceMotion};
+use sheet::Row;
+
+/// The word for a value.
+pub fn name_of(value: &impl ValueEnum) -> String {
+    value.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+}
+
+/// The value whose word is in a cell, in capitals or not; `None` if there is no such column or the cell is empty.
+pub fn word<V: ValueEnum>(row: &Row<'_>, column: &str, allowed: &[V]) -> Result<Option<V>, String> {
+    let Some(text) = row.text(column) else {
+        return Ok(None);
+    };
+    let value = allowed.iter().find(|value| name_of(*value).eq_ignore_ascii_case(&text));
+    value.cloned().map(Some).ok_or_else(|| {
+        let words: Vec<_> = allowed.iter().map(name_of).collect();
+        format!("{column}: \"{text}\" is refused: it must be {}", words.join(" or "))
+    })
+}
 
 /// How an impact ends.
 pub fn outcome_name(outcome: Outcome) -> &'static str {

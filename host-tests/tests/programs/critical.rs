@@ -39,11 +39,11 @@ fn adds_the_speed_to_each_row() {
         assert_eq!(output.status, 0, "{}", output.complaint());
         let (header, rows) = written(&output);
         let names: Vec<_> = header.iter().skip(7).collect();
-        assert_eq!(names, ["input_critical_speed_m_s", "critical_speed_m_s", "critical", "error"]);
+        assert_eq!(names, ["input_critical_speed_m_s", "critical_speed_m_s", "critical", "law", "error"]);
         for (row, exact) in rows.iter().zip(reference()) {
             let found: f64 = row[8].parse().unwrap();
             assert!((found / exact - 1.0).abs() <= allowed, "{found} for {exact}");
-            assert_eq!((&row[9], &row[10]), ("speed", ""));
+            assert_eq!((&row[9], &row[10], &row[11]), ("speed", "ring", ""));
         }
     }
 }
@@ -59,7 +59,7 @@ fn says_what_it_cannot_find() {
     let output = run(&["-", "--format", "csv"], table);
     assert_eq!(output.status, 1);
     let (_, rows) = written(&output);
-    let words: Vec<_> = rows.iter().map(|row| (row[7].is_empty(), &row[8], row[9].is_empty())).collect();
+    let words: Vec<_> = rows.iter().map(|row| (row[7].is_empty(), &row[8], row[10].is_empty())).collect();
     assert_eq!(
         words,
         [
@@ -70,8 +70,8 @@ fn says_what_it_cannot_find() {
             (false, "speed", true)
         ]
     );
-    assert!(rows[2][9].contains("radius_m: \"-1\" is refused: radius must be 1e-10 to 1 m"));
-    assert!(rows[3][9].contains("stiffness_pa: missing"));
+    assert!(rows[2][10].contains("radius_m: \"-1\" is refused: radius must be 1e-10 to 1 m"));
+    assert!(rows[3][10].contains("stiffness_pa: missing"));
 }
 
 #[test]

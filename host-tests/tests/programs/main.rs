@@ -8,6 +8,7 @@ mod critical;
 mod documentation;
 mod fit;
 mod formats;
+mod laws;
 mod methods;
 mod mistakes;
 mod report;

@@ -5,21 +5,21 @@ use std::fmt::Write;
 /// The column that names a row. It is a label, and never read as a number.
 pub const LABEL: &str = "name";
 
-/// A number that a command reads from each row, and the columns that can give it.
+/// A number or a word that a command reads from each row, and the columns that can give it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Input {
     columns: &'static [&'static str],
-    /// What the command uses where no column gives the number; `None` if the number is required.
+    /// What the command uses where no column gives it; `None` if it is required.
     default: Option<&'static str>,
 }
 
 impl Input {
-    /// A number that one of these columns must give.
+    /// What one of these columns must give.
     pub const fn required(columns: &'static [&'static str]) -> Self {
         Self { columns, default: None }
     }
 
-    /// A number that has a default, which is given in words with its unit.
+    /// What has a default, which is given in words, and with its unit if it is a number.
     pub const fn optional(columns: &'static [&'static str], default: &'static str) -> Self {
         Self { columns, default: Some(default) }
     }
@@ -42,10 +42,12 @@ impl Input {
 const NEAR: f64 = 0.875;
 
 /// Symbols of the paper, in lower case, and other common names of a quantity, with the columns that may be meant by them.
-const SYMBOLS: [(&str, &[&str]); 17] = [
+const SYMBOLS: [(&str, &[&str]); 19] = [
+    ("contact_law", &["law"]),
     ("d", &["diameter_m"]),
     ("f", &["friction"]),
     ("f0", &["adhesion_n_m"]),
+    ("g", &["work_of_adhesion_j_m2"]),
     ("k", &["stiffness_pa", "restitution_speed_m_s"]),
     ("kappa", &["gyration_ratio"]),
     ("lambda", &["peeling_n_m"]),
@@ -79,8 +81,14 @@ fn has_words_of(column: &str, name: &str) -> bool {
         && name.split('_').all(|word| column.split('_').any(|other| other == word))
 }
 
+/// Columns of different quantities whose names are alike, so that neither is a misspelling of the other.
+const ALIKE: [&str; 2] = ["work_of_adhesion_j", "work_of_adhesion_j_m2"];
+
 /// How likely it is that a column is meant by a name, larger for a better guess; `None` if it is unlikely.
 fn likeness(name: &str, column: &str) -> Option<f64> {
+    if ALIKE.contains(&name) && ALIKE.contains(&column) {
+        return None;
+    }
     let similarity = strsim::jaro_winkler(name, column);
     if is_symbol(name, column) {
         // The columns of a symbol are alike, so that the first of them is chosen.

@@ -1,18 +1,19 @@
 //! Rows by the contact simulation.
 
 use microimpact::contact::{
-    AnyLaw, AnyScene, Contact, ContactImpulses, ContactTimes, ContactWorks, Groups, NormalContact, SlipHistory, Status,
+    Contact, ContactImpulses, ContactTimes, ContactWorks, Groups, NormalContact, SlipHistory, Status,
     TangentialVelocities,
 };
 use microimpact::rigid::EnergyLedger;
-use microimpact::{Class, InputError, Outcome, PlanarMotion, SurfaceMotion};
+use microimpact::{Class, Outcome, SurfaceMotion};
 use sheet::{Input, Row};
 
 use super::method::Simulator;
 use super::{SCENE_INPUTS, sphere_and_motion};
 use crate::command::{BadRow, Number, Work};
-use crate::inputs::{LAW_INPUTS, PEELING_INPUT, contact_law};
-use crate::words::{motion_name, outcome_name};
+use crate::contact_law::{LAW_INPUTS, LawName, RowLaw};
+use crate::inputs::PEELING_INPUT;
+use crate::words::{motion_name, name_of, outcome_name};
 
 /// The simulation by a method, in numbers of type `T`.
 pub struct SimulationModel<T> {
@@ -35,6 +36,7 @@ pub struct Simulated<T> {
     slip: SlipHistory<T>,
     energy: Option<EnergyLedger<T>>,
     groups: Option<Groups<T>>,
+    pub law: LawName,
 }
 
 impl<T: Number> Simulated<T> {
@@ -66,7 +68,7 @@ impl<T: Number> Simulated<T> {
 
     /// The cells of the columns that the model computes.
     fn cells(&self, row: &Row<'_>) -> Vec<String> {
-        let Self { outcome, normal, times, impulses, works, slip, groups, .. } = self;
+        let Self { outcome, normal, times, impulses, works, slip, groups, law, .. } = self;
         let (followed, to_end) = (self.followed(), self.followed_to_end());
         let optional = |value: Option<T>| value.map(|value| row.cell(value)).unwrap_or_default();
         let at_end = |value: T| optional(to_end.then_some(value));
@@ -97,12 +99,13 @@ impl<T: Number> Simulated<T> {
             optional(groups.map(|groups| groups.adhesion)),
             optional(groups.map(|groups| groups.material_damping)),
             optional(groups.map(|groups| groups.adhesion_damping)),
+            name_of(law),
         ]
     }
 
     /// The line of the summary.
     fn line(&self, name: String) -> Vec<String> {
-        let Self { outcome, class, normal, times, slip, energy, .. } = self;
+        let Self { outcome, class, normal, times, slip, energy, law, .. } = self;
         let nano = |value: Option<T>| value.map_or("-".into(), |value| format!("{:.2}", value * T::constant(1e9)));
         let (restitution, followed) = (self.restitution(), self.followed());
         let lost = energy.filter(|_| followed).map(|ledger| T::constant(100.0) * ledger.lost() / ledger.before);
@@ -110,6 +113,7 @@ impl<T: Number> Simulated<T> {
         vec![
             name,
             class.to_string(),
+            name_of(law),
             optional(restitution.map(|e| format!("{e:.4}"))),
             optional(restitution.map(|_| format!("{:.3}", normal.rebound_speed()))),
             optional(self.along().map(|along| format!("{:.3}", along.velocity() + T::ZERO))),
@@ -129,12 +133,13 @@ impl<T: Number> SimulationModel<T> {
     /// Builds the scene of a row and simulates its impact.
     pub fn compute(&self, row: &Row<'_>) -> Result<Simulated<T>, String> {
         let (sphere, before) = sphere_and_motion(row)?;
-        let scene = Contact::new(sphere, contact_law(row)?)
-            .with_friction(row.or_zero("friction")?)
-            .map_err(|error| row.reason(error))?;
-        let groups = groups(&scene, &before).map_err(|error| row.reason(error))?;
+        let row_law = RowLaw::read(row)?;
+        let law = row_law.law().map_err(|error| row.reason(error))?;
+        let (friction, peeling) = (row.or_zero("friction")?, row.or_zero("peeling_n_m")?);
         // Without a moment this is the same motion; so the solver is compiled for one scene only.
-        let scene = scene.with_peeling(row.or_zero("peeling_n_m")?).map_err(|error| row.reason(error))?;
+        let scene = Contact::new(sphere, law).with_friction(friction).and_then(|scene| scene.with_peeling(peeling));
+        let scene = scene.map_err(|error| row.reason(error))?;
+        let groups = row_law.groups(sphere, &before).map_err(|error| row.reason(error))?;
         let (impact, ((times, impulses, works), (slip, energy))) =
             (self.simulator.simulate)(&scene, &before).map_err(|error| row.reason(error))?;
         let (normal, tangential, status) = (impact.normal, impact.tangential, impact.run.status);
@@ -154,16 +159,8 @@ impl<T: Number> SimulationModel<T> {
             slip,
             energy,
             groups,
+            law: row_law.name,
         })
-    }
-}
-
-/// The dimensionless groups of an impact, of laws that have them.
-fn groups<T: Number>(scene: &AnyScene<T>, before: &PlanarMotion<T>) -> Result<Option<Groups<T>>, InputError> {
-    match *scene.law() {
-        AnyLaw::Hertz(law) => Contact::new(*scene.sphere(), law).groups(before).map(Some),
-        AnyLaw::Ring(law) => Contact::new(*scene.sphere(), law).groups(before).map(Some),
-        _ => Ok(None),
     }
 }
 
@@ -194,6 +191,7 @@ impl<T: Number> Work for SimulationModel<T> {
             "group_b",
             "group_h",
             "group_g",
+            "law",
         ]
         .map(String::from)
         .into()
@@ -207,6 +205,7 @@ impl<T: Number> Work for SimulationModel<T> {
         vec![
             "impact",
             "class",
+            "law",
             "e",
             "V_n\nm/s",
             "V_t\nm/s",
@@ -216,6 +215,10 @@ impl<T: Number> Work for SimulationModel<T> {
             "slips for\nns",
             "energy\nlost %",
         ]
+    }
+
+    fn words(&self) -> usize {
+        3
     }
 
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
@@ -261,10 +264,10 @@ radius_m,density_kg_m3,stiffness_pa,adhesion_n_m,zeta_h,zeta_a,friction,speed_no
         assert_eq!(undecided.cells(&row)[0], "undecided");
         assert_eq!(
             filled(&undecided),
-            ["outcome", "max_indentation_m", "time_peak_s", "group_a", "group_b", "group_h", "group_g"]
+            ["outcome", "max_indentation_m", "time_peak_s", "group_a", "group_b", "group_h", "group_g", "law"]
         );
         let line = undecided.line("name".into());
         assert_eq!(line[1], "undecided");
-        assert_eq!(line.iter().filter(|cell| *cell == "-").count(), line.len() - 3, "{line:?}");
+        assert_eq!(line.iter().filter(|cell| *cell == "-").count(), line.len() - 4, "{line:?}");
     }
 }

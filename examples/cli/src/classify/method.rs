@@ -11,6 +11,7 @@ use microimpact::{InputError, Parameter, PlanarMotion};
 use sheet::reason;
 
 use crate::command::{Number, SimulationOptions};
+use crate::words::name_of;
 
 /// Options of the simulation's method.
 #[derive(Args)]
@@ -42,16 +43,12 @@ enum MethodName {
     Adaptive,
     /// As many intervals as the tolerance needs, with a fixed number of nodes in each.
     Collocation,
-    /// For firmware: a fixed number of nodes and iterations. It does not follow a captured sphere beyond its peak.
+    /// For firmware: a fixed number of nodes and iterations. It does not follow a captured sphere beyond its peak, and cannot
+    /// represent the law jkr and the end rule no-force.
     FixedCost,
-    /// The paper's own: fixed steps in time. It does not follow a captured sphere to its turning point.
+    /// The paper's own: fixed steps in time. It does not follow a captured sphere to its turning point, and cannot represent
+    /// the law jkr.
     RungeKuttaGill,
-}
-
-impl MethodName {
-    fn in_words(self) -> String {
-        self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
-    }
 }
 
 const COLLOCATION_NODES: u32 = 9;
@@ -87,7 +84,7 @@ impl<T> Simulator<T> {
     /// impact.
     pub fn refusal(&self, status: Status, scene: &AnyContact<T>, before: &PlanarMotion<T>) -> String {
         if status == Status::Unsupported {
-            return "the method cannot represent this contact; use --method adaptive".into();
+            return "this method cannot represent this law of contact; use --method adaptive or collocation".into();
         }
         let more_help = self.with_most_iterations.as_ref().is_some_and(|simulate| {
             simulate(scene, before).is_ok_and(|(impact, _)| impact.run.status == Status::Solved)
@@ -133,8 +130,8 @@ impl MethodOptions {
         if let Some((option, _, methods)) =
             self.options().into_iter().find(|(_, given, methods)| *given && !methods.contains(&name))
         {
-            let methods: Vec<_> = methods.iter().map(|method| method.in_words()).collect();
-            let (name, methods) = (name.in_words(), methods.join(" and "));
+            let methods: Vec<_> = methods.iter().map(name_of).collect();
+            let (name, methods) = (name_of(&name), methods.join(" and "));
             return Err(format!("{option} does not apply to --method {name}, only to {methods}"));
         }
         let (fixed_cost_nodes, iterations) =
@@ -172,7 +169,7 @@ fn by<T: Number>(method: impl Method<T> + 'static) -> Simulate<T> {
 /// What to say of a number of nodes that is not offered.
 fn not_offered(nodes: u32, method: MethodName, offered: &[u32]) -> String {
     let offered: Vec<_> = offered.iter().map(u32::to_string).collect();
-    format!("--nodes {nodes} is not offered by {}; choose one of {}", method.in_words(), offered.join(", "))
+    format!("--nodes {nodes} is not offered by {}; choose one of {}", name_of(&method), offered.join(", "))
 }
 
 /// The numbers of nodes that are offered, each of which is a type of its own; `with` the nodes for outputs.

@@ -13,8 +13,9 @@ use microimpact::{NormalMotion, PlanarMotion, Sphere};
 use sheet::{Input, Row, Scalar};
 
 use crate::Streams;
-use crate::command::{BadRow, BadRows, Number, TABLE_HELP, TableCommand, TableOptions, Work};
+use crate::command::{BadRow, BadRows, Number, TableCommand, TableOptions, Work, simulation_help};
 use crate::inputs::{DENSITY_INPUT, GYRATION_INPUT, MOTION_INPUTS};
+use crate::words::name_of;
 use method::MethodOptions;
 pub use method::OfferedNodes;
 
@@ -31,19 +32,20 @@ pub use method::OfferedNodes;
 ///   impulse_ratio (mu) instead of friction, rolling_arm_m (mu_m a_c) [0].
 /// The simulation also reads
 ///   stiffness_pa (K), adhesion_n_m (f0) [0], zeta_h [0], zeta_a [0], peeling_n_m (lambda) [0],
-///   external_force_n (positive out of the surface) [0].
+///   external_force_n (positive out of the surface) [0],
+///   law, work_of_adhesion_j_m2, damping, damping_value, end_rule (below).
 ///
 /// Computed by the simulation: restitution is the overall restitution. motion is sliding, rolling or resting, at separation
-/// or, for a captured sphere, when its slip has ended. time_roll_s is the time at which slip ends: 0 if there was no slip, -1
-/// if slip does not end. A cell is empty if its quantity does not exist or is not computed. A captured sphere is followed to
-/// its first turning point: velocities, impulses and works are those there, and time_roll_s is empty if slip ends later. A
-/// sphere that creeps to rest has no turning point. The methods fixed-cost and runge-kutta-gill do not follow a captured
-/// sphere so far. In both cases the cells of a turning point are empty. The summary gives the velocities when slip has ended. The outcome is
-/// undecided where a method cannot distinguish rebound from capture; the cells that depend on it are then empty. A row that a
-/// method cannot solve has its reason in the column error, and no outcome. With both models, columns of the rigid body begin
-/// with rigid_body_.
+/// or, for a captured sphere, when its slip has ended. time_roll_s is the time at which slip ends: 0 if there was no slip,
+/// -1 if slip does not end. A cell is empty if its quantity does not exist or is not computed. A captured sphere is followed
+/// to its first turning point: velocities, impulses and works are those there, and time_roll_s is empty if slip ends later.
+/// A sphere that creeps to rest has no turning point. The methods fixed-cost and runge-kutta-gill do not follow a captured
+/// sphere so far. In both cases the cells of a turning point are empty. The summary gives the velocities when slip has
+/// ended. The outcome is undecided where a method cannot distinguish rebound from capture; the cells that depend on it are
+/// then empty. A row that a method cannot solve has its reason in the column error, and no outcome. The column law holds the
+/// law of contact: hertz, ring, dmt or jkr. With both models, columns of the rigid body begin with rigid_body_.
 #[derive(Args)]
-#[command(verbatim_doc_comment, after_long_help = TABLE_HELP)]
+#[command(verbatim_doc_comment, after_long_help = simulation_help())]
 pub struct Options {
     /// Model that classifies.
     #[arg(long, value_enum, default_value_t = Model::RigidBody)]
@@ -132,6 +134,7 @@ impl<T: Number> Work for Both<T> {
             "impact",
             "simulation",
             "rigid body",
+            "law",
             "e\nsimulation",
             "e\nrigid body",
             "V_t, m/s\nsimulation",
@@ -142,7 +145,7 @@ impl<T: Number> Work for Both<T> {
     }
 
     fn words(&self) -> usize {
-        3
+        4
     }
 
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
@@ -153,6 +156,7 @@ impl<T: Number> Work for Both<T> {
             name,
             simulated.class.to_string(),
             body.classification.class().to_string(),
+            name_of(&simulated.law),
             optional(simulated.restitution()),
             format!("{:.4}", body.impact.normal.overall_restitution()),
             optional(along.map(TangentialVelocities::velocity)),
