@@ -141,7 +141,7 @@ parameters! {
         MaterialDamping: "material damping", "1", 0.0 to 1e9;
         /// Strength f0 of the adhesion ring.
         AdhesionStrength: "adhesion strength", "N/m", 0.0 to 1e9;
-        /// Relaxation time A of a viscous material.
+        /// Relaxation time A of a viscoelastic material.
         RelaxationTime: "relaxation time", "s", 0.0 to 1.0;
         /// Restitution e that constant damping leaves without adhesion.
         NominalRestitution: "nominal restitution", "1", 1e-3 to 1.0;

@@ -14,7 +14,7 @@ use crate::{Approach, InputError, Real};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
 /// let (sphere, stiffness, work) = (Sphere::solid(2e-6, 1050.0)?, Stiffness::new(5e9)?, 0.1);
-/// let scene = Contact::new(sphere, JkrLaw::new(stiffness, work)?.with_viscous_damping(1e-9)?);
+/// let scene = Contact::new(sphere, JkrLaw::new(stiffness, work)?.with_viscoelastic_damping(1e-9)?);
 /// let force = scene.force(&NormalMotion::new(1.0)?)?;
 /// // Johnson, Kendall and Roberts' force of first touch, 8/9 of the pull-off force.
 /// let pull_off = 1.5 * core::f64::consts::PI * work * sphere.radius();

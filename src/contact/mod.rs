@@ -19,7 +19,7 @@
 //! | --- | --- | --- |
 //! | none | 0 | |
 //! | hysteretic (the paper; Hunt and Crossley) | c_H K a^3/r | `.with_damping(zeta_H)` |
-//! | viscous (Kuwabara and Kono) | (3/2) A K a | `.with_viscous_damping(A)` |
+//! | viscoelastic (Kuwabara and Kono) | (3/2) A K a | `.with_viscoelastic_damping(A)` |
 //! | constant (Tsuji, Tanaka and Ishida) | alpha sqrt(m K a) | `.with_constant_damping(e)` |
 //!
 //! Every damping goes with every law, and an external force with all but the second and the last. G is the work of adhesion for
@@ -54,7 +54,7 @@ pub use force::ContactForce;
 pub use law::{
     AnyDamping, AnyForce, AnyLaw, Attraction, ConstantDamping, ConstantForce, ContactLaw, Damping, Dmt, Fraction,
     Groups, HertzLaw, HystereticDamping, JkrEnd, JkrLaw, NoDamping, NoForce, NoTension, ProportionalDamping, Ring,
-    RingStrength, Units, ViscousDamping,
+    RingStrength, Units, ViscoelasticDamping,
 };
 pub use outputs::{
     ContactImpulses, ContactTimes, ContactWorks, Energy, Impulses, Output, Slip, SlipHistory, Times, Works,

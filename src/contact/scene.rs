@@ -3,7 +3,7 @@
 use super::along::{Peeling, Surface};
 use super::law::{
     AnyLaw, Attraction, ConstantDamping, ConstantForce, ContactLaw, Dmt, Groups, HertzLaw, HystereticDamping,
-    NoTension, ProportionalDamping, Ring, RingStrength, Units, ViscousDamping,
+    NoTension, ProportionalDamping, Ring, RingStrength, Units, ViscoelasticDamping,
 };
 use super::outputs::{Ended, Output};
 use super::result::{NormalContact, SettledImpact, SimulatedImpact};
@@ -98,7 +98,7 @@ impl<T: Real, D, A, X, S> Contact<T, HertzLaw<T, D, A, X>, S> {
         Ok(Contact { sphere: self.sphere, law: self.law.with_damping(zeta)?, surface: self.surface })
     }
 
-    /// The same scene with damping of a viscous material of the relaxation time A >= 0, s.
+    /// The same scene with viscoelastic damping of the relaxation time A >= 0, s.
     ///
     /// # Errors
     /// A time outside its range.
@@ -107,14 +107,14 @@ impl<T: Real, D, A, X, S> Contact<T, HertzLaw<T, D, A, X>, S> {
     /// use microimpact::{Sphere, Stiffness, contact::Contact};
     ///
     /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
-    /// assert!(scene.with_viscous_damping(-1e-9).is_err());
+    /// assert!(scene.with_viscoelastic_damping(-1e-9).is_err());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn with_viscous_damping(
+    pub fn with_viscoelastic_damping(
         self,
         time: T,
-    ) -> Result<Contact<T, HertzLaw<T, ViscousDamping<T>, A, X>, S>, InputError> {
-        Ok(Contact { sphere: self.sphere, law: self.law.with_viscous_damping(time)?, surface: self.surface })
+    ) -> Result<Contact<T, HertzLaw<T, ViscoelasticDamping<T>, A, X>, S>, InputError> {
+        Ok(Contact { sphere: self.sphere, law: self.law.with_viscoelastic_damping(time)?, surface: self.surface })
     }
 
     /// The same scene with damping that, without adhesion, leaves a restitution e at every speed.
@@ -187,7 +187,7 @@ impl<T: Real, D, X, S> Contact<T, HertzLaw<T, D, NoAdhesion, X>, S> {
     /// let sphere = Sphere::solid(1.0, 0.75 / core::f64::consts::PI)?;
     /// let scene = Contact::hertz(sphere, Stiffness::new(1.0)?)
     ///     .with_dmt(0.5 / core::f64::consts::PI)?
-    ///     .with_viscous_damping(0.05)?;
+    ///     .with_viscoelastic_damping(0.05)?;
     /// let impact = scene.solve(&NormalMotion::new(1.0)?, &Adaptive::new(1e-9)?)?;
     /// assert!((impact.normal.overall_restitution() - 0.5921461602612_f64).abs() < 1e-9);
     /// assert!(Contact::hertz(sphere, Stiffness::new(1.0)?).with_dmt(-1.0).is_err());

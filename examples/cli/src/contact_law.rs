@@ -147,7 +147,7 @@ impl<T: Scalar> RowLaw<T> {
         let law = match damping {
             DampingName::None => law,
             DampingName::Hysteretic => law.with_damping(value)?,
-            DampingName::Viscoelastic => law.with_viscous_damping(value)?,
+            DampingName::Viscoelastic => law.with_viscoelastic_damping(value)?,
             DampingName::Constant => law.with_constant_damping(value)?,
         };
         if self.external_force == T::ZERO { Ok(law) } else { law.with_external_force(self.external_force) }

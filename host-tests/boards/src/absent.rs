@@ -71,8 +71,8 @@ const OF_THE_SIMULATION: [Term; 9] = [
     Term {
         name: "other laws and dampings",
         modules: &["dmt", "jkr", "tension"],
-        types: &["Dmt", "JkrLaw", "JkrEnd", "NoTension", "ViscousDamping", "ConstantDamping"],
-        methods: &["with_dmt", "with_viscous_damping", "with_constant_damping", "without_tension"],
+        types: &["Dmt", "JkrLaw", "JkrEnd", "NoTension", "ViscoelasticDamping", "ConstantDamping"],
+        methods: &["with_dmt", "with_viscoelastic_damping", "with_constant_damping", "without_tension"],
     },
     Term { name: "peeling", modules: &["peeling"], types: &["Peeling"], methods: &["with_peeling"] },
     Term { name: "external force", types: &["ConstantForce"], methods: &["with_external_force"], ..TERM },

@@ -140,19 +140,19 @@ fn compare_other_laws(inputs: &Inputs) -> Result<(), InputError> {
     let (hertz, any) = (HertzLaw::new(stiffness), AnyLaw::hertz(stiffness));
     compare_along_the_normal(hertz.with_constant_damping(e)?, any.with_constant_damping(e)?, inputs);
     let (ring, any) = (hertz.with_ring(strength, zeta_a)?, AnyLaw::ring(stiffness, strength, zeta_a)?);
-    compare_along_the_normal(ring.with_viscous_damping(time)?, any.with_viscous_damping(time)?, inputs);
+    compare_along_the_normal(ring.with_viscoelastic_damping(time)?, any.with_viscoelastic_damping(time)?, inputs);
     compare_along_the_normal(ring.with_constant_damping(e)?, any.with_constant_damping(e)?, inputs);
     let (dmt, any) = (hertz.with_dmt(work)?, AnyLaw::dmt(stiffness, work)?);
     compare_along_the_normal(dmt.with_damping(zeta_h)?, any.with_damping(zeta_h)?, inputs);
     let (pulled, any) = (dmt.with_external_force(force)?, any.with_external_force(force)?);
     compare_along_the_normal(pulled.with_constant_damping(e)?, any.with_constant_damping(e)?, inputs);
-    let (ends, any) = (hertz.with_viscous_damping(time)?.without_tension(), AnyLaw::without_tension(stiffness));
-    compare_along_the_normal(ends, any.with_viscous_damping(time)?, inputs);
+    let (ends, any) = (hertz.with_viscoelastic_damping(time)?.without_tension(), AnyLaw::without_tension(stiffness));
+    compare_along_the_normal(ends, any.with_viscoelastic_damping(time)?, inputs);
     let (jkr, any) = (JkrLaw::new(stiffness, work)?, AnyLaw::jkr(stiffness, work, JkrEnd::SnapOff)?);
     compare_along_the_normal(jkr, any, inputs);
     compare_along_the_normal(jkr.with_damping(zeta_h)?, any.with_damping(zeta_h)?, inputs);
     let (pulled_off, any) = (jkr.ending_at(end), AnyLaw::jkr(stiffness, work, end)?);
-    compare_along_the_normal(pulled_off.with_viscous_damping(time)?, any.with_viscous_damping(time)?, inputs);
+    compare_along_the_normal(pulled_off.with_viscoelastic_damping(time)?, any.with_viscoelastic_damping(time)?, inputs);
     compare_along_the_normal(pulled_off.with_constant_damping(e)?, any.with_constant_damping(e)?, inputs);
     Ok(())
 }

@@ -3,7 +3,7 @@
 use super::hertz::HertzUnits;
 use super::{
     Attraction, ConstantDamping, ConstantForce, ContactLaw, Damping, Dmt, Fraction, HertzLaw, HystereticDamping,
-    JkrEnd, JkrLaw, NoDamping, NoTension, Ring, Units, ViscousDamping,
+    JkrEnd, JkrLaw, NoDamping, NoTension, Ring, Units, ViscoelasticDamping,
 };
 use crate::{Fault, InputError, NoAdhesion, Parameter, Real, Sphere, Stiffness};
 
@@ -153,7 +153,7 @@ impl<T: Real> AnyLaw<T> {
         Ok(self.damped(AnyDamping::Hysteretic(HystereticDamping::new(zeta)?)))
     }
 
-    /// The same law with damping of a viscous material of the relaxation time A >= 0, s.
+    /// The same law with viscoelastic damping of the relaxation time A >= 0, s.
     ///
     /// # Errors
     /// A time outside its range.
@@ -161,11 +161,11 @@ impl<T: Real> AnyLaw<T> {
     /// ```
     /// use microimpact::{Stiffness, contact::AnyLaw};
     ///
-    /// assert!(AnyLaw::hertz(Stiffness::new(1e10)?).with_viscous_damping(-1.0).is_err());
+    /// assert!(AnyLaw::hertz(Stiffness::new(1e10)?).with_viscoelastic_damping(-1.0).is_err());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn with_viscous_damping(self, time: T) -> Result<Self, InputError> {
-        Ok(self.damped(AnyDamping::Viscous(ViscousDamping::new(time)?)))
+    pub fn with_viscoelastic_damping(self, time: T) -> Result<Self, InputError> {
+        Ok(self.damped(AnyDamping::Viscoelastic(ViscoelasticDamping::new(time)?)))
     }
 
     /// The same law with damping that, without adhesion, leaves a restitution e at every speed.
@@ -234,8 +234,8 @@ pub enum AnyDamping<T> {
     None,
     /// Damping of Hunt and Crossley.
     Hysteretic(HystereticDamping<T>),
-    /// Damping of a viscous material.
-    Viscous(ViscousDamping<T>),
+    /// Damping of a viscoelastic material.
+    Viscoelastic(ViscoelasticDamping<T>),
     /// Damping that leaves a constant restitution.
     Constant(ConstantDamping<T>),
 }
@@ -249,7 +249,7 @@ macro_rules! of_damping {
                 match self {
                     Self::None => NoDamping.$function($($argument),*),
                     Self::Hysteretic(damping) => damping.$function($($argument),*),
-                    Self::Viscous(damping) => damping.$function($($argument),*),
+                    Self::Viscoelastic(damping) => damping.$function($($argument),*),
                     Self::Constant(damping) => damping.$function($($argument),*),
                 }
             }
@@ -262,7 +262,7 @@ impl<T: Real> Damping<T> for AnyDamping<T> {
         match self {
             Self::None => Ok(Self::None),
             Self::Hysteretic(damping) => damping.in_units(units).map(Self::Hysteretic),
-            Self::Viscous(damping) => damping.in_units(units).map(Self::Viscous),
+            Self::Viscoelastic(damping) => damping.in_units(units).map(Self::Viscoelastic),
             Self::Constant(damping) => damping.in_units(units).map(Self::Constant),
         }
     }

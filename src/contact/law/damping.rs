@@ -81,20 +81,20 @@ pub struct HystereticDamping<T> {
     pub(crate) rate: T,
 }
 
-/// Damping of a viscous material (Kuwabara and Kono 1987; Brilliantov et al. 1996): c = (3/2) A K a, with its relaxation time A.
+/// Damping of a viscoelastic material (Kuwabara and Kono 1987; Brilliantov et al. 1996): c = (3/2) A K a, with its relaxation time A.
 ///
 /// Its restitution falls with the fifth root of the speed: e = 1 - 1.153 x + ... with x = (3/2) A (K sqrt(r)/m)^(2/5) v^(1/5).
 ///
 /// ```
-/// use microimpact::contact::ViscousDamping;
+/// use microimpact::contact::ViscoelasticDamping;
 ///
-/// assert!(ViscousDamping::new(1e-8).is_ok());
-/// assert!(ViscousDamping::new(-1e-8).is_err());
+/// assert!(ViscoelasticDamping::new(1e-8).is_ok());
+/// assert!(ViscoelasticDamping::new(-1e-8).is_err());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct ViscousDamping<T> {
+pub struct ViscoelasticDamping<T> {
     /// A in s or, in units of an impact, the force at s = 1.
     time: T,
 }
@@ -133,14 +133,14 @@ impl<T: Real> HystereticDamping<T> {
     }
 }
 
-impl<T: Real> ViscousDamping<T> {
+impl<T: Real> ViscoelasticDamping<T> {
     /// Damping with a relaxation time A >= 0 of the material, s.
     ///
     /// # Errors
     /// A value outside its range.
     ///
     /// ```
-    /// assert!(microimpact::contact::ViscousDamping::new(f64::INFINITY).is_err());
+    /// assert!(microimpact::contact::ViscoelasticDamping::new(f64::INFINITY).is_err());
     /// ```
     #[inline]
     pub fn new(time: T) -> Result<Self, InputError> {
@@ -231,7 +231,7 @@ impl<T: Real> ProportionalDamping<T> for HystereticDamping<T> {
     }
 }
 
-impl<T: Real> Damping<T> for ViscousDamping<T> {
+impl<T: Real> Damping<T> for ViscoelasticDamping<T> {
     #[inline]
     fn in_units(&self, units: &HertzUnits<T>) -> Result<Self, InputError> {
         // The elastic force K a^3/r is (5/4) s^3.

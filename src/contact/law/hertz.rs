@@ -7,7 +7,7 @@ use core::f64::consts::PI;
 
 use super::{
     ConstantDamping, ConstantForce, ContactLaw, Damping, Dmt, Fraction, HystereticDamping, NoDamping, NoForce,
-    NoTension, ProportionalDamping, Ring, RingStrength, ViscousDamping,
+    NoTension, ProportionalDamping, Ring, RingStrength, ViscoelasticDamping,
 };
 use crate::contact::units::Units;
 use crate::{InputError, NoAdhesion, Parameter, Real, Sphere, Stiffness};
@@ -220,7 +220,7 @@ impl<T: Real, D, A, X> HertzLaw<T, D, A, X> {
         Ok(self.damped(HystereticDamping::new(zeta)?))
     }
 
-    /// The same law with damping of a viscous material of the relaxation time A >= 0, s.
+    /// The same law with viscoelastic damping of the relaxation time A >= 0, s.
     ///
     /// # Errors
     /// A time outside its range.
@@ -228,11 +228,11 @@ impl<T: Real, D, A, X> HertzLaw<T, D, A, X> {
     /// ```
     /// use microimpact::{Stiffness, contact::HertzLaw};
     ///
-    /// assert!(HertzLaw::new(Stiffness::new(1e10)?).with_viscous_damping(-1e-9).is_err());
+    /// assert!(HertzLaw::new(Stiffness::new(1e10)?).with_viscoelastic_damping(-1e-9).is_err());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn with_viscous_damping(self, time: T) -> Result<HertzLaw<T, ViscousDamping<T>, A, X>, InputError> {
-        Ok(self.damped(ViscousDamping::new(time)?))
+    pub fn with_viscoelastic_damping(self, time: T) -> Result<HertzLaw<T, ViscoelasticDamping<T>, A, X>, InputError> {
+        Ok(self.damped(ViscoelasticDamping::new(time)?))
     }
 
     /// The same law with damping that leaves a restitution e at every speed.
@@ -420,7 +420,7 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> ContactLaw<T> f
 
     #[inline]
     fn loss_power(&self) -> u32 {
-        // Hysteretic damping goes with s^4, a viscous material and a ring with s^2, and constant damping with s^4 of its root.
+        // Hysteretic damping goes with s^4, a viscoelastic material and a ring with s^2, and constant damping with s^4 of its root.
         if self.adhesion.ends_without_force() { 0 } else { 2 }
     }
 

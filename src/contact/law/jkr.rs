@@ -7,7 +7,7 @@
 use core::f64::consts::PI;
 
 use super::hertz::{HertzUnits, undamped_peak};
-use super::{ConstantDamping, ContactLaw, Damping, HystereticDamping, NoDamping, Units, ViscousDamping};
+use super::{ConstantDamping, ContactLaw, Damping, HystereticDamping, NoDamping, Units, ViscoelasticDamping};
 use crate::numbers::cube_root;
 use crate::{InputError, Parameter, Real, Sphere, Stiffness};
 
@@ -122,7 +122,7 @@ impl<T: Real, D> JkrLaw<T, D> {
         Ok(self.damped(HystereticDamping::new(zeta)?))
     }
 
-    /// The same law with damping of a viscous material of the relaxation time A >= 0, s.
+    /// The same law with viscoelastic damping of the relaxation time A >= 0, s.
     ///
     /// # Errors
     /// A time outside its range.
@@ -130,11 +130,11 @@ impl<T: Real, D> JkrLaw<T, D> {
     /// ```
     /// use microimpact::{Stiffness, contact::JkrLaw};
     ///
-    /// assert!(JkrLaw::new(Stiffness::new(1e10)?, 0.1)?.with_viscous_damping(-1.0).is_err());
+    /// assert!(JkrLaw::new(Stiffness::new(1e10)?, 0.1)?.with_viscoelastic_damping(-1.0).is_err());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn with_viscous_damping(self, time: T) -> Result<JkrLaw<T, ViscousDamping<T>>, InputError> {
-        Ok(self.damped(ViscousDamping::new(time)?))
+    pub fn with_viscoelastic_damping(self, time: T) -> Result<JkrLaw<T, ViscoelasticDamping<T>>, InputError> {
+        Ok(self.damped(ViscoelasticDamping::new(time)?))
     }
 
     /// The same law with the damping of [`ConstantDamping`], which without adhesion would leave a restitution e.

@@ -11,7 +11,7 @@ mod ring;
 mod tension;
 
 pub use chosen::{AnyDamping, AnyForce, AnyLaw};
-pub use damping::{ConstantDamping, Damping, HystereticDamping, NoDamping, ProportionalDamping, ViscousDamping};
+pub use damping::{ConstantDamping, Damping, HystereticDamping, NoDamping, ProportionalDamping, ViscoelasticDamping};
 pub use dmt::Dmt;
 pub use force::{ConstantForce, NoForce};
 pub use fraction::Fraction;

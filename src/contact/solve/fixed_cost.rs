@@ -18,7 +18,7 @@ use crate::{InputError, Parameter, Real};
 /// in three iterations. Stronger damping needs more iterations. The bound of the error of e^2 consists of what the iterations leave,
 /// what the nodes do not resolve, and rounding; the chapter on the [method](crate::contact::method) derives it. If it exceeds 0.003,
 /// the status of a rebound is not *solved*; if e^2 is smaller, the outcome is *undecided*. Use [`Collocation`] for such impacts. The bound
-/// holds for the paper's law, for the adhesion of [`Dmt`](crate::contact::Dmt), and for viscous and constant damping, the latter
+/// holds for the paper's law, for the adhesion of [`Dmt`](crate::contact::Dmt), and for viscoelastic and constant damping, the latter
 /// down to a nominal restitution of 0.2. A contact that begins or ends elsewhere than at zero indentation is
 /// [`Unsupported`](super::Status::Unsupported).
 ///

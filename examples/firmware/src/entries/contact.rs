@@ -10,7 +10,7 @@ use microimpact::contact::{
     Damping, Dmt, Energy, ErrorControl, FixedCost, Groups, HertzLaw, HystereticDamping, Impulses, JkrEnd, JkrLaw,
     Nodes, NormalContact, Output, Peeling, PhaseSamples, ProportionalDamping, Recording, RestCriterion, Ring,
     RunReport, RungeKuttaGill, SimulatedImpact, Slip, SlipHistory, Surface, TangentialVelocities, Times, Trajectory,
-    ViscousDamping, Works,
+    ViscoelasticDamping, Works,
 };
 use microimpact::{Approach, Classification, ContactClass, Coulomb, InputError, PlanarMotion, Real, Sphere, Stiffness};
 
@@ -68,7 +68,7 @@ fn terms<T: Nodes<5>>() -> Result<(), InputError> {
     keep(Peeling::new(Coulomb::<T>::new(any())?, any())?);
     keep(ConstantForce::<T>::new(any())?);
     keep(Dmt::<T>::new(any())?);
-    keep(ViscousDamping::<T>::new(any())?);
+    keep(ViscoelasticDamping::<T>::new(any())?);
     keep(ConstantDamping::<T>::new(any())?);
     let law = HertzLaw::new(Stiffness::new(any::<T>())?).with_damping(any())?.with_ring(any(), any())?;
     keep(law.with_external_force(any())?);
@@ -179,13 +179,13 @@ where
 /// The other laws and dampings.
 fn other_laws<T: AnyNodes>(elastic: &Elastic<T>) -> Result<(), InputError> {
     let sphere = *elastic.sphere();
-    let dmt = elastic.with_viscous_damping(any())?.with_dmt(any())?;
+    let dmt = elastic.with_viscoelastic_damping(any())?.with_dmt(any())?;
     keep(dmt.force(&motions(&sphere)?.0)?.at(any(), any()));
     with_force(dmt)?;
     with_force(elastic.with_constant_damping(any())?.without_tension())?;
     let law = JkrLaw::new(Stiffness::new(any())?, any())?.ending_at(JkrEnd::PullOff);
     for_jkr(Contact::new(sphere, law.with_damping(any())?))?;
-    for_jkr(Contact::new(sphere, law.with_viscous_damping(any())?))?;
+    for_jkr(Contact::new(sphere, law.with_viscoelastic_damping(any())?))?;
     for_jkr(Contact::new(sphere, law.with_constant_damping(any())?))
 }
 
@@ -250,7 +250,7 @@ fn chosen_at_run_time<T: AnyNodes>() -> Result<(), InputError> {
     };
     let law = match black_box(0) {
         0 => law.with_damping(any())?,
-        1 => law.with_viscous_damping(any())?,
+        1 => law.with_viscoelastic_damping(any())?,
         _ => law.with_constant_damping(any())?,
     };
     let scene = Contact::new(sphere, law.with_external_force(any())?).with_friction(any())?;

@@ -12,7 +12,7 @@ use rand::{RngExt, SeedableRng};
 use reference::repetitions;
 
 const LAWS: [&str; 6] = ["hertz", "ring", "dmt", "without tension", "jkr to snap-off", "jkr to pull-off"];
-const DAMPINGS: [&str; 4] = ["elastic", "hysteretic", "viscous", "constant"];
+const DAMPINGS: [&str; 4] = ["elastic", "hysteretic", "viscoelastic", "constant"];
 
 /// A scene of a sphere of unit mass and radius on a surface of unit stiffness, by numbers that single precision holds.
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +58,7 @@ impl Scene {
         let damped = match DAMPINGS[self.damping] {
             "elastic" => Ok(law),
             "hysteretic" => law.with_damping(strength),
-            "viscous" => law.with_viscous_damping(strength),
+            "viscoelastic" => law.with_viscoelastic_damping(strength),
             _ => law.with_constant_damping(strength),
         };
         Contact::new(Sphere::solid(T::ONE, T::constant(0.75 / PI)).unwrap(), damped.unwrap())

@@ -60,7 +60,7 @@ impl Row {
         let law = match self.text("damping") {
             "none" => law,
             "hysteretic" => law.with_damping(damping)?,
-            "viscoelastic" => law.with_viscous_damping(damping)?,
+            "viscoelastic" => law.with_viscoelastic_damping(damping)?,
             "constant" => law.with_constant_damping(damping)?,
             other => panic!("{other}"),
         };
