@@ -335,11 +335,11 @@ impl<T: Real> Attraction<T> for AnyForce<T> {
     }
 }
 
-/// Passes a call on to the law that is there.
+/// Passes a call on to the law that is there. Inlined into the solver, all laws would be at each of its evaluations.
 macro_rules! of_law {
     ($($function:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
         $(
-            #[inline]
+            #[inline(never)]
             fn $function(&self, $($argument: $type),*) -> $result {
                 for_law!(self, law => law.$function($($argument),*))
             }

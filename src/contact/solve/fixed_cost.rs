@@ -260,9 +260,8 @@ impl<const N: usize, const M: usize> FixedCost<N, M> {
             return T::constant(EARLY_MARGIN) * size + T::constant(EARLY_LOSSES) * lost.abs();
         }
         let contraction_squared = T::constant(CONTRACTION * CONTRACTION) * drag_squared;
-        let apart = (before - last).abs().max(T::constant(CHANGE_MARGIN / LARGEST_MARGIN) * size);
+        let apart = (before - last).abs().max(T::constant(CHANGE_MARGIN / LARGEST_MARGIN) * size).max(T::SMALLEST);
         let of_changes = T::constant(CHANGE_MARGIN) * size * size.saturating_div(apart);
-        // Of two changes that vanish the quotient is no number, which the maximum leaves out.
         (T::constant(LEAST_MARGIN) * size).max(of_changes).max(contraction_squared * before.abs())
     }
 }
