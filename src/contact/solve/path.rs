@@ -372,7 +372,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 }
                 if self.is_held()
                     && (self.creeps(self.at.s, self.at.speed_squared.sqrt(), Course::APPROACH)
-                        || self.is_at_equilibrium(T::constant(AT_EQUILIBRIUM_ROUNDINGS)))
+                        || self.is_at_equilibrium(self.rounding_of_forces()))
                 {
                     return Err(End::Capture);
                 }
@@ -396,7 +396,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 if length <= T::EPSILON * T::EPSILON {
                     return Err(self.stuck(Course::APPROACH));
                 }
-                if self.is_lost_in_rounding() {
+                if self.is_held() && self.is_at_equilibrium(self.rounding_of_forces()) {
                     return Err(End::Capture);
                 }
             }
@@ -502,7 +502,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 if self.take(&arrival, Course::REBOUND, Some(arrival.end.s))? {
                     return Ok(self.at.s);
                 }
-                if self.is_at_equilibrium(T::constant(AT_EQUILIBRIUM_ROUNDINGS)) {
+                if self.is_at_equilibrium(self.control.error.max(T::constant(AT_EQUILIBRIUM_ROUNDINGS) * T::EPSILON)) {
                     return Ok(T::ZERO);
                 }
                 length = T::constant(HELD_FRACTION) * (self.at.s - guess);
@@ -538,7 +538,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 if !passed && self.is_undecided() {
                     return Err(End::Undecided);
                 }
-                if self.is_lost_in_rounding() {
+                if self.is_held() && self.is_at_equilibrium(self.rounding_of_forces().max(self.control.error)) {
                     return Ok(T::ZERO);
                 }
             }
@@ -854,21 +854,20 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         least * least > T::constant(4.0) * stiffness.max(secant) && y < T::constant(0.5) * least * distance.abs()
     }
 
-    /// Whether what is left of the way is less than the error allowed, or than so many `roundings`. Damped critically but for
-    /// some percent, a sphere comes as close as that to its equilibrium before it turns.
-    fn is_at_equilibrium(&self, roundings: T) -> bool {
+    /// Whether what is left of the way is less than a relative distance. Damped critically but for some percent, a sphere comes as
+    /// close as the error allowed to its equilibrium before it turns.
+    fn is_at_equilibrium(&self, distance: T) -> bool {
         let s = self.at.s;
-        let close = s * self.control.error.max(roundings * T::EPSILON);
+        let close = s * distance;
         let reach = self.law.loss(s, true) * close;
         self.at.speed_squared <= reach * reach
             && self.equilibrium().is_some_and(|equilibrium| (s - equilibrium).abs() <= close)
     }
 
-    /// Whether a captured sphere is where the forces are hardly more than their rounding: errors are, squared, what that makes of
-    /// them, and no interval is short enough.
-    fn is_lost_in_rounding(&self) -> bool {
-        let roundings = (T::constant(ROUNDING_OF_FORCES) / self.control.error).sqrt();
-        self.is_held() && self.is_at_equilibrium(roundings)
+    /// Relative distance from the equilibrium within which the forces are hardly more than their rounding: errors are, squared, what
+    /// that makes of them, and no interval is short enough.
+    fn rounding_of_forces(&self) -> T {
+        (T::constant(ROUNDING_OF_FORCES) / self.control.error).sqrt() * T::EPSILON
     }
 
     /// Contact radius at which the forces balance: the minimum of the potential, by Newton's method from above.
