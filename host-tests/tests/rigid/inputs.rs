@@ -6,8 +6,8 @@ use microimpact::measure::{NormalDistribution, Uncertain};
 use microimpact::rigid::{AdhesionCoefficient, Departure, WorkOfAdhesion, infer, infer_with_spins};
 use microimpact::table::{BoundaryTable, RestitutionTable, Single, TableRebound};
 use microimpact::{
-    ConstantRestitution, Coulomb, CriticalSpeed, Fault, ImpactError, InFixedPoint, InputError, Material, NormalMotion,
-    Parameter, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
+    AdhesionRegime, ConstantRestitution, Coulomb, CriticalSpeed, Fault, ImpactError, InFixedPoint, InputError,
+    Material, NormalMotion, Parameter, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Sticking, Stiffness,
 };
 
 type Checked = Result<(), ImpactError>;
@@ -98,6 +98,10 @@ fn supply<T: Single + NormalDistribution + Into<f64>>(parameter: Parameter, valu
         Parameter::MaterialDamping => Contact::hertz(sphere(), stiffness()).with_damping(value).map(drop),
         Parameter::AdhesionStrength => Contact::hertz(sphere(), stiffness()).with_ring(value, c(1.0)).map(drop),
         Parameter::AdhesionDamping => Contact::hertz(sphere(), stiffness()).with_ring(c(1.0), value).map(drop),
+        Parameter::RelaxationTime => Contact::hertz(sphere(), stiffness()).with_viscoelastic_damping(value).map(drop),
+        Parameter::NominalRestitution => Contact::hertz(sphere(), stiffness()).with_constant_damping(value).map(drop),
+        Parameter::AdhesionEnergy => Sticking::new(&sphere(), stiffness(), value).map(drop),
+        Parameter::AtomicSpacing => AdhesionRegime::of(&sphere(), stiffness(), c(0.1), value).map(drop),
         Parameter::PeelingMoment => Contact::hertz(sphere(), stiffness())
             .with_ring(c(1.0), c(1.0))
             .and_then(|scene| scene.with_friction(c(0.1)))
