@@ -856,6 +856,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
 
     /// Whether what is left of the way is less than a relative distance. Damped critically but for some percent, a sphere comes as
     /// close as the error allowed to its equilibrium before it turns.
+    #[inline(never)]
     fn is_at_equilibrium(&self, distance: T) -> bool {
         let s = self.at.s;
         let close = s * distance;
