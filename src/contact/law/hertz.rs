@@ -53,7 +53,7 @@ pub trait Attraction<T: Real>: Copy {
     /// A ratio of forces that cannot be represented.
     fn in_units(&self, sphere: &Sphere<T>, units: &HertzUnits<T>) -> Result<Self, InputError>;
 
-    /// Whether the force moves the peak of the undamped motion from where [`HertzUnits`] have it.
+    /// Whether the force moves the peak of the undamped motion from where elasticity and a ring have it.
     #[inline]
     fn moves_peak(&self) -> bool {
         true
