@@ -59,7 +59,7 @@ C = [
     ("HELD_FRACTION", "0.5", "path: `rebound`", "of the distance to the guessed turning point"),
     ("PEAK_GROWTH, PEAK_ENERGY", "1.5, 0.999", "path: `undamped_peak`", "first value beyond the peak; rounding must not push it further"),
     ("**Slow end and turning points**",),
-    ("RELEASE_STEPS, RELEASE_ACCURACY", "100; 0.1", "path: `release`", "intervals tried for an end without tension; excess of the speed there over the tolerance, as the speed is largest and its error a square"),
+    ("RELEASE_ACCURACY", "0.1", "path: `release`", "error of the last interval's length over the tolerance, for an end without tension: times have it too"),
     ("AT_EQUILIBRIUM_ROUNDINGS", "8", "path: `rebound`", "remaining distance in roundings of $s$"),
     ("ROUNDING_OF_FORCES", "2e-4", "path: `rounding_of_forces`", "squared roundings that forces add to an error; over the tolerance"),
     ("LINEAR_SWING, BEYOND_SWING", "1e-3, 1.01", "path: `outer_turning_point`", "amplitude up to which the well is a parabola; the guess lies 1 % beyond"),

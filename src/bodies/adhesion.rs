@@ -5,6 +5,11 @@ use core::f64::consts::PI;
 use crate::numbers::cube_root;
 use crate::{InputError, Parameter, Real, Sphere, Stiffness};
 
+/// Strength f0 of the ring whose contact radius at rest is this fraction of the radius: f0 = K r (a/r)^2/(2 pi), the equilibrium of B6.
+pub(crate) fn strength_at_rest<T: Real>(sphere: &Sphere<T>, stiffness: Stiffness<T>, ratio: T) -> T {
+    stiffness.pascals() * sphere.radius() * T::constant(0.5 / PI) * ratio * ratio
+}
+
 /// What a work of adhesion G (J/m^2) does to an elastic sphere, by Johnson, Kendall and Roberts (1971). G of equal materials is
 /// twice their surface energy.
 ///
@@ -51,11 +56,11 @@ impl<T: Real> Sticking<T> {
     /// ```
     pub fn new(sphere: &Sphere<T>, stiffness: Stiffness<T>, work: T) -> Result<Self, InputError> {
         let work = Parameter::AdhesionEnergy.check(work)?;
-        let (radius, stiffness) = (sphere.radius(), stiffness.pascals());
+        let (radius, pascals) = (sphere.radius(), stiffness.pascals());
         // In this order no product leaves the range of single precision.
-        let rest = cube_root(T::constant(6.0 * PI) * work / stiffness / radius);
+        let rest = cube_root(T::constant(6.0 * PI) * work / pascals / radius);
         // E* = (3/4) K.
-        let softness = cube_root(T::constant(4.0 / 3.0) * work / stiffness / radius);
+        let softness = cube_root(T::constant(4.0 / 3.0) * work / pascals / radius);
         let scale = T::constant(WORK) * softness * softness;
         let speed_squared = T::constant(1.5 / PI) * scale * (work / radius) / sphere.density();
         Ok(Self {
@@ -63,7 +68,7 @@ impl<T: Real> Sticking<T> {
             pull_off_force: T::constant(1.5 * PI) * work * radius,
             work: scale * work * radius * radius,
             speed: speed_squared.sqrt(),
-            ring_strength: T::constant(0.5 / PI) * stiffness * radius * rest * rest,
+            ring_strength: strength_at_rest(sphere, stiffness, rest),
         })
     }
 }

@@ -6,6 +6,7 @@ mod material;
 mod sphere;
 mod stiffness;
 
+pub(crate) use adhesion::strength_at_rest;
 pub use adhesion::{AdhesionRegime, Sticking};
 pub use hertz::Hertz;
 pub use material::Material;

@@ -1,10 +1,9 @@
 //! One parameter of a simulated contact from one measured impact.
 
-use core::f64::consts::PI;
-
-use super::root::root;
 use super::{CalibrationError, Estimate, MeasuredRebound};
+use crate::bodies::strength_at_rest;
 use crate::contact::{Attraction, Contact, ContactLaw, Damping, HertzLaw, Method, Status};
+use crate::numbers::root;
 use crate::{Dual, InputError, NoAdhesion, NormalMotion, Parameter, Real, Sphere, Stiffness};
 
 /// Largest number of steps to find a strength that slows the rebound enough. Each step multiplies the strength by four.
@@ -101,8 +100,7 @@ where
 /// ```
 pub fn ring_strength<T: Real>(sphere: &Sphere<T>, stiffness: Stiffness<T>, contact_radius: T) -> Result<T, InputError> {
     let ratio = Parameter::ContactRadiusRatio.check(contact_radius / sphere.radius())?;
-    let strength = stiffness.pascals() * sphere.radius() * T::constant(0.5 / PI) * ratio * ratio;
-    Parameter::AdhesionStrength.check(strength)
+    Parameter::AdhesionStrength.check(strength_at_rest(sphere, stiffness, ratio))
 }
 
 /// Finds any parameter with which a scene rebounds as measured, to a relative `tolerance`: for example the radius, or f0.

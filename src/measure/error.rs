@@ -3,6 +3,7 @@
 use core::fmt;
 
 use crate::InputError;
+use crate::numbers::NotConverged;
 
 /// Why a measurement does not determine a parameter.
 ///
@@ -39,6 +40,12 @@ pub enum CalibrationError {
     Undetermined,
     /// The restitution does not decrease with speed, so that the restitution speed k has no upper bound.
     NoMaterialLoss,
+}
+
+impl From<NotConverged> for CalibrationError {
+    fn from(_: NotConverged) -> Self {
+        Self::NotConverged
+    }
 }
 
 impl From<InputError> for CalibrationError {

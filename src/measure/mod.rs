@@ -14,7 +14,6 @@ mod contact;
 mod error;
 mod restitution;
 mod robust;
-mod root;
 mod tangential;
 mod uncertainty;
 

@@ -1,14 +1,16 @@
 //! The number types that the models compute with.
 
+mod cube_root;
 mod dual;
 #[cfg(feature = "fixed")]
 mod fixed;
 mod real;
-mod roots;
+mod root;
 mod tables;
 
+pub(crate) use cube_root::cube_root;
 pub use dual::Dual;
 #[cfg(feature = "fixed")]
 pub use fixed::{FixedPoint, InFixedPoint};
 pub use real::Real;
-pub(crate) use roots::cube_root;
+pub(crate) use root::{NotConverged, root};

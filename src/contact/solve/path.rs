@@ -5,6 +5,7 @@ use super::nodes::Nodes;
 use super::observer::Observer;
 use super::well;
 use crate::contact::law::ContactLaw;
+use crate::numbers::{NotConverged, root};
 use crate::{Outcome, Real};
 
 /// How the normal motion ends.
@@ -201,10 +202,7 @@ const EQUILIBRIUM_START: f64 = 2.0;
 /// Its steps; where the force is a power of the coordinate, each takes a fixed fraction off.
 const EQUILIBRIUM_STEPS: u32 = 100;
 
-/// Intervals that are tried for the place where damping cancels the elastic force,
-const RELEASE_STEPS: u32 = 100;
-
-/// and the relative error of the speed there, over the tolerance: the speed is largest there, so that its error is a square.
+/// Relative error of the length of the interval to where damping cancels the elastic force, over the tolerance: times have it too.
 const RELEASE_ACCURACY: f64 = 0.1;
 
 /// Factor on the length where nothing is known of the error.
@@ -520,9 +518,8 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 let interval = self.pass::<N>(step, Course::REBOUND);
                 let factor = self.length_factor(N, &interval);
                 if interval.accepted && self.is_released(&interval.end) {
-                    return Err(
-                        self.release::<N>(step, None, |follower, length| follower.pass::<N>(length, Course::REBOUND))
-                    );
+                    let pass = |follower: &mut Self, length| follower.pass::<N>(length, Course::REBOUND);
+                    return Err(self.release::<N>((step, &interval.end), None, pass));
                 }
                 if self.take(&interval, Course::REBOUND, None)? {
                     length = length * factor;
@@ -559,48 +556,34 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         self.law.release_speed(at.s).is_some_and(|most| at.speed_squared > most * most)
     }
 
-    /// Goes on to where damping cancels the elastic force, by an interval no longer than `farthest`, which goes beyond: regula falsi,
-    /// and every third time the middle.
+    /// Goes on to where damping cancels the elastic force, in front of the end of an interval of the signed length `farthest`.
     fn release<const N: usize>(
         &mut self,
-        farthest: T,
+        (farthest, beyond): (T, &Point<T>),
         turning_point: Option<T>,
         interval_of: impl Fn(&mut Self, T) -> Interval<T, N>,
     ) -> End
     where
         T: Nodes<N>,
     {
-        let (half, law) = (T::constant(0.5), self.law);
+        let law = self.law;
         let excess = |at: &Point<T>| at.speed_squared.max(T::ZERO).sqrt() - law.release_speed(at.s).unwrap_or(T::ZERO);
-        let (mut inside, mut outside) = ((T::ZERO, excess(&self.at)), (farthest, T::ZERO));
-        for step in 0..RELEASE_STEPS {
-            let length = match step {
-                0 => farthest,
-                _ if step % 3 == 0 => half * (inside.0 + outside.0),
-                _ => outside.0 - outside.1 * (outside.0 - inside.0) / (outside.1 - inside.1),
-            };
-            let interval = interval_of(self, length);
-            let found = excess(&interval.end);
-            let error = T::constant(RELEASE_ACCURACY) * self.control.error;
-            let close = found.abs() <= error * interval.end.speed_squared.sqrt();
-            if close || (outside.0 - inside.0).abs() <= T::EPSILON * self.at.s {
-                return match self.take(&interval, Course::REBOUND, turning_point) {
-                    Ok(true) => {
-                        // What the materials have not given back by then remains in them.
-                        self.at.energy = half * self.at.speed_squared;
-                        End::Separation
-                    }
-                    Ok(false) => self.stuck(Course::REBOUND),
-                    Err(end) => end,
-                };
+        let ends = ((T::ZERO, excess(&self.at)), (farthest, excess(beyond)));
+        let tolerance = T::constant(RELEASE_ACCURACY) * self.control.error;
+        let length = root(ends.0, ends.1, tolerance, |length| Ok(excess(&interval_of(self, length).end)));
+        let Ok::<_, NotConverged>(length) = length else {
+            return End::Budget;
+        };
+        let interval = interval_of(self, length);
+        match self.take(&interval, Course::REBOUND, turning_point) {
+            Ok(true) => {
+                // What the materials have not given back by then remains in them.
+                self.at.energy = T::constant(0.5) * self.at.speed_squared;
+                End::Separation
             }
-            if found > T::ZERO {
-                outside = (length, found);
-            } else {
-                inside = (length, found);
-            }
+            Ok(false) => self.stuck(Course::REBOUND),
+            Err(end) => end,
         }
-        End::Budget
     }
 
     /// Whether what is left to lose on the way out cannot decide between rebound and capture.
@@ -634,19 +617,18 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         if reach * reach * depth > stiffness {
             depth = stiffness / (reach * reach);
         }
-        loop {
-            let (energy, iterations) = (self.at.energy, &mut self.statistics.iterations);
+        let leave_by = |follower: &mut Self, depth: T| {
+            let (energy, iterations) = (follower.at.energy, &mut follower.statistics.iterations);
             let mut interval: Interval<T, N> =
-                leave(self.law, from, signed(depth), energy, course, &self.control, iterations);
-            self.check(&mut interval);
+                leave(follower.law, from, signed(depth), energy, course, &follower.control, iterations);
+            follower.check(&mut interval);
+            interval
+        };
+        loop {
+            let interval = leave_by(self, depth);
             let factor = self.length_factor(N, &interval);
             if course.rebound && interval.accepted && self.is_released(&interval.end) {
-                return Err(self.release::<N>(depth, Some(from), |follower, depth| {
-                    let (control, iterations) = (&follower.control, &mut follower.statistics.iterations);
-                    let mut interval = leave(follower.law, from, depth, energy, course, control, iterations);
-                    follower.check(&mut interval);
-                    interval
-                }));
+                return Err(self.release::<N>((depth, &interval.end), Some(from), leave_by));
             }
             if self.take(&interval, course, Some(from))? {
                 return Ok(depth);

@@ -1,7 +1,10 @@
 //! Root of a function in a bracket.
 
-use super::CalibrationError;
 use crate::Real;
+
+/// No root was found in the trials allowed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct NotConverged;
 
 /// Largest number of trials. Bisection alone needs a third of them.
 const MOST_TRIALS: u32 = 150;
@@ -9,12 +12,12 @@ const MOST_TRIALS: u32 = 150;
 /// Finds a root of f in a bracket, to a relative `tolerance`. The ends of the bracket are given with their values.
 ///
 /// Chandrupatla's method (1997) uses inverse quadratic interpolation where it is safe, and bisection elsewhere.
-pub(super) fn root<T: Real>(
+pub(crate) fn root<T: Real, E: From<NotConverged>>(
     (mut a, mut f_a): (T, T),
     (mut b, mut f_b): (T, T),
     tolerance: T,
-    mut f: impl FnMut(T) -> Result<T, CalibrationError>,
-) -> Result<T, CalibrationError> {
+    mut f: impl FnMut(T) -> Result<T, E>,
+) -> Result<T, E> {
     let tolerance = tolerance.max(T::constant(4.0) * T::EPSILON);
     let mut fraction = T::constant(0.5);
     for _ in 0..MOST_TRIALS {
@@ -45,18 +48,18 @@ pub(super) fn root<T: Real>(
         let least = close / width;
         fraction = fraction.max(least).min(T::ONE - least);
     }
-    Err(CalibrationError::NotConverged)
+    Err(NotConverged.into())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{CalibrationError, root};
+    use super::{NotConverged, root};
 
     fn solve(bracket: (f64, f64), f: impl Fn(f64) -> f64) -> (f64, u32) {
         let mut trials = 0;
         let found = root((bracket.0, f(bracket.0)), (bracket.1, f(bracket.1)), 1e-13, |x| {
             trials += 1;
-            Ok(f(x))
+            Ok::<_, NotConverged>(f(x))
         });
         (found.unwrap_or(f64::NAN), trials)
     }
@@ -84,7 +87,7 @@ mod tests {
 
     #[test]
     fn errors_of_trials_end_the_search() {
-        let failed = root((0.0, 1.0), (1.0, -1.0), 1e-9, |_| Err(CalibrationError::NotConverged));
-        assert_eq!(failed, Err(CalibrationError::NotConverged));
+        let failed = root((0.0, 1.0), (1.0, -1.0), 1e-9, |_| Err(NotConverged));
+        assert_eq!(failed, Err(NotConverged));
     }
 }
