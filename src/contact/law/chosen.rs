@@ -45,17 +45,21 @@ pub enum AnyLaw<T> {
     Jkr(JkrLaw<T, AnyDamping<T>>),
 }
 
-/// Does the same with the law that is there.
+/// Does the same with the law that is there, and with its variant.
 macro_rules! for_law {
-    ($self:expr, $law:ident => $result:expr) => {
+    ($self:expr, $variant:ident, $law:ident => $result:expr) => {
         match $self {
-            AnyLaw::Hertz($law) => $result,
-            AnyLaw::Ring($law) => $result,
-            AnyLaw::Dmt($law) => $result,
-            AnyLaw::WithoutTension($law) => $result,
-            AnyLaw::Jkr($law) => $result,
+            AnyLaw::Hertz($law) => for_law!(Hertz, $variant => $result),
+            AnyLaw::Ring($law) => for_law!(Ring, $variant => $result),
+            AnyLaw::Dmt($law) => for_law!(Dmt, $variant => $result),
+            AnyLaw::WithoutTension($law) => for_law!(WithoutTension, $variant => $result),
+            AnyLaw::Jkr($law) => for_law!(Jkr, $variant => $result),
         }
     };
+    ($name:ident, $variant:ident => $result:expr) => {{
+        let $variant = Self::$name;
+        $result
+    }};
 }
 
 impl<T: Real> AnyLaw<T> {
@@ -129,13 +133,7 @@ impl<T: Real> AnyLaw<T> {
     }
 
     fn damped(self, damping: AnyDamping<T>) -> Self {
-        match self {
-            Self::Hertz(law) => Self::Hertz(law.damped(damping)),
-            Self::Ring(law) => Self::Ring(law.damped(damping)),
-            Self::Dmt(law) => Self::Dmt(law.damped(damping)),
-            Self::WithoutTension(law) => Self::WithoutTension(law.damped(damping)),
-            Self::Jkr(law) => Self::Jkr(law.damped(damping)),
-        }
+        for_law!(self, variant, law => variant(law.damped(damping)))
     }
 
     /// The same law with hysteretic damping of strength zeta_H >= 0 in the materials.
@@ -341,7 +339,7 @@ macro_rules! of_law {
         $(
             #[inline(never)]
             fn $function(&self, $($argument: $type),*) -> $result {
-                for_law!(self, law => law.$function($($argument),*))
+                for_law!(self, _variant, law => law.$function($($argument),*))
             }
         )*
     };
@@ -349,15 +347,7 @@ macro_rules! of_law {
 
 impl<T: Real> ContactLaw<T> for AnyLaw<T> {
     fn in_units(&self, sphere: &Sphere<T>, approach: T) -> Result<(Self, Units<T>), InputError> {
-        match self {
-            Self::Hertz(law) => law.in_units(sphere, approach).map(|(law, units)| (Self::Hertz(law), units)),
-            Self::Ring(law) => law.in_units(sphere, approach).map(|(law, units)| (Self::Ring(law), units)),
-            Self::Dmt(law) => law.in_units(sphere, approach).map(|(law, units)| (Self::Dmt(law), units)),
-            Self::WithoutTension(law) => {
-                law.in_units(sphere, approach).map(|(law, units)| (Self::WithoutTension(law), units))
-            }
-            Self::Jkr(law) => law.in_units(sphere, approach).map(|(law, units)| (Self::Jkr(law), units)),
-        }
+        for_law!(self, variant, law => law.in_units(sphere, approach).map(|(law, units)| (variant(law), units)))
     }
 
     of_law! {

@@ -350,10 +350,10 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> HertzLaw<T, D, 
         T::constant(2.5) * a2 * a2 - self.adhesion.slope(a) - self.force.slope(a)
     }
 
-    /// Rate of change of the contact radius with the coordinate.
+    /// A rate of change with the coordinate, from that with the contact radius.
     #[inline]
-    fn stretch(&self, s: T) -> T {
-        if self.damping.needs_root() { s + s } else { T::ONE }
+    fn along(&self, s: T, radial: T) -> T {
+        if self.damping.needs_root() { radial * (s + s) } else { radial }
     }
 }
 
@@ -438,9 +438,7 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> ContactLaw<T> f
 
     #[inline]
     fn slope(&self, s: T) -> T {
-        let a = self.radius(s);
-        let slope = self.radial_slope(a);
-        if self.damping.needs_root() { slope * self.stretch(s) } else { slope }
+        self.along(s, self.radial_slope(self.radius(s)))
     }
 
     #[inline]
@@ -448,8 +446,7 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> ContactLaw<T> f
         let a = self.radius(s);
         let curvature = T::constant(10.0) * a * a * a - self.adhesion.curvature(a) - self.force.curvature(a);
         if self.damping.needs_root() {
-            let stretch = self.stretch(s);
-            return curvature * stretch * stretch + T::constant(2.0) * self.radial_slope(a);
+            return self.along(s, self.along(s, curvature)) + T::constant(2.0) * self.radial_slope(a);
         }
         curvature
     }
@@ -487,8 +484,7 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> ContactLaw<T> f
     #[inline]
     fn indentation_slope(&self, s: T) -> T {
         let a = self.radius(s);
-        let slope = a + a;
-        if self.damping.needs_root() { slope * self.stretch(s) } else { slope }
+        self.along(s, a + a)
     }
 
     #[inline]

@@ -10,7 +10,7 @@ use super::collocation::UNTIMED;
 use super::interval::{Control, Course, END_FROM_SPEED, Interval, Point, pass};
 use super::nodes::Nodes;
 use super::path::{Follower, REFUSED_SHRINK};
-use super::well::well;
+use super::well::{depth, well};
 use crate::contact::law::ContactLaw;
 use crate::{CriticalSpeed, InputError, Parameter, Real};
 
@@ -100,7 +100,7 @@ pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(toleranc
         return Trial::Free;
     };
     let rest = law.potential(barrier);
-    let depth = law.mean_slope(barrier, bottom) * (barrier - bottom);
+    let depth = depth(law, (barrier, bottom));
     // Losses count in proportion to themselves, which at the critical speed make up all of the energy of the impact;
     // the error of an interval is in proportion to what moves in the well, and a square.
     let fraction = (energy / (energy + depth)).max(T::constant(LEAST_DEPTH_FRACTION));

@@ -7,6 +7,7 @@ use super::interval::{Course, Point};
 use super::nodes::Nodes;
 use super::observer::Observer;
 use super::path::{End, Follower, NormalPath, REFUSED_SHRINK, Statistics, UNDAMPED_FRACTION};
+use super::well;
 use crate::contact::law::{ContactLaw, Units};
 use crate::{InputError, Parameter, Real};
 
@@ -159,7 +160,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
             return settling;
         };
         let barrier = self.barrier.0;
-        let depth = self.law.mean_slope(barrier, bottom) * (barrier - bottom);
+        let depth = well::depth(self.law, (barrier, bottom));
         let well = Well { bottom, rest: criterion.fraction * depth };
         // Where the sphere would turn back without losses, ahead and behind; it never comes as far again.
         let mut course = if path.peak > T::ZERO { Course::REBOUND } else { Course::APPROACH };

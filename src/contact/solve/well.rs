@@ -50,8 +50,15 @@ pub(crate) fn well<T: Real>(law: &impl ContactLaw<T>) -> Option<(T, T)> {
             }
         }
     }
-    // Where a force has nearly flattened the well, a difference of potentials is less than their rounding.
+    // A difference of potentials may be less than their rounding, as in the depth.
     (law.mean_slope(barrier, bottom) < T::ZERO).then_some((barrier, bottom))
+}
+
+/// Depth of the well between a barrier and the bottom. Where a force has nearly flattened it, a difference of potentials is less than
+/// their rounding.
+#[inline]
+pub(super) fn depth<T: Real>(law: &impl ContactLaw<T>, (barrier, bottom): (T, T)) -> T {
+    law.mean_slope(barrier, bottom) * (barrier - bottom)
 }
 
 /// Whether a coordinate is no smaller than that of the minimum of the potential, by slope and curvature there.

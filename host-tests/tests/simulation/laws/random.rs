@@ -100,7 +100,7 @@ fn check<T: Real>(method: &impl Method<T>, bounds: f64) {
     assert!(faults.is_empty(), "{outcome} of {}\n{faults}", SCENES.len(), outcome = faults.lines().count());
 }
 
-/// The number of scenes of each law and damping that a method answers, by outcome.
+/// The number of scenes of a law that a method answers.
 fn answered(method: &impl Method<f64>, law: &str) -> usize {
     let of_law = SCENES.iter().filter(|solved| LAWS[solved.scene.law] == law);
     let answers = of_law.filter(|Solved { scene, .. }| {
