@@ -119,8 +119,20 @@ parameters! {
         Restitution: "restitution", "1", 0.0 to 1.0;
         /// Speed k of the restitution law R = k/(k + v).
         RestitutionSpeed: "restitution speed", "m/s", 1e-6 to 1e12;
+        /// Power p of the restitution law R = k^p/(k^p + v^p).
+        RestitutionPower: "power of the restitution law", "1", 0.01 to 1.0;
+        /// Speed v_y of an elastic impact in which a material starts to yield.
+        YieldSpeed: "yield speed", "m/s", 1e-9 to 1e9;
+        /// Contact pressure p_y at which a material starts to yield.
+        YieldPressure: "contact yield pressure", "Pa", 1.0 to 1e13;
         /// Adhesion coefficient rho.
         AdhesionCoefficient: "adhesion coefficient", "1", 0.0 to 1.0;
+        /// Speed l of the adhesion coefficient rho = l^q/(l^q + v^q).
+        AdhesionSpeed: "adhesion speed", "m/s", 1e-9 to 1e9;
+        /// Power q of that coefficient.
+        AdhesionPower: "power of the adhesion coefficient", "1", 0.01 to 16.0;
+        /// Electric charge of a sphere.
+        Charge: "charge", "C", -1.0 to 1.0;
         /// Work of adhesion W_A.
         WorkOfAdhesion: "work of adhesion", "J", 0.0 to 1e6;
         /// Coulomb's friction coefficient f.
@@ -293,6 +305,8 @@ pub enum Fault {
     TooFewNodes,
     /// The law of contact does not go with this quantity.
     OtherLaw,
+    /// The value does not rise from point to point.
+    OutOfOrder,
 }
 
 /// An invalid input: the parameter, the value found, and how the value misses its range.
@@ -358,6 +372,10 @@ impl fmt::Display for InputError {
                  with nine; use more nodes or `Adaptive`",
             ),
             Fault::OtherLaw => f.write_str("be zero with this law of contact; choose another law"),
+            Fault::OutOfOrder if parameter == Parameter::ReboundSpeed => {
+                f.write_str("not be below that of the point before; R v never falls with the speed v")
+            }
+            Fault::OutOfOrder => f.write_str("be above that of the point before; sort the points by speed"),
             Fault::NotFinite => write!(f, "be a number from {} to {}{unit}", Number(smallest), Number(largest)),
             Fault::TooSmall | Fault::TooLarge => {
                 write!(f, "be {} to {}{unit}", Number(smallest), Number(largest))?;

@@ -18,7 +18,7 @@ mod rolling;
 pub mod table;
 mod terms;
 
-pub use bodies::{AdhesionRegime, Hertz, Material, Sphere, Sticking, Stiffness};
+pub use bodies::{AdhesionRegime, Hertz, KnownMaterial, MATERIALS, Material, Sourced, Sphere, Sticking, Stiffness};
 pub use classify::{Class, Classification, ContactClass, CriticalSpeed, Outcome, SurfaceMotion};
 pub use error::{Fault, ImpactError, InputError, Parameter};
 pub use motion::{Approach, NormalMotion, Oblique, ObliqueMotion, PlanarMotion};

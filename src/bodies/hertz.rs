@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use crate::{Approach, Real, Sphere, Stiffness};
+use crate::{Approach, InputError, Parameter, Real, Sphere, Stiffness};
 
 /// Peak values and duration of an elastic impact of a sphere on a flat surface.
 ///
@@ -31,7 +31,37 @@ pub struct Hertz<T> {
     pub duration: T,
 }
 
+/// v_y over (p_y^5/(E*^4 density))^(1/2): (pi/(2 E*))^2 (2/(5 density))^(1/2) p_y^(5/2) (Thornton 1997).
+const YIELD_SPEED: f64 = 1.560_521_475_613_22;
+
 impl<T: Real> Hertz<T> {
+    /// Speed from which the peak pressure of an elastic impact exceeds the contact yield `pressure` p_y (Pa) of the softer material,
+    /// 1.5605 (p_y^5/(E*^4 density))^(1/2) (Thornton 1997), m/s. p_y is about 1.6 times the yield stress (Johnson 1985).
+    ///
+    /// Faster impacts leave a dent, which the contact simulation does not know;
+    /// [`ElasticPlasticRestitution`](crate::rigid::ElasticPlasticRestitution) does.
+    ///
+    /// # Errors
+    /// The pressure is outside its range.
+    ///
+    /// ```
+    /// use microimpact::{Hertz, NormalMotion, Sphere, Stiffness};
+    ///
+    /// let (sphere, stiffness) = (Sphere::solid(5e-6, 1050.0)?, Stiffness::new(4.6e9)?);
+    /// let speed = Hertz::yield_speed(&sphere, stiffness, 0.3e9)?;
+    /// // Hertz's pressure in the middle of the contact, 3 F/(2 pi a^2).
+    /// let peak: Hertz<f64> = Hertz::new(&sphere, stiffness, &NormalMotion::new(speed)?);
+    /// let pressure = 1.5 * peak.force / (core::f64::consts::PI * peak.contact_radius.powi(2));
+    /// assert!((pressure / 0.3e9 - 1.0).abs() < 1e-12);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn yield_speed(sphere: &Sphere<T>, stiffness: Stiffness<T>, pressure: T) -> Result<T, InputError> {
+        let pressure = Parameter::YieldPressure.check(pressure)?;
+        // E* = (3/4) K.
+        let strain = T::constant(4.0 / 3.0) * pressure / stiffness.pascals();
+        Ok(T::constant(YIELD_SPEED) * strain * strain * (pressure / sphere.density()).sqrt())
+    }
+
     /// Computes the impact of a sphere that arrives with `motion`. Only the normal velocity matters.
     ///
     /// ```

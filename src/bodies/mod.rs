@@ -3,6 +3,7 @@
 mod adhesion;
 mod hertz;
 mod material;
+mod materials;
 mod sphere;
 mod stiffness;
 
@@ -10,5 +11,6 @@ pub(crate) use adhesion::strength_at_rest;
 pub use adhesion::{AdhesionRegime, Sticking};
 pub use hertz::Hertz;
 pub use material::Material;
+pub use materials::{KnownMaterial, MATERIALS, Sourced};
 pub use sphere::Sphere;
 pub use stiffness::Stiffness;

@@ -190,6 +190,11 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
     }
 
     #[inline]
+    fn ln(self) -> Self {
+        self.chain(self.value.ln(), T::ONE / self.value)
+    }
+
+    #[inline]
     fn saturating_div(self, divisor: Self) -> Self {
         let value = self.value.saturating_div(divisor.value);
         self.both(divisor, value, |a, b| {

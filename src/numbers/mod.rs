@@ -4,6 +4,7 @@ mod cube_root;
 mod dual;
 #[cfg(feature = "fixed")]
 mod fixed;
+mod inverse;
 mod real;
 mod root;
 mod tables;
@@ -12,5 +13,6 @@ pub(crate) use cube_root::cube_root;
 pub use dual::Dual;
 #[cfg(feature = "fixed")]
 pub use fixed::{FixedPoint, InFixedPoint};
+pub(crate) use inverse::{inverse, power};
 pub use real::Real;
 pub(crate) use root::{NotConverged, root};

@@ -56,6 +56,17 @@ pub trait Real:
     /// Exponential function.
     fn exp(self) -> Self;
 
+    /// Natural logarithm of a positive number. By default it has the digits of this type, from a logarithm in double precision.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::Real::ln(1.0_f32), 0.0);
+    /// ```
+    #[inline]
+    fn ln(self) -> Self {
+        let start = Self::constant(libm::log(self.to_f64()));
+        if start.is_finite() { start + (self * (-start).exp() - Self::ONE) } else { start }
+    }
+
     /// Quotient by a positive divisor. A quotient that would overflow becomes the largest number of the type.
     fn saturating_div(self, divisor: Self) -> Self;
 
@@ -89,7 +100,7 @@ pub trait Real:
 }
 
 macro_rules! impl_real_for_float {
-    ($float:ident, $sqrt:path, $exp:path, $two_fifths_power:path) => {
+    ($float:ident, $sqrt:path, $exp:path, $ln:path, $two_fifths_power:path) => {
         impl Real for $float {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -124,6 +135,11 @@ macro_rules! impl_real_for_float {
             #[inline]
             fn exp(self) -> Self {
                 $exp(self)
+            }
+
+            #[inline]
+            fn ln(self) -> Self {
+                $ln(self)
             }
 
             #[inline]
@@ -165,10 +181,10 @@ two_fifths_power!(two_fifths_power_f32, f32, 0x4c2b_ac71, 2);
 two_fifths_power!(two_fifths_power_f64, f64, 0x4cb8_a8c1_54c9_8400, 3);
 
 #[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
-impl_real_for_float!(f32, libm::sqrtf, libm::expf, two_fifths_power_f32);
+impl_real_for_float!(f32, libm::sqrtf, libm::expf, libm::logf, two_fifths_power_f32);
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
-impl_real_for_float!(f32, multiplied_root, libm::expf, two_fifths_power_f32);
-impl_real_for_float!(f64, libm::sqrt, libm::exp, two_fifths_power_f64);
+impl_real_for_float!(f32, multiplied_root, libm::expf, libm::logf, two_fifths_power_f32);
+impl_real_for_float!(f64, libm::sqrt, libm::exp, libm::log, two_fifths_power_f64);
 
 /// Square root of zero or a normal number, with an error of one unit in the last place, by multiplications alone.
 ///

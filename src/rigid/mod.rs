@@ -13,13 +13,16 @@ mod normal;
 mod restitution;
 mod tangential;
 
-pub use adhesion::{AdhesionCoefficient, ReboundAdhesion, WorkOfAdhesion};
+pub use adhesion::{AdhesionCoefficient, ReboundAdhesion, SpeedAdhesion, WorkOfAdhesion, image_charge_energy};
 pub use energy::{EnergyLedger, NormalWorks};
 pub use impulses::{NormalImpulses, Phases, TangentialImpulses};
 pub use inverse::{Departure, infer, infer_assuming_rolling, infer_with_spins};
 pub use microforce::{Microforce, MicroforceTerm, NoMicroforce};
 pub use normal::NormalImpact;
-pub use restitution::{ConstantRestitution, RestitutionLaw, SpeedRestitution};
+pub use restitution::{
+    ConstantRestitution, ElasticPlasticRestitution, PowerRestitution, RestitutionLaw, SpeedRestitution,
+    TabulatedRestitution, ViscoelasticRestitution,
+};
 pub use tangential::{RollingDissipation, TangentialImpact, TangentialOutcome, TangentialTerm};
 
 use crate::{
@@ -117,6 +120,29 @@ impl<T: Real, L, A, S, X> RigidBody<T, L, A, S, X> {
         coefficient: T,
     ) -> Result<RigidBody<T, L, AdhesionCoefficient<T>, S, X>, InputError> {
         Ok(self.with_adhesion(AdhesionCoefficient::new(coefficient)?))
+    }
+
+    /// Adds adhesion with a coefficient that decreases with speed, rho = l^q/(l^q + v^q), from the `speed` l (m/s) and the `power`
+    /// q, 0.01 to 16.
+    ///
+    /// # Errors
+    /// A value is outside its range.
+    ///
+    /// ```
+    /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};
+    ///
+    /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.8)?)
+    ///     .with_adhesion_at_speed(0.5, 2.0)?;
+    /// let slow = scene.impact(&NormalMotion::new(0.5)?).normal;
+    /// assert!((slow.adhesion_coefficient() - 0.5_f64).abs() < 1e-15);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_adhesion_at_speed(
+        self,
+        speed: T,
+        power: T,
+    ) -> Result<RigidBody<T, L, SpeedAdhesion<T>, S, X>, InputError> {
+        Ok(self.with_adhesion(SpeedAdhesion::new(speed, power)?))
     }
 
     /// Adds adhesion with the `work` W_A, J (A34).
@@ -347,7 +373,7 @@ where
         let Some(pull) = self.microforce.pull() else {
             return CriticalSpeed::AlwaysRebounds;
         };
-        let body_approach = self.adhesion.holding_speed(pull).and_then(|speed| self.restitution.approach_speed(speed));
+        let body_approach = self.adhesion.holding_speed(&self.restitution, pull);
         match body_approach.map(|speed| self.microforce.approach_speed(speed)) {
             Some(speed) if speed > T::ZERO => CriticalSpeed::At(speed),
             Some(_) => CriticalSpeed::AlwaysRebounds,

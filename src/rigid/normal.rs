@@ -42,7 +42,7 @@ impl<T: Real> NormalImpact<T> {
         let body_approach = microforce.body_approach(approach);
         let restitution = law.restitution(body_approach);
         let body_rebound = restitution * body_approach;
-        let departure = adhesion.departure(body_rebound);
+        let departure = adhesion.departure(body_approach, body_rebound);
         let rebound = microforce.rebound(departure);
         Self { approach, restitution, body_approach, body_rebound, departure, rebound }
     }

@@ -7,16 +7,17 @@
 use core::hint::black_box;
 
 use microimpact::rigid::{
-    AdhesionCoefficient, Departure, Microforce, MicroforceTerm, NoMicroforce, Phases, ReboundAdhesion,
-    RollingDissipation, TangentialOutcome, TangentialTerm, WorkOfAdhesion, infer, infer_assuming_rolling,
+    AdhesionCoefficient, Departure, ElasticPlasticRestitution, Microforce, MicroforceTerm, NoMicroforce, Phases,
+    PowerRestitution, ReboundAdhesion, RollingDissipation, SpeedAdhesion, TabulatedRestitution, TangentialOutcome,
+    TangentialTerm, ViscoelasticRestitution, WorkOfAdhesion, image_charge_energy, infer, infer_assuming_rolling,
     infer_with_spins,
 };
 use microimpact::table::Single;
 use microimpact::{
     AdhesionRegime, Approach, Class, Classification, ConstantRestitution, ContactClass, Coulomb, Fault, Hertz, Impact,
-    ImpactError, InputError, Material, NoAdhesion, NoFriction, NormalImpact, NormalMotion, Oblique, ObliqueMotion,
-    Outcome, Parameter, PlanarMotion, Real, RestitutionLaw, RigidBody, SpeedRestitution, Sphere, Sticking, Stiffness,
-    SurfaceMotion, TangentialImpact,
+    ImpactError, InputError, KnownMaterial, MATERIALS, Material, NoAdhesion, NoFriction, NormalImpact, NormalMotion,
+    Oblique, ObliqueMotion, Outcome, Parameter, PlanarMotion, Real, RestitutionLaw, RigidBody, SpeedRestitution,
+    Sphere, Sticking, Stiffness, SurfaceMotion, TangentialImpact,
 };
 
 mod contact;
@@ -97,7 +98,9 @@ fn elasticity<T: Real>() -> Result<(), InputError> {
         keep((sphere.gyration_ratio(), sphere.radius_of_gyration()));
         keep(sphere.contact_inertia());
         let (normal, oblique, planar) = motions(&sphere)?;
+        keep(MATERIALS.get(any::<T>().to_f64() as usize).map(KnownMaterial::elastic::<T>));
         keep(Sticking::new(&sphere, stiffness, any())?);
+        keep(Hertz::yield_speed(&sphere, stiffness, any())?);
         keep(AdhesionRegime::of(&sphere, stiffness, any(), any())?);
         keep(Hertz::new(&sphere, stiffness, &normal));
         keep(Hertz::new(&sphere, stiffness, &oblique));
@@ -122,14 +125,33 @@ fn motions<T: Real>(sphere: &Sphere<T>) -> Result<Motions<T>, InputError> {
 fn scenes<T: Real>() -> Result<(), InputError> {
     let sphere = Sphere::solid(any(), any())?;
     with_law(&sphere, ConstantRestitution::new(any::<T>())?)?;
-    with_law(&sphere, SpeedRestitution::new(any::<T>())?)
+    with_law(&sphere, SpeedRestitution::new(any::<T>())?)?;
+    let stiffness = Stiffness::new(any())?;
+    law_of_restitution::<T>(PowerRestitution::new(any::<T>(), any())?);
+    law_of_restitution::<T>(
+        ElasticPlasticRestitution::new(any::<T>()).or(ElasticPlasticRestitution::from_yield_pressure(
+            &sphere,
+            stiffness,
+            any(),
+        ))?,
+    );
+    law_of_restitution::<T>(ViscoelasticRestitution::new(&sphere, stiffness, any())?);
+    law_of_restitution::<T>(TabulatedRestitution::<T, 4>::new(black_box([(any(), any()); 4]))?);
+    keep(image_charge_energy(&sphere, any())?);
+    Ok(())
+}
+
+fn law_of_restitution<T: Real>(law: impl RestitutionLaw<T>) {
+    keep((law.restitution(any()), law.approach_speed(any())));
 }
 
 fn with_law<T: Real, L: RestitutionLaw<T> + Copy>(sphere: &Sphere<T>, law: L) -> Result<(), InputError> {
-    keep((law.restitution(any()), law.approach_speed(any())));
-    adhesion::<T>(NoAdhesion);
-    adhesion(AdhesionCoefficient::new(any::<T>())?);
-    adhesion(WorkOfAdhesion::new(any(), sphere)?);
+    law_of_restitution(law);
+    adhesion::<T>(&law, NoAdhesion);
+    adhesion(&law, AdhesionCoefficient::new(any::<T>())?);
+    adhesion(&law, WorkOfAdhesion::new(any(), sphere)?);
+    adhesion(&law, SpeedAdhesion::new(any::<T>(), any())?);
+    keep(RigidBody::new(*sphere, law).with_adhesion_at_speed(any(), any())?.critical_speed());
 
     let scene = RigidBody::new(*sphere, law);
     with_adhesion(scene)?;
@@ -137,8 +159,8 @@ fn with_law<T: Real, L: RestitutionLaw<T> + Copy>(sphere: &Sphere<T>, law: L) ->
     with_adhesion(scene.with_work_of_adhesion(any())?)
 }
 
-fn adhesion<T: Real>(adhesion: impl ReboundAdhesion<T>) {
-    keep((adhesion.departure(any()), adhesion.holding_speed(any())));
+fn adhesion<T: Real>(law: &impl RestitutionLaw<T>, adhesion: impl ReboundAdhesion<T>) {
+    keep((adhesion.departure(any(), any()), adhesion.holding_speed(law, any())));
 }
 
 fn with_adhesion<T, L, A>(scene: RigidBody<T, L, A>) -> Result<(), InputError>

@@ -3,10 +3,13 @@
 use microimpact::contact::{Adaptive, Collocation, Contact, DimensionlessImpact, FixedCost, RestCriterion};
 use microimpact::measure::ring_strength;
 use microimpact::measure::{NormalDistribution, Uncertain};
-use microimpact::rigid::{AdhesionCoefficient, Departure, WorkOfAdhesion, infer, infer_with_spins};
+use microimpact::rigid::{
+    AdhesionCoefficient, Departure, ElasticPlasticRestitution, PowerRestitution, SpeedAdhesion, TabulatedRestitution,
+    WorkOfAdhesion, image_charge_energy, infer, infer_with_spins,
+};
 use microimpact::table::{BoundaryTable, RestitutionTable, Single, TableRebound};
 use microimpact::{
-    AdhesionRegime, ConstantRestitution, Coulomb, CriticalSpeed, Fault, ImpactError, InFixedPoint, InputError,
+    AdhesionRegime, ConstantRestitution, Coulomb, CriticalSpeed, Fault, Hertz, ImpactError, InFixedPoint, InputError,
     Material, NormalMotion, Parameter, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Sticking, Stiffness,
 };
 
@@ -73,6 +76,12 @@ fn supply<T: Single + NormalDistribution + Into<f64>>(parameter: Parameter, valu
         }
         Parameter::Restitution => ConstantRestitution::new(value).map(drop),
         Parameter::RestitutionSpeed => SpeedRestitution::new(value).map(drop),
+        Parameter::RestitutionPower => PowerRestitution::new(c(1.0), value).map(drop),
+        Parameter::YieldSpeed => ElasticPlasticRestitution::new(value).map(drop),
+        Parameter::YieldPressure => Hertz::yield_speed(&sphere(), stiffness(), value).map(drop),
+        Parameter::AdhesionSpeed => SpeedAdhesion::new(value, c(1.0)).map(drop),
+        Parameter::AdhesionPower => SpeedAdhesion::new(c(1.0), value).map(drop),
+        Parameter::Charge => image_charge_energy(&sphere(), value).map(drop),
         Parameter::AdhesionCoefficient => AdhesionCoefficient::new(value).map(drop),
         Parameter::WorkOfAdhesion => WorkOfAdhesion::new(value, &sphere()).map(drop),
         Parameter::Friction => Coulomb::new(value).map(drop),
@@ -311,4 +320,16 @@ fn errors_name_the_parameter_its_range_and_unit() {
     {
         assert!(!error.to_string().is_empty());
     }
+}
+
+#[test]
+fn points_of_a_table_are_in_order() {
+    let refused = |points| kind(TabulatedRestitution::new(points).unwrap_err());
+    assert_eq!(refused([(2.0, 0.5), (1.0, 0.5)]), (Parameter::ApproachSpeed, Fault::OutOfOrder));
+    assert_eq!(refused([(1.0, 0.9), (2.0, 0.4)]), (Parameter::ReboundSpeed, Fault::OutOfOrder));
+    assert_eq!(refused([(1.0, 0.9), (2.0, f64::NAN)]), (Parameter::Restitution, Fault::NotFinite));
+    let error = TabulatedRestitution::new([(1.0, 0.9), (2.0, 0.4)]).unwrap_err();
+    let message =
+        "rebound speed is 0.8 m/s, but must not be below that of the point before; R v never falls with the speed v";
+    assert_eq!(error.to_string(), message);
 }

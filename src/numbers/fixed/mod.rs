@@ -245,6 +245,11 @@ impl Real for FixedPoint {
     }
 
     #[inline]
+    fn ln(self) -> Self {
+        Self::nearest(Real::ln(self.to_f64()))
+    }
+
+    #[inline]
     fn saturating_div(self, divisor: Self) -> Self {
         self / divisor
     }
