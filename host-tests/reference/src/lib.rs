@@ -3,6 +3,7 @@
 
 pub mod c_results;
 pub mod grids;
+pub mod laws;
 pub mod scenes;
 
 use microimpact::contact::{Contact, PaperScene};
@@ -22,10 +23,14 @@ pub struct Case {
 /// # Panics
 /// If the file is not a table.
 pub fn cases() -> Vec<Case> {
-    let mut reader = csv::Reader::from_reader(CASES.as_bytes());
+    table(CASES).map(|(names, cells)| Case { names, cells }).collect()
+}
+
+/// The rows of a text, each with the names of the columns.
+fn table(text: &str) -> impl Iterator<Item = (csv::StringRecord, csv::StringRecord)> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
     let names = reader.headers().expect("the reference has a header").clone();
-    let cells = reader.records().map(|cells| cells.expect("the reference is a table"));
-    cells.map(|cells| Case { names: names.clone(), cells }).collect()
+    reader.into_records().map(move |cells| (names.clone(), cells.expect("the reference is a table")))
 }
 
 /// The case of a name.

@@ -1,5 +1,5 @@
-//! `cargo write-report`: error against run time, stability, the price of each part, and the paper's numbers beside ours, as
-//! one page with pictures and tables.
+//! `cargo write-report`: error against run time, stability, the price of each part, the laws of contact, and the paper's
+//! numbers beside ours, as one page with pictures and tables.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -12,6 +12,7 @@ mod committed;
 mod content;
 mod cost;
 mod device;
+mod laws;
 mod page;
 mod paper;
 mod plot;
@@ -49,8 +50,13 @@ pub struct Options {
 type Write = fn(&Run) -> Result<Section, String>;
 
 /// The sections in the order of the page.
-const SECTIONS: [(&str, Write); 4] =
-    [("cost", cost::section), ("stability", stability::section), ("price", price::section), ("paper", paper::section)];
+const SECTIONS: [(&str, Write); 5] = [
+    ("cost", cost::section),
+    ("stability", stability::section),
+    ("price", price::section),
+    ("laws", laws::section),
+    ("paper", paper::section),
+];
 
 const REPOSITORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 

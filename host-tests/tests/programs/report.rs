@@ -35,7 +35,11 @@ fn attributes<'a>(page: &'a str, name: &str) -> Vec<&'a str> {
 }
 
 fn rows(name: &str) -> Vec<csv::StringRecord> {
-    let mut reader = csv::Reader::from_path(FOLDER.join(format!("{name}.csv"))).expect("the table has its file");
+    rows_in(&FOLDER, name)
+}
+
+fn rows_in(folder: &Path, name: &str) -> Vec<csv::StringRecord> {
+    let mut reader = csv::Reader::from_path(folder.join(format!("{name}.csv"))).expect("the table has its file");
     reader.records().map(|row| row.expect("the file is a table")).collect()
 }
 
@@ -144,6 +148,30 @@ fn models_agree_where_the_report_says_so() {
         apart += i32::from(simulated > 0.0 && rigid == 0.0);
     }
     assert!(near > 100 && apart > 5, "{near}, {apart}");
+}
+
+/// Without damping the laws are those of theory; with it LAMMPS, whose steps are fixed, has the same restitution.
+#[test]
+fn laws_of_contact_are_those_of_theory_and_of_lammps() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report-laws");
+    let path = folder.to_str().expect("the folder has a name in Unicode");
+    assert_eq!(report(&["--quick", "--only", "laws", "--output", path]), Ok(true));
+    for (table, columns, bound, least) in
+        [("laws-jkr", [1, 2], 1e-12, 400), ("laws-jkr", [3, 4], 1e-12, 400), ("laws-lammps", [4, 5], 1e-3, 28)]
+    {
+        let rows = rows_in(&folder, table);
+        assert!(rows.len() >= least, "{table} has {} rows", rows.len());
+        for row in rows {
+            let [one, other] = columns.map(|column| row[column].parse::<f64>().unwrap().powi(2));
+            assert!((one - other).abs() < bound, "{table}: {row:?}");
+        }
+    }
+    let errors = rows_in(&folder, "laws-errors");
+    assert!(errors.len() >= 20, "{} laws", errors.len());
+    for row in errors {
+        let [wrong, square, contact, peak] = [4, 5, 6, 7].map(|column| row[column].parse::<f64>().unwrap());
+        assert!(wrong == 0.0 && square < 1e-12 && contact < 1e-9 && peak < 1e-12, "{row:?}");
+    }
 }
 
 /// The page of the simulation shows figures by their labels, and contains the drawings.

@@ -65,13 +65,13 @@ fn table_motion(spin: f64) -> Result<PlanarMotion<f64>, InputError> {
 }
 
 /// Numbers from `low` to `high` in equal ratios.
-fn spaced(low: f64, high: f64, count: u32) -> impl Iterator<Item = f64> + Clone {
+pub(crate) fn spaced(low: f64, high: f64, count: u32) -> impl Iterator<Item = f64> + Clone {
     let ratio = (high / low).ln();
     (0..count).map(move |index| low * (ratio * f64::from(index) / f64::from(count - 1)).exp())
 }
 
 /// A figure with a row of numbers for each abscissa.
-fn figure<const N: usize>(
+pub(crate) fn figure<const N: usize>(
     drawing: String,
     name: &str,
     caption: &str,
@@ -89,6 +89,6 @@ fn figure<const N: usize>(
 }
 
 /// Points of a column over the first.
-fn column<const N: usize>(rows: &[[f64; N]], column: usize) -> Vec<(f64, f64)> {
+pub(crate) fn column<const N: usize>(rows: &[[f64; N]], column: usize) -> Vec<(f64, f64)> {
     rows.iter().map(|row| (row[0], row[column])).collect()
 }
