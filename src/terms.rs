@@ -1,5 +1,6 @@
 //! Terms that both models share. The type of a scene tells which terms take part. An absent term has size zero and no code.
 
+use crate::contact::ElasticForce;
 use crate::{InputError, Parameter, Real};
 
 /// No adhesion.
@@ -22,7 +23,8 @@ pub struct NoAdhesion;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NoFriction;
 
-/// Coulomb friction between sphere and surface.
+/// Coulomb friction between sphere and surface. The rigid body knows only the impulse of the normal force; in the simulation friction
+/// is proportional to the [`PressingForce`](crate::contact::PressingForce) `P`.
 ///
 /// ```
 /// use microimpact::Coulomb;
@@ -34,8 +36,9 @@ pub struct NoFriction;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Coulomb<T> {
+pub struct Coulomb<T, P = ElasticForce> {
     pub(crate) coefficient: T,
+    pub(crate) pressing: P,
 }
 
 impl<T: Real> Coulomb<T> {
@@ -49,7 +52,15 @@ impl<T: Real> Coulomb<T> {
     /// ```
     #[inline]
     pub fn new(coefficient: T) -> Result<Self, InputError> {
-        Ok(Self { coefficient: Parameter::Friction.check(coefficient)? })
+        Ok(Self { coefficient: Parameter::Friction.check(coefficient)?, pressing: ElasticForce })
+    }
+}
+
+impl<T: Real, P> Coulomb<T, P> {
+    /// The same friction, proportional to another force.
+    #[inline]
+    pub(crate) fn under<Q>(self, pressing: Q) -> Coulomb<T, Q> {
+        Coulomb { coefficient: self.coefficient, pressing }
     }
 
     /// Friction coefficient f.

@@ -48,7 +48,7 @@ mod solve;
 mod trajectory;
 mod units;
 
-pub use along::{Peeling, Surface, TangentialVelocities};
+pub use along::{ElasticForce, Peeling, PressingForce, Surface, TangentialVelocities, TotalAndPullOff, TotalForce};
 pub use dimensionless::{DimensionlessContact, DimensionlessImpact};
 pub use force::ContactForce;
 pub use law::{

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use super::along::{SlipStart, TangentialMotion};
+use super::along::{PressingForce, SlipStart, TangentialMotion};
 use super::law::{ContactLaw, Units};
 use super::solve::integrals;
 use super::solve::observer::Observer;
@@ -341,12 +341,12 @@ impl<T: Real> Output<T, ()> for Energy {
     }
 }
 
-impl<T: Real, const PEELS: bool> Output<T, SlipStart<T, PEELS>> for Energy {
-    type Observer = (integrals::Works<T>, TangentialMotion<T, PEELS>);
+impl<T: Real, P: PressingForce<T>, const PEELS: bool> Output<T, SlipStart<T, P, PEELS>> for Energy {
+    type Observer = (integrals::Works<T>, TangentialMotion<T, P, PEELS>);
     type Result = Option<EnergyLedger<T>>;
 
     #[inline]
-    fn begin(&self, start: &SlipStart<T, PEELS>) -> Self::Observer {
+    fn begin(&self, start: &SlipStart<T, P, PEELS>) -> Self::Observer {
         (integrals::Works::new(), TangentialMotion::new(start))
     }
 
@@ -436,12 +436,12 @@ impl<T: Real> Output<T, ()> for Slip {
     fn finish<L: ContactLaw<T>>(&self, (): (), _end: &Ended<'_, T, L>) {}
 }
 
-impl<T: Real, const PEELS: bool> Output<T, SlipStart<T, PEELS>> for Slip {
-    type Observer = TangentialMotion<T, PEELS>;
+impl<T: Real, P: PressingForce<T>, const PEELS: bool> Output<T, SlipStart<T, P, PEELS>> for Slip {
+    type Observer = TangentialMotion<T, P, PEELS>;
     type Result = SlipHistory<T>;
 
     #[inline]
-    fn begin(&self, start: &SlipStart<T, PEELS>) -> Self::Observer {
+    fn begin(&self, start: &SlipStart<T, P, PEELS>) -> Self::Observer {
         TangentialMotion::new(start)
     }
 

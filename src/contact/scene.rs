@@ -1,6 +1,6 @@
 //! Scenes: a sphere, the law of its contact, and what happens along the surface.
 
-use super::along::{Peeling, Surface};
+use super::along::{Peeling, PressingForce, Surface};
 use super::law::{
     AnyLaw, Attraction, ConstantDamping, ConstantForce, ContactLaw, Dmt, Groups, HertzLaw, HystereticDamping,
     NoTension, ProportionalDamping, Ring, RingStrength, Units, ViscoelasticDamping,
@@ -231,6 +231,29 @@ impl<T: Real, L, S> Contact<T, L, S> {
     /// ```
     pub fn with_friction(self, coefficient: T) -> Result<Contact<T, L, Coulomb<T>>, InputError> {
         Ok(Contact { sphere: self.sphere, law: self.law, surface: Coulomb::new(coefficient)? })
+    }
+
+    /// The same scene with Coulomb friction of `coefficient` f >= 0, which is proportional to a force of your choice:
+    /// [`ElasticForce`](super::ElasticForce), [`TotalForce`](super::TotalForce) or [`TotalAndPullOff`](super::TotalAndPullOff).
+    ///
+    /// # Errors
+    /// A coefficient outside its range.
+    ///
+    /// ```
+    /// use microimpact::contact::{Contact, TotalForce};
+    /// use microimpact::{Sphere, Stiffness};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
+    /// assert!(scene.with_friction_under(0.1, TotalForce::new()).is_ok());
+    /// assert!(scene.with_friction_under(-0.1, TotalForce::new()).is_err());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_friction_under<P: PressingForce<T>>(
+        self,
+        coefficient: T,
+        pressing: P,
+    ) -> Result<Contact<T, L, Coulomb<T, P>>, InputError> {
+        Ok(Contact { sphere: self.sphere, law: self.law, surface: Coulomb::new(coefficient)?.under(pressing) })
     }
 
     /// The sphere of this scene.

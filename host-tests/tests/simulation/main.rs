@@ -16,6 +16,7 @@ mod laws;
 mod ledger;
 mod micromath;
 mod paper_method;
+mod pressing;
 mod simulation_exact;
 mod simulation_reference;
 mod solver_direct;

@@ -1,7 +1,7 @@
 //! Coulomb's friction: sliding, then rolling. Without a peeling moment the velocities after the impact follow from the impulse
 //! of the elastic force alone.
 
-use super::{SlipStart, Surface};
+use super::{PressingForce, SlipStart, Surface};
 use crate::contact::law::{ContactLaw, Units};
 use crate::contact::solve::integrals::{Integrals, observe_by_integrals};
 use crate::contact::solve::interval::Interval;
@@ -12,37 +12,45 @@ use crate::contact::solve::quantities::{Quantities, Times};
 use crate::rolling::{Friction, friction_over_limit, rolling, rounding};
 use crate::{ContactClass, Coulomb, InputError, Oblique, Real, Sphere, SurfaceMotion};
 
-/// Velocities before contact and the impulse of the elastic force, from which those after it follow.
+/// Velocities before contact and the impulse of the force that presses, from which those after it follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SurfaceImpulse<T> {
+pub struct SurfaceImpulse<T, P> {
     friction: T,
+    pressing: P,
     gyration_ratio: T,
     velocity: T,
     peripheral: T,
-    elastic: T,
+    pressed: T,
 }
 
-impl<T: Real> Quantities<T> for SurfaceImpulse<T> {
+impl<T: Real, P: PressingForce<T>> Quantities<T> for SurfaceImpulse<T, P> {
     #[inline]
     fn combine(self, other: Self, of: impl Fn(T, T) -> T + Copy) -> Self {
-        Self { elastic: of(self.elastic, other.elastic), ..self }
+        Self { pressed: of(self.pressed, other.pressed), ..self }
     }
 }
 
-impl<T: Real> Integrals<T> for SurfaceImpulse<T> {
+impl<T: Real, P: PressingForce<T>> Integrals<T> for SurfaceImpulse<T, P> {
     #[inline]
     fn growth(&self, law: &impl ContactLaw<T>, s: T, _y: T, _rebound: bool) -> Self {
-        Self { elastic: law.elastic_force(s), ..*self }
+        Self { pressed: self.pressing.at(law, s), ..*self }
+    }
+
+    #[inline]
+    fn kink(&self) -> Option<T> {
+        self.pressing.kink()
     }
 }
 
-// A captured sphere goes on until it rolls, wherever it turns.
-observe_by_integrals!(SurfaceImpulse, timed: true, to_turning_point: false);
+// What presses at rest too makes a captured sphere roll in the end, wherever it turns.
+observe_by_integrals!(
+    [T: Real, P: PressingForce<T>] SurfaceImpulse<T, P>, timed: true, to_turning_point: !P::PRESSES_AT_REST
+);
 
 #[diagnostic::do_not_recommend] // so that a message speaks of the motion, not of this bound
-impl<T: Real, B: Oblique<T>> Surface<T, B> for Coulomb<T> {
-    type Start = SlipStart<T, false>;
-    type Observer = SurfaceImpulse<T>;
+impl<T: Real, P: PressingForce<T>, B: Oblique<T>> Surface<T, B> for Coulomb<T, P> {
+    type Start = SlipStart<T, P, false>;
+    type Observer = SurfaceImpulse<T, P>;
     type After = TangentialVelocities<T>;
 
     #[inline]
@@ -50,29 +58,30 @@ impl<T: Real, B: Oblique<T>> Surface<T, B> for Coulomb<T> {
         &self,
         before: &B,
         sphere: &Sphere<T>,
-        _law: &L,
+        law: &L,
         units: &Units<T>,
     ) -> Result<Self::Start, InputError> {
-        Ok(SlipStart::new(self, before, sphere, units, T::ZERO))
+        let friction = self.under(self.pressing.in_units(law));
+        Ok(SlipStart::new(&friction, before, sphere, units, T::ZERO))
     }
 
     #[inline]
-    fn observer(start: &Self::Start) -> SurfaceImpulse<T> {
-        let SlipStart { friction, gyration_ratio, velocity, peripheral, .. } = *start;
-        SurfaceImpulse { friction, gyration_ratio, velocity, peripheral, elastic: T::ZERO }
+    fn observer(start: &Self::Start) -> SurfaceImpulse<T, P> {
+        let SlipStart { friction, pressing, gyration_ratio, velocity, peripheral, .. } = *start;
+        SurfaceImpulse { friction, pressing, gyration_ratio, velocity, peripheral, pressed: T::ZERO }
     }
 
     #[inline]
     fn after(
-        observer: &SurfaceImpulse<T>,
+        observer: &SurfaceImpulse<T, P>,
         path: &NormalPath<T>,
         sphere: &Sphere<T>,
         units: &Units<T>,
     ) -> TangentialVelocities<T> {
         let captured = path.end == End::Capture;
-        let SurfaceImpulse { friction, gyration_ratio, velocity: v, peripheral: u, elastic } = *observer;
-        let impulses = Friction::against(v - u, friction * elastic, sphere.contact_inertia());
-        let ends = impulses.rolls || (captured && friction > T::ZERO);
+        let SurfaceImpulse { friction, gyration_ratio, velocity: v, peripheral: u, pressed, .. } = *observer;
+        let impulses = Friction::against(v - u, friction * pressed, sphere.contact_inertia());
+        let ends = impulses.rolls || (captured && friction > T::ZERO && P::PRESSES_AT_REST);
         let (velocity, peripheral) = if ends {
             let rolling = rolling(v, u, gyration_ratio);
             (rolling, rolling)
@@ -90,10 +99,10 @@ impl<T: Real, B: Oblique<T>> Surface<T, B> for Coulomb<T> {
     }
 }
 
-impl<T: Real, const PEELS: bool> SlipStart<T, PEELS> {
+impl<T: Real, P: Copy, const PEELS: bool> SlipStart<T, P, PEELS> {
     #[inline]
     pub(super) fn new(
-        friction: &Coulomb<T>,
+        friction: &Coulomb<T, P>,
         before: &impl Oblique<T>,
         sphere: &Sphere<T>,
         units: &Units<T>,
@@ -101,6 +110,7 @@ impl<T: Real, const PEELS: bool> SlipStart<T, PEELS> {
     ) -> Self {
         Self {
             friction: friction.coefficient(),
+            pressing: friction.pressing,
             gyration_ratio: sphere.gyration_ratio(),
             velocity: before.tangential() / units.speed,
             peripheral: before.peripheral() / units.speed,
@@ -120,7 +130,7 @@ pub(super) fn surface_motion(sliding: bool, resting: bool) -> SurfaceMotion {
 }
 
 /// Velocities along the surface at separation; of a captured sphere when its slip has ended, as the surface goes on to press
-/// on it.
+/// on it (but for [`TotalForce`](super::TotalForce)).
 ///
 /// ```
 /// use microimpact::contact::{Contact, FixedCost};

@@ -3,11 +3,13 @@
 mod coulomb;
 mod motion;
 mod peeling;
+mod pressing;
 mod relaxation;
 
 pub use coulomb::TangentialVelocities;
 pub use motion::TangentialMotion;
 pub use peeling::Peeling;
+pub use pressing::{ElasticForce, PressingForce, TotalAndPullOff, TotalForce};
 
 use super::law::{ContactLaw, Units};
 use super::solve::observer::Observer;
@@ -60,8 +62,10 @@ pub trait Surface<T: Real, B>: Copy {
 
 /// State along the surface before contact, in units of the impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SlipStart<T, const PEELS: bool> {
+pub struct SlipStart<T, P, const PEELS: bool> {
     friction: T,
+    /// The force that presses.
+    pressing: P,
     gyration_ratio: T,
     velocity: T,
     peripheral: T,

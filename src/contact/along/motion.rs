@@ -10,8 +10,8 @@
 // Indices run over arrays of the length that their loops count to.
 #![allow(clippy::indexing_slicing, clippy::needless_range_loop)]
 
-use super::SlipStart;
 use super::relaxation::{SLOW, relaxed};
+use super::{PressingForce, SlipStart};
 use crate::Real;
 use crate::contact::law::ContactLaw;
 use crate::contact::solve::interval::{Interval, dot, integrals, unresolved};
@@ -40,8 +40,9 @@ const POLYNOMIAL_STEPS: u32 = 20;
 
 /// The tangential motion so far, in units of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TangentialMotion<T, const PEELS: bool> {
+pub struct TangentialMotion<T, P, const PEELS: bool> {
     pub(crate) friction: T,
+    pressing: P,
     pub(crate) gyration_ratio: T,
     /// Rate q at which the peeling moment slows the spin at contact radius 1; zero where nothing `PEELS`.
     peeling: T,
@@ -71,13 +72,14 @@ struct Slide<T, const N: usize> {
     peripheral_after: T,
 }
 
-impl<T: Real, const PEELS: bool> TangentialMotion<T, PEELS> {
-    pub(crate) fn new(start: &SlipStart<T, PEELS>) -> Self {
-        let SlipStart { friction, gyration_ratio, velocity, peripheral, peeling } = *start;
+impl<T: Real, P: PressingForce<T>, const PEELS: bool> TangentialMotion<T, P, PEELS> {
+    pub(crate) fn new(start: &SlipStart<T, P, PEELS>) -> Self {
+        let SlipStart { friction, pressing, gyration_ratio, velocity, peripheral, peeling } = *start;
         // Of the velocities in these units: their rounding may leave nothing of a slip in SI units.
         let direction = direction(velocity - peripheral);
         Self {
             friction,
+            pressing,
             gyration_ratio,
             peeling,
             velocity,
@@ -146,7 +148,7 @@ impl<T: Real, const PEELS: bool> TangentialMotion<T, PEELS> {
     {
         let mut impulse = T::ZERO;
         for j in 0..N {
-            impulse = impulse + T::WEIGHTS[j] * law.elastic_force(interval.s[j]) * interval.rate[j];
+            impulse = impulse + T::WEIGHTS[j] * self.pressing.at(law, interval.s[j]) * interval.rate[j];
         }
         self.slip_left() - self.closing() * impulse
     }
@@ -177,7 +179,7 @@ impl<T: Real, const PEELS: bool> TangentialMotion<T, PEELS> {
         let force = self.direction * self.friction;
         let mut elastic = [T::ZERO; N];
         for j in 0..N {
-            elastic[j] = law.elastic_force(interval.s[j]) * interval.rate[j];
+            elastic[j] = self.pressing.at(law, interval.s[j]) * interval.rate[j];
         }
         let (impulse, whole) = Self::running(&elastic, interval.forward);
         let turn = force / self.gyration_ratio;
@@ -247,11 +249,17 @@ impl<T: Real, const PEELS: bool> TangentialMotion<T, PEELS> {
     }
 }
 
-impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
+impl<T: Real, P: PressingForce<T>, const PEELS: bool> Observer<T> for TangentialMotion<T, P, PEELS> {
     const EVENTS: bool = true;
     const TIMED: bool = true;
     // A moment can slow the spin faster than the normal motion changes.
     const DEMANDS: bool = PEELS;
+
+    #[inline]
+    fn kink(&self) -> Option<T> {
+        // Rolling, nothing depends on it.
+        self.pressing.kink().filter(|_| self.slides())
+    }
 
     #[inline]
     fn observe<const N: usize>(&mut self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, _rebound: bool)
@@ -333,7 +341,7 @@ impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
         let closing = if interval.forward { -self.closing() } else { self.closing() };
         for j in 0..N {
             slip[j] = (slide.velocity[j] - slide.peripheral[j]) * self.direction;
-            slope[j] = closing * law.elastic_force(interval.s[j]) * interval.rate[j];
+            slope[j] = closing * self.pressing.at(law, interval.s[j]) * interval.rate[j];
         }
         // A moment that outlasts friction opens the slip again: what counts is its first end.
         if slip_after > T::ZERO && !(PEELS && slip.iter().any(|slip| *slip <= T::ZERO)) {
@@ -355,9 +363,11 @@ impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
         T: Nodes<N>,
     {
         let s = interval.end.s;
-        let closing = -(self.closing() * law.elastic_force(s));
+        let closing = -(self.closing() * self.pressing.at(law, s));
         if !PEELS {
-            return self.slip_after(law, interval) / closing;
+            let late = self.slip_after(law, interval) / closing;
+            // Where nothing presses nothing changes.
+            return if P::PRESSES_AT_REST || late.is_finite() { late } else { T::ZERO };
         }
         let slide = self.slide(law, interval);
         let slope = self.direction * closing + self.peeling * law.contact_radius(s) * slide.peripheral_after;
@@ -406,7 +416,7 @@ impl<T: Real, const PEELS: bool> Observer<T> for TangentialMotion<T, PEELS> {
         let ratio = self.gyration_ratio;
         let braking = if PEELS { self.peeling * law.contact_radius(s) * peripheral } else { T::ZERO };
         let accelerations = if self.slides() {
-            let force = self.direction * self.friction * law.elastic_force(s);
+            let force = self.direction * self.friction * self.pressing.at(law, s);
             [-force, force / ratio - braking]
         } else {
             // The friction that keeps the sphere rolling divides the moment between both.

@@ -1,7 +1,7 @@
 //! Coulomb's friction with a moment that slows the spin.
 
 use super::coulomb::surface_motion;
-use super::{SlipStart, Surface, TangentialMotion, TangentialVelocities};
+use super::{ElasticForce, SlipStart, Surface, TangentialMotion, TangentialVelocities};
 use crate::contact::law::{ContactLaw, Units};
 use crate::contact::solve::path::{End, NormalPath};
 use crate::rolling::rolling;
@@ -46,8 +46,8 @@ impl<T: Real> Peeling<T> {
 
 #[diagnostic::do_not_recommend]
 impl<T: Real, B: Oblique<T>> Surface<T, B> for Peeling<T> {
-    type Start = SlipStart<T, true>;
-    type Observer = TangentialMotion<T, true>;
+    type Start = SlipStart<T, ElasticForce, true>;
+    type Observer = TangentialMotion<T, ElasticForce, true>;
     type After = TangentialVelocities<T>;
 
     fn start<L: ContactLaw<T>>(
@@ -65,12 +65,12 @@ impl<T: Real, B: Oblique<T>> Surface<T, B> for Peeling<T> {
         Ok(SlipStart::new(&self.friction, before, sphere, units, rate))
     }
 
-    fn observer(start: &Self::Start) -> TangentialMotion<T, true> {
+    fn observer(start: &Self::Start) -> TangentialMotion<T, ElasticForce, true> {
         TangentialMotion::new(start)
     }
 
     fn after(
-        observer: &TangentialMotion<T, true>,
+        observer: &TangentialMotion<T, ElasticForce, true>,
         path: &NormalPath<T>,
         sphere: &Sphere<T>,
         units: &Units<T>,

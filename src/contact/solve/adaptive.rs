@@ -143,7 +143,8 @@ impl<T: AdaptiveNodes> ErrorControl<T> for Adaptive<T> {
 impl<T: AdaptiveNodes> Method<T> for Adaptive<T> {
     fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
         let tolerance = self.tolerance;
-        let whole_phases = law.loss_power() >= WEIGHT_POWER && !law.may_have_barrier() && !O::DEMANDS;
+        let whole_phases =
+            law.loss_power() >= WEIGHT_POWER && !law.may_have_barrier() && !O::DEMANDS && observer.kink().is_none();
         let mut attempts = Attempts { tolerance, allowed: if whole_phases { ATTEMPTS } else { 0 } };
         // Nodes of a phase and of its outputs, and the range of tolerances for which they are tried. It begins where most
         // mildly damped scenes reach the tolerance, with times and without, and ends where fewer nodes always do.

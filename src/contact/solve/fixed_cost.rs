@@ -138,7 +138,8 @@ where
 {
     #[inline]
     fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
-        if law.loss_power() < WEIGHT_POWER || (O::EVENTS && M < N + NODES_OF_EVENTS) {
+        let kinked = observer.kink().is_some();
+        if law.loss_power() < WEIGHT_POWER || kinked || (O::EVENTS && M < N + NODES_OF_EVENTS) {
             return NormalPath::unsupported(energy);
         }
         // Shows a phase, and returns the error of what is observed.

@@ -16,6 +16,12 @@ pub trait Integrals<T: Real>: Quantities<T> {
     #[must_use]
     fn growth(&self, law: &impl ContactLaw<T>, s: T, y: T, rebound: bool) -> Self;
 
+    /// The coordinate at which the growth has a kink.
+    #[inline]
+    fn kink(&self) -> Option<T> {
+        None
+    }
+
     /// Adds an interval of the motion by its nodes.
     #[inline]
     fn add<const N: usize>(&mut self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, rebound: bool)
@@ -32,10 +38,15 @@ pub trait Integrals<T: Real>: Quantities<T> {
 
 /// An observer that only integrates.
 macro_rules! observe_by_integrals {
-    ($integrals:ident, timed: $timed:literal, to_turning_point: $followed:literal) => {
-        impl<T: Real> Observer<T> for $integrals<T> {
+    ([$($parameters:tt)*] $integrals:ty, timed: $timed:literal, to_turning_point: $followed:expr) => {
+        impl<$($parameters)*> Observer<T> for $integrals {
             const TIMED: bool = $timed;
             const TO_TURNING_POINT: bool = $followed;
+
+            #[inline]
+            fn kink(&self) -> Option<T> {
+                Integrals::kink(self)
+            }
 
             #[inline]
             fn observe<const N: usize>(&mut self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, rebound: bool)
@@ -142,7 +153,7 @@ impl<T: Real> Integrals<T> for Impulses<T> {
     }
 }
 
-observe_by_integrals!(Impulses, timed: true, to_turning_point: true);
+observe_by_integrals!([T: Real] Impulses<T>, timed: true, to_turning_point: true);
 
 /// Works of the two kinds of damping, in units of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -173,4 +184,4 @@ impl<T: Real> Integrals<T> for Works<T> {
     }
 }
 
-observe_by_integrals!(Works, timed: false, to_turning_point: true);
+observe_by_integrals!([T: Real] Works<T>, timed: false, to_turning_point: true);

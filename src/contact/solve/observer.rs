@@ -26,6 +26,12 @@ pub trait Observer<T: Real> {
     /// Whether a captured sphere is to be followed until it first turns back, and not only until it cannot escape.
     const TO_TURNING_POINT: bool = true;
 
+    /// A coordinate at which what it integrates has a kink: intervals are divided there.
+    #[inline]
+    fn kink(&self) -> Option<T> {
+        None
+    }
+
     /// Adds an interval.
     fn observe<const N: usize>(&mut self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, rebound: bool)
     where
@@ -132,6 +138,11 @@ impl<T: Real, A: Observer<T>, B: Observer<T>> Observer<T> for (A, B) {
     const TIMED: bool = A::TIMED || B::TIMED;
     const DEMANDS: bool = A::DEMANDS || B::DEMANDS;
     const TO_TURNING_POINT: bool = A::TO_TURNING_POINT || B::TO_TURNING_POINT;
+
+    #[inline]
+    fn kink(&self) -> Option<T> {
+        self.0.kink().or(self.1.kink())
+    }
 
     #[inline]
     fn observe<const N: usize>(&mut self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, rebound: bool)

@@ -761,10 +761,12 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         } else {
             self.statistics.intervals += 1;
             self.statistics.error = self.statistics.error.max(interval.error);
-            let roll = if O::EVENTS { self.observer.rolls_at(self.law, interval) } else { None };
-            match roll {
-                Some(z) => self.split(interval, course, turning_point, z),
-                None => self.observer.observe(self.law, interval, course.rebound),
+            let (from, to) = (self.at.s, interval.end.s);
+            match self.observer.kink() {
+                Some(kink) if from.min(to) < kink && kink < from.max(to) => {
+                    self.show_divided(interval, course, turning_point, kink);
+                }
+                _ => self.show(interval, course, turning_point),
             }
             let middle = interval.y.get(N / 2).copied().unwrap_or(T::ZERO);
             let largest = interval.end.speed_squared.max(middle * middle);
@@ -775,6 +777,19 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             return Err(self.stuck(course));
         }
         Ok(interval.accepted)
+    }
+
+    /// Shows an interval to the observer, in two parts if the sphere begins to roll in it.
+    #[inline]
+    pub(super) fn show<const N: usize>(&mut self, interval: &Interval<T, N>, course: Course, turning_point: Option<T>)
+    where
+        T: Nodes<N>,
+    {
+        let roll = if O::EVENTS { self.observer.rolls_at(self.law, interval) } else { None };
+        match roll {
+            Some(z) => self.split(interval, course, turning_point, z),
+            None => self.observer.observe(self.law, interval, course.rebound),
+        }
     }
 
     /// By how much the next interval may be longer, from 0.3 to 3: (allowed error/error)^(1/2N).

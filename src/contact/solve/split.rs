@@ -77,7 +77,22 @@ struct Turning<'a, T, L> {
     course: Course,
 }
 
-impl<T: Real, L: ContactLaw<T>> Turning<'_, T, L> {
+impl<'a, T: Real, L: ContactLaw<T>> Turning<'a, T, L> {
+    /// A whole interval `from` a point, which leads to or from a turning point at the `peak`.
+    fn of<const N: usize>(
+        law: &'a L,
+        from: &Point<T>,
+        whole: &Interval<T, N>,
+        course: Course,
+        peak: T,
+        control: &'a Control<T>,
+    ) -> Self {
+        let arrives = from.s != peak;
+        let (depth, energy) =
+            if arrives { (peak - from.s, whole.end.energy) } else { (peak - whole.end.s, from.energy) };
+        Self { law, control, peak, depth, energy, course: Course { reversed: arrives, ..course } }
+    }
+
     /// The part from the turning point to z.
     fn near<const N: usize>(&self, z: T, iterations: &mut u32) -> Interval<T, N>
     where
@@ -100,6 +115,51 @@ impl<T: Real, L: ContactLaw<T>> Turning<'_, T, L> {
 }
 
 impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
+    /// An interval that is already accepted is not refused for the parts that it is divided into.
+    fn unlimited(&self) -> Control<T> {
+        Control { error: T::ONE / T::EPSILON, times: T::ZERO, ..self.control }
+    }
+
+    /// Shows an interval in two parts, before and after a `place`, in the order of time.
+    #[inline(never)]
+    pub(super) fn show_divided<const N: usize>(
+        &mut self,
+        whole: &Interval<T, N>,
+        course: Course,
+        turning_point: Option<T>,
+        place: T,
+    ) where
+        T: Nodes<N>,
+    {
+        let (from, control, law) = (self.at, self.unlimited(), self.law);
+        let mut iterations = 0;
+        let [first, second]: [Interval<T, N>; 2] = match turning_point {
+            None => {
+                let first: Interval<T, N> =
+                    pass(law, &from, (place - from.s, T::ZERO), course, &control, &mut iterations);
+                let rest = (whole.end.s - place, T::ZERO);
+                [first, pass(law, &first.end, rest, course, &control, &mut iterations)]
+            }
+            Some(peak) => {
+                let turning = Turning::of(law, &from, whole, course, peak, &control);
+                let z = ((peak - place) / turning.depth).sqrt();
+                let near: Interval<T, N> = turning.near(z, &mut iterations);
+                let far: Interval<T, N> = turning.far(&near.end, z, &mut iterations);
+                if turning.course.reversed {
+                    [Interval { end: near.end, ..far }, Interval { end: whole.end, ..near }]
+                } else {
+                    [near, far]
+                }
+            }
+        };
+        self.statistics.iterations += iterations;
+        let to_turning_point = turning_point.filter(|peak| from.s != *peak);
+        self.show(&first, course, if to_turning_point.is_some() { None } else { turning_point });
+        self.at = first.end;
+        self.show(&second, course, to_turning_point);
+        self.at = from;
+    }
+
     /// Shows an interval in two parts, before and after the sphere begins to roll about at z, in the order of time.
     #[inline(never)]
     pub(super) fn split<const N: usize>(
@@ -111,15 +171,11 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
     ) where
         T: Nodes<N>,
     {
-        let control = Control { error: T::ONE / T::EPSILON, times: T::ZERO, ..self.control };
+        let control = self.unlimited();
         match turning_point {
             None => self.split_passage(whole, course, z, &control),
             Some(peak) => {
-                let arrives = self.at.s != peak;
-                let (depth, energy) =
-                    if arrives { (peak - self.at.s, whole.end.energy) } else { (peak - whole.end.s, self.at.energy) };
-                let course = Course { reversed: arrives, ..course };
-                let turning = Turning { law: self.law, control: &control, peak, depth, energy, course };
+                let turning = Turning::of(self.law, &self.at, whole, course, peak, &control);
                 self.split_turning(whole, turning, z);
             }
         }

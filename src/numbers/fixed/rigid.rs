@@ -111,7 +111,7 @@ impl<T: Real> InFixedPoint<T> for Coulomb<T> {
 
     fn in_fixed_point(&self, _unit: T) -> Result<Self::Fixed, InputError> {
         let coefficient = Parameter::FixedPointFriction.check(self.coefficient)?;
-        Ok(Coulomb { coefficient: FixedPoint::nearest(coefficient.to_f64()) })
+        Ok(Coulomb { coefficient: FixedPoint::nearest(coefficient.to_f64()), pressing: self.pressing })
     }
 }
 
