@@ -11,7 +11,9 @@
 #include <assert.h>
 
 static const MicroimpactRigidScene BODY = {5.06e-6f, 2600.0f, 130.0f, 2.22e-12f, 0.1f};
-static const MicroimpactContactScene CONTACT = {5.06e-6f, 2600.0f, 7.5e10f, 10.5f, 250.0f, 6.25f, 0.1f, 1e-6f};
+static const MicroimpactContactScene CONTACT = {
+    .radius = 5.06e-6f, .density = 2600.0f, .stiffness = 7.5e10f, .material_damping = 10.5f, .adhesion_strength = 250.0f,
+    .adhesion_damping = 6.25f, .friction = 0.1f, .tolerance = 1e-6f};
 static const MicroimpactMotion MOTION = {2.8f, 1.0f, 0.0f};
 
 /* That a number was refused, and by which name. */
@@ -126,6 +128,44 @@ static void initialise_contact(void)
     assert(microimpact_restitution_make(scene, 2e-6f, 10.0f, &table, error) == MICROIMPACT_STATUS_INPUT);
 
     free(parameters), free(scene), free(error);
+}
+
+/* Laws that exclude each other, and bad values of each. */
+static void choose_laws(void)
+{
+    const MicroimpactContactScene elastic = {.radius = 5.06e-6f, .density = 2600.0f, .stiffness = 7.5e10f};
+    MicroimpactContactScene p, scene;
+    MicroimpactError error;
+
+    p = elastic, p.dmt_work = 0.1f, p.relaxation_time = 1e-10f;
+    assert(microimpact_contact_init(&p, &scene, &error) == MICROIMPACT_STATUS_OK);
+    p.ends_by_force = 1;
+    refused(microimpact_contact_init(&p, &scene, &error), &error, "work of adhesion per area");
+    assert(error.fault == MICROIMPACT_FAULT_OTHER_LAW);
+    p.ends_by_force = 0, p.jkr_work = 0.1f;
+    refused(microimpact_contact_init(&p, &scene, &error), &error, "work of adhesion per area");
+    p.dmt_work = 0.0f, p.ends_by_force = 0xffffffffu;
+    assert(microimpact_contact_init(&p, &scene, &error) == MICROIMPACT_STATUS_OK);
+    p.adhesion_strength = 1.0f;
+    refused(microimpact_contact_init(&p, &scene, &error), &error, "adhesion strength");
+    p = elastic, p.ends_by_force = 1, p.nominal_restitution = 0.5f;
+    assert(microimpact_contact_init(&p, &scene, &error) == MICROIMPACT_STATUS_OK);
+    p.material_damping = 1.0f;
+    refused(microimpact_contact_init(&p, &scene, &error), &error, "nominal restitution");
+    p.relaxation_time = 1e-10f;
+    refused(microimpact_contact_init(&p, &scene, &error), &error, "relaxation time");
+
+    static const float BAD[] = {NAN, INFINITY, -1.0f};
+    for (size_t i = 0; i < sizeof BAD / sizeof BAD[0]; i++) {
+        p = elastic, p.dmt_work = BAD[i];
+        refused(microimpact_contact_init(&p, &scene, &error), &error, "work of adhesion per area");
+        p = elastic, p.jkr_work = BAD[i];
+        refused(microimpact_contact_init(&p, &scene, &error), &error, "work of adhesion per area");
+        p = elastic, p.relaxation_time = BAD[i];
+        refused(microimpact_contact_init(&p, &scene, &error), &error, "relaxation time");
+        p = elastic, p.nominal_restitution = BAD[i];
+        refused(microimpact_contact_init(&p, &scene, &error), &error, "nominal restitution");
+    }
 }
 
 static void classify(void)
@@ -436,6 +476,7 @@ int main(int count, char **arguments)
     }
     initialise_rigid();
     initialise_contact();
+    choose_laws();
     classify();
     simulate();
     trajectory();

@@ -18,6 +18,13 @@ static const MicroimpactContactScene CONTACT = {
     .adhesion_strength = 250.0f, .adhesion_damping = 6.25f, .friction = 0.1f};
 /* The same without damping, adhesion and friction, which need not be named. */
 static const MicroimpactContactScene ELASTIC = {.radius = 5.06e-6f, .density = 2600.0f, .stiffness = 7.5e10f};
+/* Other laws of contact. */
+static const MicroimpactContactScene LAWS[] = {
+    {.radius = 5.06e-6f, .density = 2600.0f, .stiffness = 7.5e10f, .dmt_work = 2.0f, .nominal_restitution = 0.8f, .friction = 0.1f},
+    {.radius = 5.06e-6f, .density = 2600.0f, .stiffness = 7.5e10f, .jkr_work = 2.0f, .relaxation_time = 1e-10f, .friction = 0.1f},
+    {.radius = 5.06e-6f, .density = 2600.0f, .stiffness = 7.5e10f, .jkr_work = 2.0f, .ends_by_force = 1, .friction = 0.1f},
+    {.radius = 5.06e-6f, .density = 2600.0f, .stiffness = 7.5e10f, .relaxation_time = 1e-10f, .ends_by_force = 1, .friction = 0.1f},
+};
 
 static MicroimpactRigidScene body;
 static MicroimpactContactScene contact, elastic;
@@ -111,11 +118,21 @@ static int restitutions(void)
     return 1;
 }
 
-int main(void)
+static int simulations(const char *name, const MicroimpactContactScene *scene)
 {
     static MicroimpactContact contacts[COUNT(MOTIONS)];
-    MicroimpactError error;
     size_t written;
+    if (microimpact_simulate(scene, MOTIONS, COUNT(MOTIONS), contacts, COUNT(contacts), &written, NULL) != MICROIMPACT_STATUS_OK)
+        return 0;
+    for (size_t i = 0; i < written; i++)
+        printf("%s %lu %d %08lx %08lx %08lx %08lx\n", name, (unsigned long)i, (int)contacts[i].impact_class, bits(contacts[i].restitution),
+               bits(contacts[i].peak_indentation), bits(contacts[i].tangential), bits(contacts[i].spin));
+    return 1;
+}
+
+int main(void)
+{
+    MicroimpactError error;
     if (microimpact_rigid_init(&BODY, &body, &error) != MICROIMPACT_STATUS_OK
         || microimpact_contact_init(&CONTACT, &contact, &error) != MICROIMPACT_STATUS_OK
         || microimpact_contact_init(&ELASTIC, &elastic, &error) != MICROIMPACT_STATUS_OK)
@@ -127,12 +144,13 @@ int main(void)
         printf("rigid %lu %d %08lx %08lx %08lx %08lx %08lx\n", (unsigned long)i, (int)c.impact_class, bits(c.speed_over_critical),
                bits(c.friction_over_limit), bits(c.restitution), bits(c.tangential), bits(c.peripheral));
     }
-    if (microimpact_simulate(&contact, MOTIONS, COUNT(MOTIONS), contacts, COUNT(contacts), &written, &error)
-        != MICROIMPACT_STATUS_OK)
+    if (!simulations("contact", &contact))
         return 3;
-    for (size_t i = 0; i < written; i++)
-        printf("contact %lu %d %08lx %08lx %08lx %08lx\n", (unsigned long)i, (int)contacts[i].impact_class, bits(contacts[i].restitution),
-               bits(contacts[i].peak_indentation), bits(contacts[i].tangential), bits(contacts[i].spin));
+    for (size_t i = 0; i < COUNT(LAWS); i++) {
+        MicroimpactContactScene scene;
+        if (microimpact_contact_init(&LAWS[i], &scene, &error) != MICROIMPACT_STATUS_OK || !simulations("law", &scene))
+            return 7;
+    }
     if (!trajectories("trajectory", &contact) || !trajectories("elastic", &elastic))
         return 4;
     if (!boundaries())

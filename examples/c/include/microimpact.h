@@ -56,6 +56,8 @@ enum MicroimpactFault
   MICROIMPACT_FAULT_TOO_SMALL,
   // Above the largest valid value.
   MICROIMPACT_FAULT_TOO_LARGE,
+  // A term that does not go with the others of the scene.
+  MICROIMPACT_FAULT_OTHER_LAW,
   // Any other fault.
   MICROIMPACT_FAULT_OTHER,
 };
@@ -190,7 +192,7 @@ typedef struct MicroimpactClassification {
   float peripheral;
 } MicroimpactClassification;
 
-// A contact with Hertz's force, damping, a ring of adhesion and friction. Zero leaves a term out.
+// A contact with Hertz's force, adhesion of one kind, damping of one kind, and friction. Zero leaves a term out.
 typedef struct MicroimpactContactScene {
   // Radius of the sphere, m.
   float radius;
@@ -198,7 +200,7 @@ typedef struct MicroimpactContactScene {
   float density;
   // Hertz stiffness, Pa.
   float stiffness;
-  // Strength of the damping in the materials; may be zero.
+  // Strength of hysteretic damping in the materials; may be zero.
   float material_damping;
   // Strength of the ring of adhesion, N/m; may be zero.
   float adhesion_strength;
@@ -208,6 +210,17 @@ typedef struct MicroimpactContactScene {
   float friction;
   // Tolerance of the square of the restitution; microimpact_contact_init fills in 1e-6.
   float tolerance;
+  // Work of adhesion by Derjaguin, Muller and Toporov, J/m^2; may be zero.
+  float dmt_work;
+  // Work of adhesion by Johnson, Kendall and Roberts, J/m^2; may be zero.
+  float jkr_work;
+  // Relaxation time of viscoelastic damping, s; may be zero.
+  float relaxation_time;
+  // Restitution that constant damping leaves without adhesion, 0.001 to 1; zero leaves the damping out.
+  float nominal_restitution;
+  // Zero for an end of contact at zero indentation, or where a JKR contact snaps off. Anything else for an end where damping
+  // cancels the elastic force, or at the pull-off force of a JKR contact; the ring and DMT have no such end.
+  uint32_t ends_by_force;
 } MicroimpactContactScene;
 
 // A simulated impact. An indentation that does not exist is negative.

@@ -1,12 +1,12 @@
 //! The contact simulation.
 
-use microimpact::contact::{self, AnyLaw, AnyScene, Collocation, SimulatedImpact, TangentialVelocities};
-use microimpact::{CriticalSpeed, InputError, Sphere, Stiffness};
+use microimpact::contact::{self, AnyLaw, AnyScene, Collocation, JkrEnd, SimulatedImpact, TangentialVelocities};
+use microimpact::{CriticalSpeed, Fault, InputError, Parameter, Sphere, Stiffness};
 
 use crate::memory;
 use crate::status::{Class, Error, Failure, Motion, Status, finish, followed};
 
-/// A contact with Hertz's force, damping, a ring of adhesion and friction. Zero leaves a term out.
+/// A contact with Hertz's force, adhesion of one kind, damping of one kind, and friction. Zero leaves a term out.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactScene {
@@ -16,7 +16,7 @@ pub struct ContactScene {
     pub density: f32,
     /// Hertz stiffness, Pa.
     pub stiffness: f32,
-    /// Strength of the damping in the materials; may be zero.
+    /// Strength of hysteretic damping in the materials; may be zero.
     pub material_damping: f32,
     /// Strength of the ring of adhesion, N/m; may be zero.
     pub adhesion_strength: f32,
@@ -26,6 +26,17 @@ pub struct ContactScene {
     pub friction: f32,
     /// Tolerance of the square of the restitution; microimpact_contact_init fills in 1e-6.
     pub tolerance: f32,
+    /// Work of adhesion by Derjaguin, Muller and Toporov, J/m^2; may be zero.
+    pub dmt_work: f32,
+    /// Work of adhesion by Johnson, Kendall and Roberts, J/m^2; may be zero.
+    pub jkr_work: f32,
+    /// Relaxation time of viscoelastic damping, s; may be zero.
+    pub relaxation_time: f32,
+    /// Restitution that constant damping leaves without adhesion, 0.001 to 1; zero leaves the damping out.
+    pub nominal_restitution: f32,
+    /// Zero for an end of contact at zero indentation, or where a JKR contact snaps off. Anything else for an end where damping
+    /// cancels the elastic force, or at the pull-off force of a JKR contact; the ring and DMT have no such end.
+    pub ends_by_force: u32,
 }
 
 /// Its law of contact is chosen at run time, so that there is one solver for all scenes.
@@ -34,6 +45,11 @@ type Method = Collocation<7, f32>;
 
 /// What suits single precision.
 const TOLERANCE: f32 = 1e-6;
+
+/// A number that does not go with the others.
+fn refused(parameter: Parameter, value: f32) -> InputError {
+    InputError { parameter, fault: Fault::OtherLaw, value }
+}
 
 impl ContactScene {
     pub(crate) fn check(self) -> Result<(Scene, Method), InputError> {
@@ -44,11 +60,28 @@ impl ContactScene {
 
     fn law(self) -> Result<AnyLaw<f32>, InputError> {
         let stiffness = Stiffness::new(self.stiffness)?;
-        let without_adhesion = AnyLaw::hertz(stiffness).with_damping(self.material_damping)?;
-        if self.adhesion_strength == 0.0 && self.adhesion_damping == 0.0 {
-            return Ok(without_adhesion);
+        let law = self.undamped(stiffness)?;
+        match [self.material_damping, self.relaxation_time, self.nominal_restitution].map(|value| value != 0.0) {
+            [_, false, false] => law.with_damping(self.material_damping),
+            [false, true, false] => law.with_viscoelastic_damping(self.relaxation_time),
+            [false, false, true] => law.with_constant_damping(self.nominal_restitution),
+            [_, true, _] => Err(refused(Parameter::RelaxationTime, self.relaxation_time)),
+            [_, false, true] => Err(refused(Parameter::NominalRestitution, self.nominal_restitution)),
         }
-        AnyLaw::ring(stiffness, self.adhesion_strength, self.adhesion_damping)?.with_damping(self.material_damping)
+    }
+
+    fn undamped(self, stiffness: Stiffness<f32>) -> Result<AnyLaw<f32>, InputError> {
+        let ring = self.adhesion_strength != 0.0 || self.adhesion_damping != 0.0;
+        match (ring, self.dmt_work != 0.0, self.jkr_work != 0.0, self.ends_by_force != 0) {
+            (false, false, false, false) => Ok(AnyLaw::hertz(stiffness)),
+            (false, false, false, true) => Ok(AnyLaw::without_tension(stiffness)),
+            (true, false, false, false) => AnyLaw::ring(stiffness, self.adhesion_strength, self.adhesion_damping),
+            (false, true, false, false) => AnyLaw::dmt(stiffness, self.dmt_work),
+            (false, false, true, false) => AnyLaw::jkr(stiffness, self.jkr_work, JkrEnd::SnapOff),
+            (false, false, true, true) => AnyLaw::jkr(stiffness, self.jkr_work, JkrEnd::PullOff),
+            (true, ..) => Err(refused(Parameter::AdhesionStrength, self.adhesion_strength)),
+            (false, true, ..) => Err(refused(Parameter::AdhesionEnergy, self.dmt_work)),
+        }
     }
 
     /// The speed below which the surface holds a sphere of the same material.

@@ -36,6 +36,8 @@ pub enum Fault {
     TooSmall,
     /// Above the largest valid value.
     TooLarge,
+    /// A term that does not go with the others of the scene.
+    OtherLaw,
     /// Any other fault.
     Other,
 }
@@ -67,6 +69,7 @@ impl From<InputError> for Error {
             microimpact::Fault::NotFinite => Fault::NotFinite,
             microimpact::Fault::TooSmall => Fault::TooSmall,
             microimpact::Fault::TooLarge => Fault::TooLarge,
+            microimpact::Fault::OtherLaw => Fault::OtherLaw,
             _ => Fault::Other,
         };
         Self { parameter: parameter.unwrap_or(Parameter::ALL.len()) as u32, fault, smallest, largest }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use microimpact::contact::{
-    Collocation, Contact, ContactLaw, PaperScene, Recording, RingScene, Sample, Slip, Trajectory,
+    Collocation, Contact, ContactLaw, JkrEnd, JkrLaw, PaperScene, Recording, RingScene, Sample, Slip, Trajectory,
 };
 use microimpact::table::{BoundarySlice, BoundaryTable, Lookup, RestitutionTable, TableRebound};
 use microimpact::{
@@ -47,7 +47,7 @@ pub const CONSTANT: [&str; 6] = ["--smallest-radius", "2e-6", "--cells", "8", "-
 /// # Errors
 /// None for the values here.
 pub fn expected() -> Result<String, InputError> {
-    Ok(impacts()? + &trajectories()? + &boundaries()? + &restitutions()?)
+    Ok(impacts()? + &laws()? + &trajectories()? + &boundaries()? + &restitutions()?)
 }
 
 /// The lines of both models.
@@ -58,8 +58,7 @@ fn impacts() -> Result<String, InputError> {
         .with_work_of_adhesion(c(WORK_OF_ADHESION_J))?
         .with_friction(c(FRICTION))?;
     let contact = surface(c(RADIUS_M))?.with_friction(c(FRICTION))?;
-    let method = Collocation::<7, f32>::new(1e-6)?;
-    let (mut rigid, mut simulated) = (String::new(), String::new());
+    let mut rigid = String::new();
     for (index, before) in MOTIONS.into_iter().enumerate() {
         let motion = motion(before)?;
         let (impact, classification) = (body.impact(&motion), body.classify(&motion));
@@ -74,10 +73,34 @@ fn impacts() -> Result<String, InputError> {
                 impact.tangential.peripheral(),
             ],
         );
-        let impact = contact.solve(&motion, &method)?;
+    }
+    Ok(rigid + &simulations("contact", &contact)?)
+}
+
+/// The lines of other laws of contact, each by its type.
+fn laws() -> Result<String, InputError> {
+    let c = f32::constant;
+    let (sphere, stiffness) = (Sphere::solid(c(RADIUS_M), c(DENSITY_KG_M3))?, Stiffness::new(c(STIFFNESS_PA))?);
+    let (hertz, jkr) = (Contact::hertz(sphere, stiffness), JkrLaw::new(stiffness, 2.0)?);
+    let (friction, time) = (c(FRICTION), 1e-10);
+    let dmt = hertz.with_dmt(2.0)?.with_constant_damping(0.8)?.with_friction(friction)?;
+    let snaps = Contact::new(sphere, jkr.with_viscoelastic_damping(time)?).with_friction(friction)?;
+    let pulled = Contact::new(sphere, jkr.ending_at(JkrEnd::PullOff)).with_friction(friction)?;
+    let released = hertz.with_viscoelastic_damping(time)?.without_tension().with_friction(friction)?;
+    Ok(simulations("law", &dmt)?
+        + &simulations("law", &snaps)?
+        + &simulations("law", &pulled)?
+        + &simulations("law", &released)?)
+}
+
+fn simulations<L: ContactLaw<f32>>(name: &str, scene: &Contact<f32, L, Coulomb<f32>>) -> Result<String, InputError> {
+    let method = Collocation::<7, f32>::new(1e-6)?;
+    let mut text = String::new();
+    for (index, before) in MOTIONS.into_iter().enumerate() {
+        let impact = scene.solve(&motion(before)?, &method)?;
         line(
-            &mut simulated,
-            &format!("contact {index} {}", impact.class().map_or(u8::MAX, |class| class as u8)),
+            &mut text,
+            &format!("{name} {index} {}", impact.class().map_or(u8::MAX, |class| class as u8)),
             &[
                 impact.normal.overall_restitution(),
                 impact.normal.peak_indentation().unwrap_or(-1.0),
@@ -86,7 +109,7 @@ fn impacts() -> Result<String, InputError> {
             ],
         );
     }
-    Ok(rigid + &simulated)
+    Ok(text)
 }
 
 /// The lines of the trajectories, each whole and in the least room: of the scene, and of one without damping, adhesion and

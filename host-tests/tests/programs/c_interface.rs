@@ -112,6 +112,7 @@ mod sanitized {
         assert_eq!(printed, c_results::expected().unwrap());
         let lines = |kind: &str| printed.lines().filter(|line| line.starts_with(kind)).count();
         assert_eq!(lines("rigid") + lines("contact"), 2 * c_results::MOTIONS.len());
+        assert_eq!(lines("law"), 4 * c_results::MOTIONS.len());
         // Every trajectory twice; in the least room it is four samples, or three of a sphere that does not begin to roll.
         assert_eq!(lines("trajectory"), 2 * c_results::MOTIONS.len());
         assert_eq!(lines("elastic"), 2 * c_results::MOTIONS.len());
