@@ -1,6 +1,6 @@
 //! An impact as the solver sees it: a few numbers near one, which any number type holds.
 
-use super::law::{HertzLaw, HystereticDamping, NoForce, ProportionalDamping, Ring, RingStrength};
+use super::law::{Attraction, ContactLaw, Damping, HertzLaw, HystereticDamping, NoForce, Ring};
 use super::scene::Contact;
 use super::solve::path::NormalPath;
 use super::solve::{Method, Status};
@@ -11,6 +11,8 @@ use crate::{Approach, InputError, Outcome, Parameter, Real};
 /// The unit of length is the peak indentation of the undamped motion, that of speed such that the elastic force is (5/4) s^3
 /// at the contact radius s. Contact radius and speed then lie in 0 to 1 whatever the particle. On a processor without
 /// floating point these numbers are computed beforehand, for scenes that do not change, or in f32.
+///
+/// `D` is the damping of the materials and `A` the adhesion.
 ///
 /// ```
 /// use microimpact::contact::{Contact, DimensionlessImpact, FixedCost};
@@ -27,15 +29,11 @@ use crate::{Approach, InputError, Outcome, Parameter, Real};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct DimensionlessImpact<T> {
-    /// Strength p of adhesion, 0 to 1: its force is (3/4) p s.
-    pub(crate) adhesion: T,
-    /// Kinetic energy before the impact, (1 - p)/2.
+pub struct DimensionlessImpact<T, D = HystereticDamping<T>, A = Ring<T>> {
+    /// The law in units of the impact.
+    pub(crate) law: HertzLaw<T, D, A>,
+    /// Kinetic energy before the impact.
     pub(crate) energy: T,
-    /// Damping of the materials for the unit of speed, over the elastic force.
-    pub(crate) material_damping: T,
-    /// Damping of adhesion for the unit of speed, over the force of adhesion.
-    pub(crate) adhesion_damping: T,
 }
 
 /// How a dimensionless impact ends.
@@ -88,7 +86,9 @@ impl<T: Real> DimensionlessContact<T> {
 }
 
 impl<T: Real> DimensionlessImpact<T> {
-    /// An impact of known groups: strength p of adhesion, 0 to 0.999, and damping of the materials and of adhesion, 0 to 0.5.
+    /// An impact with a ring and hysteretic damping, of known groups: strength p of adhesion, 0 to 0.999 (the force of the ring is
+    /// (3/4) p s and the energy before the impact (1 - p)/2), and damping of the materials and of adhesion for the unit of speed over
+    /// the force that it accompanies, 0 to 0.5.
     ///
     /// # Errors
     /// A group outside its range.
@@ -100,18 +100,18 @@ impl<T: Real> DimensionlessImpact<T> {
     /// assert_eq!((error.parameter, error.fault), (Parameter::DimensionlessDamping, Fault::TooLarge));
     /// ```
     pub fn new(adhesion: T, material_damping: T, adhesion_damping: T) -> Result<Self, InputError> {
-        let adhesion = Parameter::DimensionlessAdhesion.check(adhesion)?;
-        Ok(Self {
-            adhesion,
-            energy: T::constant(0.5) * (T::ONE - adhesion),
-            material_damping: Parameter::DimensionlessDamping.check(material_damping)?,
-            adhesion_damping: Parameter::DimensionlessDamping.check(adhesion_damping)?,
-        })
+        let strength = Parameter::DimensionlessAdhesion.check(adhesion)?;
+        let damping = HystereticDamping { rate: Parameter::DimensionlessDamping.check(material_damping)? };
+        let adhesion = Ring { strength, damping: Parameter::DimensionlessDamping.check(adhesion_damping)? };
+        let law = HertzLaw { stiffness: T::ONE, damping, adhesion, force: NoForce };
+        Ok(Self { law, energy: T::constant(0.5) * (T::ONE - strength) })
     }
+}
 
+impl<T: Real, D: Damping<T>, A: Attraction<T>> DimensionlessImpact<T, D, A> {
     /// The impact, solved by a method.
     ///
-    /// With groups in the ranges of [`new`](Self::new) and by [`FixedCost`](super::FixedCost), every value on the way,
+    /// With groups in the ranges of [`new`](DimensionlessImpact::new) and by [`FixedCost`](super::FixedCost), every value on the way,
     /// intermediate ones included, stays below 128 in size, or below 256 where the sphere is captured. By
     /// [`Collocation`](super::Collocation) they stay below 1e25, which f32 holds.
     ///
@@ -125,37 +125,33 @@ impl<T: Real> DimensionlessImpact<T> {
     /// ```
     #[inline]
     pub fn solve(&self, method: &impl Method<T>) -> DimensionlessContact<T> {
-        let law = HertzLaw {
-            stiffness: T::ONE,
-            damping: HystereticDamping { rate: self.material_damping },
-            adhesion: Ring { strength: self.adhesion, damping: self.adhesion_damping },
-            force: NoForce,
-        };
-        DimensionlessContact::new(&method.solve(&law, self.energy, &mut ()), self.energy)
+        DimensionlessContact::new(&method.solve(&self.law, self.energy, &mut ()), self.energy)
     }
 }
 
-impl<T: Real, D: ProportionalDamping<T>, A: RingStrength<T>, S> Contact<T, HertzLaw<T, D, A>, S> {
+impl<T: Real, D: Damping<T>, A: Attraction<T>, S> Contact<T, HertzLaw<T, D, A>, S>
+where
+    HertzLaw<T, D, A>: ContactLaw<T>,
+{
     /// The impact of a sphere that arrives with `motion`, in units of its own.
     ///
     /// # Errors
     /// As [`solve`](Self::solve).
     ///
     /// ```
-    /// use microimpact::contact::{Contact, DimensionlessImpact};
+    /// use microimpact::contact::{Contact, FixedCost};
     /// use microimpact::{NormalMotion, Sphere, Stiffness};
     ///
-    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?);
-    /// assert_eq!(scene.dimensionless(&NormalMotion::new(1.0)?)?, DimensionlessImpact::new(0.0, 0.0, 0.0)?);
+    /// // Hertz's impact is the same whatever the sphere.
+    /// let impact = |radius| Contact::hertz(Sphere::solid(radius, 1000.0)?, Stiffness::new(1e10)?)
+    ///     .dimensionless(&NormalMotion::new(1.0)?);
+    /// assert_eq!(impact(1e-6)?, impact(1e-3)?);
+    /// assert_eq!(impact(1e-6)?.solve(&FixedCost::<4>::new(2)?).overall_restitution(), 1.0);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn dimensionless(&self, motion: &impl Approach<T>) -> Result<DimensionlessImpact<T>, InputError> {
+    pub fn dimensionless(&self, motion: &impl Approach<T>) -> Result<DimensionlessImpact<T, D, A>, InputError> {
         let (law, units) = self.in_units(motion.normal().speed())?;
-        Ok(DimensionlessImpact {
-            adhesion: law.adhesion.strength(),
-            energy: units.energy,
-            material_damping: law.damping.rate(),
-            adhesion_damping: law.adhesion.damping_rate(),
-        })
+        // Nothing but the set-up reads the stiffness, which fixed point would not hold.
+        Ok(DimensionlessImpact { law: HertzLaw { stiffness: T::ONE, ..law }, energy: units.energy })
     }
 }

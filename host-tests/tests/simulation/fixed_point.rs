@@ -1,7 +1,13 @@
 //! The simulation in fixed point: its error over the paper's and random scenes, its refusals, and its bounds.
 
-use microimpact::contact::{Collocation, DimensionlessImpact, FixedCost, PhaseSamples, RungeKuttaGill, Status};
-use microimpact::{Fault, FixedPoint, InputError, NormalMotion, Outcome, Parameter, Real, Sphere};
+use crate::checking::{Checked, EXACT, take_largest};
+use microimpact::contact::{
+    Attraction, Collocation, Contact, ContactLaw, Damping, DimensionlessImpact, FixedCost, HertzLaw, PhaseSamples,
+    RungeKuttaGill, Status,
+};
+use microimpact::{
+    Fault, FixedPoint, InFixedPoint, InputError, NormalMotion, Outcome, Parameter, Real, Sphere, Stiffness,
+};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use reference::{Case, cases, repetitions};
@@ -185,6 +191,77 @@ fn error_bound_holds_over_the_whole_range() {
             assert!((0.1..=30.0).contains(&percent(undecided)), "{numbers}, {undecided} undecided");
         }
     }
+}
+
+/// A scene by its law, on one sphere.
+fn by_law<T: Real, D, A>(
+    make: impl Fn(Contact<T, HertzLaw<T>>) -> Result<Contact<T, HertzLaw<T, D, A>>, InputError>,
+) -> Contact<T, HertzLaw<T, D, A>> {
+    let sphere = Sphere::solid(T::constant(2e-6), T::constant(1050.0)).unwrap();
+    make(Contact::hertz(sphere, Stiffness::new(T::constant(5e9)).unwrap())).unwrap()
+}
+
+/// A scene of any law in fixed point, if it fits: whether it does. The error bound holds, and no value on the way is too large.
+fn check_law<D, A, E, B>(
+    scene: Contact<f64, HertzLaw<f64, D, A>>,
+    checked: Contact<Checked<EXACT>, HertzLaw<Checked<EXACT>, E, B>>,
+    speed: f64,
+) -> bool
+where
+    D: Damping<f64> + InFixedPoint<f64, Fixed: Damping<FixedPoint>>,
+    A: Attraction<f64> + InFixedPoint<f64, Fixed: Attraction<FixedPoint>>,
+    HertzLaw<f64, D, A>: ContactLaw<f64>,
+    HertzLaw<Checked<EXACT>, E, B>: ContactLaw<Checked<EXACT>>,
+    E: Damping<Checked<EXACT>>,
+    B: Attraction<Checked<EXACT>>,
+{
+    let wide = scene.dimensionless(&NormalMotion::new(speed).unwrap()).unwrap();
+    let Ok(narrow) = wide.in_fixed_point() else { return false };
+    let exact = wide.solve(&Collocation::<12, f64>::new(1e-12).unwrap());
+    let checked = checked.dimensionless(&NormalMotion::new(Checked(speed)).unwrap()).unwrap();
+    for iterations in [3, 6] {
+        let contact = narrow.solve(&FixedCost::<5>::new(iterations).unwrap());
+        let (bound, square) = (contact.error_bound.to_f64(), contact.restitution_squared.to_f64());
+        match contact.outcome {
+            Some(Outcome::Undecided) => assert!(exact.restitution_squared <= 2.0 * bound, "{contact:?} {exact:?}"),
+            Some(_) => {
+                assert_eq!(contact.outcome, exact.outcome, "{speed} {contact:?}");
+                assert!((square - exact.restitution_squared).abs() <= bound, "{speed} {contact:?} {exact:?}");
+            }
+            None => assert_eq!(contact.status, Status::BudgetSpent),
+        }
+        take_largest();
+        checked.solve(&FixedCost::<5>::new(iterations).unwrap());
+        let largest = take_largest();
+        assert!(largest < 128.0, "{speed}: {largest}");
+    }
+    true
+}
+
+/// The laws and dampings that have no groups of their own.
+#[test]
+fn other_laws_hold_their_bounds() {
+    let (mut random, scenes) = (StdRng::seed_from_u64(14), repetitions(20_000, 500));
+    let mut fits = [0; 5];
+    for _ in 0..scenes {
+        let mut decade = |from: f64, to: f64| 10f64.powf(random.random_range(from..to));
+        let (speed, work, time, zeta) = (decade(-2.0, 2.0), decade(-4.0, 0.0), decade(-12.0, -9.0), decade(-2.0, 1.0));
+        macro_rules! check {
+            (|$scene:ident, $c:ident| $law:expr) => {{
+                let $c = |value: f64| value;
+                let double = by_law(|$scene: Contact<f64, HertzLaw<f64>>| $law);
+                let $c = |value: f64| Checked::<EXACT>(value);
+                let checked = by_law(|$scene: Contact<Checked<EXACT>, HertzLaw<Checked<EXACT>>>| $law);
+                u32::from(check_law(double, checked, speed))
+            }};
+        }
+        fits[0] += check!(|scene, c| scene.with_dmt(c(work)));
+        fits[1] += check!(|scene, c| scene.with_dmt(c(work))?.with_damping(c(zeta)));
+        fits[2] += check!(|scene, c| scene.with_dmt(c(work))?.with_viscoelastic_damping(c(time)));
+        fits[3] += check!(|scene, c| scene.with_viscoelastic_damping(c(time)));
+        fits[4] += check!(|scene, c| scene.with_ring(c(10.0 * work), c(zeta))?.with_viscoelastic_damping(c(time)));
+    }
+    assert!(fits.iter().all(|fits| *fits > scenes / 4), "{fits:?} of {scenes}");
 }
 
 /// A step in time changes less than fixed point resolves.

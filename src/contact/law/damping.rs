@@ -96,7 +96,7 @@ pub struct HystereticDamping<T> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ViscoelasticDamping<T> {
     /// A in s or, in units of an impact, the force at s = 1.
-    time: T,
+    pub(crate) time: T,
 }
 
 /// Damping with a restitution that does not depend on the speed (Tsuji, Tanaka and Ishida 1992): c = alpha sqrt(m K a), with
@@ -148,9 +148,6 @@ impl<T: Real> ViscoelasticDamping<T> {
     }
 }
 
-/// Steps of Halley's method for a logarithm, for numbers from 1e-3 to 1.
-const LOGARITHM_STEPS: u32 = 8;
-
 impl<T: Real> ConstantDamping<T> {
     /// Damping that leaves a restitution e.
     ///
@@ -162,11 +159,7 @@ impl<T: Real> ConstantDamping<T> {
     /// ```
     pub fn new(restitution: T) -> Result<Self, InputError> {
         let e = Parameter::NominalRestitution.check(restitution)?;
-        let mut logarithm = T::ZERO;
-        for _ in 0..LOGARITHM_STEPS {
-            let power = logarithm.exp();
-            logarithm = logarithm + T::constant(2.0) * (e - power) / (e + power);
-        }
+        let logarithm = e.ln();
         let alpha = -(T::constant(5.0).sqrt() * logarithm / (logarithm * logarithm + T::constant(PI * PI)).sqrt());
         Ok(Self { alpha })
     }

@@ -21,7 +21,7 @@ use crate::{InputError, Parameter, Real, Sphere};
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Dmt<T> {
     /// G in J/m^2 or, in units of an impact, the force.
-    strength: T,
+    pub(crate) strength: T,
 }
 
 impl<T: Real> Dmt<T> {

@@ -3,12 +3,71 @@
 // All indices are below the lengths of their arrays.
 #![allow(clippy::indexing_slicing)]
 
-use super::{FRACTION, FixedPoint};
-use crate::contact::{DimensionlessImpact, PhaseNodes};
+use super::{FRACTION, FixedPoint, InFixedPoint};
+use crate::contact::{
+    DimensionlessImpact, Dmt, HertzLaw, HystereticDamping, NoDamping, NoForce, PhaseNodes, Ring, ViscoelasticDamping,
+};
 use crate::{InputError, Parameter, Real, lift_tables};
 
-impl<T: Real> DimensionlessImpact<T> {
+/// A group in the range of its parameter, by a factor between the two.
+fn bounded<T: Real>(parameter: Parameter, value: T, factor: f64) -> Result<FixedPoint, InputError> {
+    parameter.check(value * T::constant(factor))?;
+    Ok(FixedPoint::nearest(value.to_f64()))
+}
+
+impl<T> InFixedPoint<T> for NoDamping {
+    type Fixed = Self;
+
+    fn in_fixed_point(&self, _unit: T) -> Result<Self, InputError> {
+        Ok(Self)
+    }
+}
+
+/// In units of an impact.
+impl<T: Real> InFixedPoint<T> for HystereticDamping<T> {
+    type Fixed = HystereticDamping<FixedPoint>;
+
+    fn in_fixed_point(&self, _unit: T) -> Result<Self::Fixed, InputError> {
+        Ok(HystereticDamping { rate: bounded(Parameter::DimensionlessDamping, self.rate, 1.0)? })
+    }
+}
+
+/// In units of an impact.
+impl<T: Real> InFixedPoint<T> for ViscoelasticDamping<T> {
+    type Fixed = ViscoelasticDamping<FixedPoint>;
+
+    fn in_fixed_point(&self, _unit: T) -> Result<Self::Fixed, InputError> {
+        // Over the elastic force at the peak, 5/4.
+        Ok(ViscoelasticDamping { time: bounded(Parameter::DimensionlessDamping, self.time, 0.8)? })
+    }
+}
+
+/// In units of an impact.
+impl<T: Real> InFixedPoint<T> for Ring<T> {
+    type Fixed = Ring<FixedPoint>;
+
+    fn in_fixed_point(&self, _unit: T) -> Result<Self::Fixed, InputError> {
+        Ok(Ring {
+            strength: bounded(Parameter::DimensionlessAdhesion, self.strength, 1.0)?,
+            damping: bounded(Parameter::DimensionlessDamping, self.damping, 1.0)?,
+        })
+    }
+}
+
+/// In units of an impact.
+impl<T: Real> InFixedPoint<T> for Dmt<T> {
+    type Fixed = Dmt<FixedPoint>;
+
+    fn in_fixed_point(&self, _unit: T) -> Result<Self::Fixed, InputError> {
+        // The energy before the impact is one half less the strength.
+        Ok(Dmt { strength: bounded(Parameter::DimensionlessAdhesion, self.strength, 2.0)? })
+    }
+}
+
+impl<T: Real, D: InFixedPoint<T>, A: InFixedPoint<T>> DimensionlessImpact<T, D, A> {
     /// Converts the impact to fixed point, for [`FixedCost`](crate::contact::FixedCost). [`FixedPoint`] states the error.
+    ///
+    /// Hertz's contact, the ring and DMT's adhesion can be converted, with no, hysteretic or viscoelastic damping.
     ///
     /// # Errors
     /// The adhesion or the damping is outside its range for [`FixedPoint`].
@@ -23,16 +82,12 @@ impl<T: Real> DimensionlessImpact<T> {
     /// assert!(difference.abs() < 1e-6);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn in_fixed_point(&self) -> Result<DimensionlessImpact<FixedPoint>, InputError> {
-        let adhesion = Parameter::DimensionlessAdhesion.check(self.adhesion)?;
-        let material_damping = Parameter::DimensionlessDamping.check(self.material_damping)?;
-        let adhesion_damping = Parameter::DimensionlessDamping.check(self.adhesion_damping)?;
-        Ok(DimensionlessImpact {
-            adhesion: FixedPoint::nearest(adhesion.to_f64()),
-            energy: FixedPoint::nearest(self.energy.to_f64()),
-            material_damping: FixedPoint::nearest(material_damping.to_f64()),
-            adhesion_damping: FixedPoint::nearest(adhesion_damping.to_f64()),
-        })
+    pub fn in_fixed_point(&self) -> Result<DimensionlessImpact<FixedPoint, D::Fixed, A::Fixed>, InputError> {
+        let HertzLaw { damping, adhesion, .. } = &self.law;
+        let adhesion = adhesion.in_fixed_point(T::ONE)?;
+        let damping = damping.in_fixed_point(T::ONE)?;
+        let law = HertzLaw { stiffness: FixedPoint::ONE, damping, adhesion, force: NoForce };
+        Ok(DimensionlessImpact { law, energy: FixedPoint::nearest(self.energy.to_f64()) })
     }
 }
 

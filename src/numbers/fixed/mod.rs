@@ -20,8 +20,8 @@ pub use rigid::InFixedPoint;
 ///
 /// * [`DimensionlessImpact::in_fixed_point`](crate::contact::DimensionlessImpact::in_fixed_point) converts the simulation
 ///   of the normal motion, for the method [`FixedCost`](crate::contact::FixedCost) with four to nine nodes. The strength of
-///   adhesion may be up to 0.999 (above that, hardly any energy remains to resolve), and the dampings up to 0.5; other values
-///   are refused. The result contains a [bound](crate::contact::DimensionlessContact::error_bound) of the error of e^2, rounding
+///   adhesion may be up to 0.999 (above that, hardly any energy remains to resolve), and the dampings up to 0.5 of the force at
+///   the peak; other values are refused. JKR's contact and constant damping have no method of fixed cost. The result contains a [bound](crate::contact::DimensionlessContact::error_bound) of the error of e^2, rounding
 ///   included. The error of e is at most that bound divided by e.
 /// * [`InFixedPoint`] converts the rigid-body model. Approach speeds may be 0.004 to 8 units, other velocities up to 8 units
 ///   and friction coefficients up to 7. For gyration ratios from 0.2, the error of velocities is below 1e-5 units, and a

@@ -23,6 +23,11 @@ pub(super) fn call_all<T: Real + Into<f64> + PhaseSamples<5, 9>>() -> Result<(),
     let scene = Contact::hertz(sphere, Stiffness::new(any())?).with_damping(any())?.with_ring(any(), any())?;
     let impact = scene.dimensionless(&NormalMotion::new(any())?).or(DimensionlessImpact::new(any(), any(), any()))?;
     keep(impact.solve(&FixedCost::<5>::new(black_box(3))?).overall_restitution());
+    let dmt = Contact::hertz(sphere, Stiffness::new(any())?).with_dmt(any())?.with_viscoelastic_damping(any())?;
+    let dmt = dmt.dimensionless(&NormalMotion::new(any())?)?;
+    keep(dmt.in_fixed_point()?.solve(&FixedCost::<5>::new(black_box(3))?).overall_restitution());
+    let hertz = Contact::hertz(sphere, Stiffness::new(any())?).dimensionless(&NormalMotion::new(any())?)?;
+    keep(hertz.in_fixed_point()?.solve(&FixedCost::<5>::new(black_box(3))?).overall_restitution());
     let impact = impact.in_fixed_point()?;
     solved::<4>(&impact)?;
     solved::<5>(&impact)?;
