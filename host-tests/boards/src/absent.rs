@@ -188,8 +188,18 @@ fn frame(copy: &Path) -> Result<(), String> {
 }
 
 /// What the firmware of one scene does not need.
-const OTHER_FIRMWARE: [&str; 9] =
-    ["approximate", "bin", "calibrations", "entries", "fixed_contacts", "methods", "station", "tables", "variants"];
+const OTHER_FIRMWARE: [&str; 10] = [
+    "approximate",
+    "bin",
+    "calibrations",
+    "entries",
+    "fixed_contacts",
+    "laws",
+    "methods",
+    "station",
+    "tables",
+    "variants",
+];
 
 /// The sources of the library and of the firmware, without some parts.
 fn sources(copy: &Path, parts: &Parts<'_>) -> Result<(), String> {

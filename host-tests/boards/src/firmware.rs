@@ -14,6 +14,9 @@ const LIMIT: Duration = Duration::from_secs(900);
 /// Where the firmware is in the repository.
 pub const FOLDER: &str = "examples/firmware";
 
+/// The place of a law of contact among all of them, for a firmware with this law alone.
+const LAW: &str = "MICROIMPACT_LAW";
+
 /// The feature of the probes, which changes nothing in the other binaries.
 pub const PROBE: &str = "probe";
 
@@ -30,22 +33,27 @@ pub fn build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<
 
 /// The same, for flash rather than speed.
 pub fn build_small(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<PathBuf, String> {
-    build_in(repository(), toolchain, board, "small", Some(PROBE), binaries)
+    build_in(repository(), toolchain, board, "small", Some(PROBE), None, binaries)
+}
+
+/// The same with one law of contact.
+pub fn build_law(toolchain: &Toolchain, board: &Board, place: usize, binaries: &[&str]) -> Result<PathBuf, String> {
+    build_in(repository(), toolchain, board, "release", Some(PROBE), Some(place), binaries)
 }
 
 /// The same with a feature.
 pub fn build_with(toolchain: &Toolchain, board: &Board, feature: &str, binaries: &[&str]) -> Result<PathBuf, String> {
-    build_in(repository(), toolchain, board, "release", Some(feature), binaries)
+    build_in(repository(), toolchain, board, "release", Some(feature), None, binaries)
 }
 
 /// Builds binaries that are allowed to fail.
 pub fn try_build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<Finished, String> {
-    run_cargo(repository(), toolchain, board, "release", Some(PROBE), binaries)
+    run_cargo(repository(), toolchain, board, "release", Some(PROBE), None, binaries)
 }
 
 /// Builds binaries of a copy of the repository and returns the folder they are in.
 pub fn build_copy(toolchain: &Toolchain, board: &Board, copy: &Path, binaries: &[&str]) -> Result<PathBuf, String> {
-    build_in(copy, toolchain, board, "release", None, binaries)
+    build_in(copy, toolchain, board, "release", None, None, binaries)
 }
 
 fn build_in(
@@ -54,10 +62,11 @@ fn build_in(
     board: &Board,
     profile: &str,
     feature: Option<&str>,
+    law: Option<usize>,
     binaries: &[&str],
 ) -> Result<PathBuf, String> {
     let what = format!("{}: building {}", board.core, binaries.join(", "));
-    run_cargo(repository, toolchain, board, profile, feature, binaries)?.succeeded(&what, 40)?;
+    run_cargo(repository, toolchain, board, profile, feature, law, binaries)?.succeeded(&what, 40)?;
     Ok(target_folder(toolchain, board).join(board.triple).join(profile))
 }
 
@@ -67,6 +76,7 @@ fn run_cargo(
     board: &Board,
     profile: &str,
     feature: Option<&str>,
+    law: Option<usize>,
     binaries: &[&str],
 ) -> Result<Finished, String> {
     let mut cargo = toolchain.cargo(board.triple);
@@ -74,6 +84,9 @@ fn run_cargo(
     cargo.arg("--target-dir").arg(target_folder(toolchain, board));
     if let Some(feature) = feature {
         cargo.args(["--features", feature]);
+    }
+    if let Some(place) = law {
+        cargo.env(LAW, place.to_string());
     }
     for binary in binaries {
         cargo.args(["--bin", binary]);

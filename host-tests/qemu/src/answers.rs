@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::fmt::{self, Display};
 
 use microimpact_scenes::contacts::{REFUSED, visit_contacts};
+use microimpact_scenes::laws::{self, visit_laws};
 use microimpact_scenes::scenes::UNDECIDED;
 use microimpact_scenes::scenes::{Answer, Number, Scene, Visitor, visit_scenes};
 use microimpact_scenes::variants::{visit_collocations, visit_recordings, visit_variants};
@@ -227,14 +228,17 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// The host's verdict in every case.
-pub(crate) fn expected() -> Result<BTreeMap<Case, Expected>, String> {
+/// The host's verdict in every case; those of all laws of contact run on some boards alone.
+pub(crate) fn expected(with_laws: bool) -> Result<BTreeMap<Case, Expected>, String> {
     let mut host = Host { verdicts: BTreeMap::new(), refused: Vec::new() };
     visit_scenes(&mut host);
     visit_contacts(&mut host);
     visit_variants(&mut host);
     visit_collocations(&mut host);
     visit_recordings(&mut host);
+    if with_laws {
+        visit_laws(&mut host);
+    }
     if host.refused.is_empty() {
         Ok(host.verdicts)
     } else {
@@ -243,6 +247,11 @@ pub(crate) fn expected() -> Result<BTreeMap<Case, Expected>, String> {
             host.refused.join(", ")
         ))
     }
+}
+
+/// Names of the scenes of all laws of contact.
+pub(crate) fn laws() -> impl Iterator<Item = &'static str> {
+    laws::laws::<Host>().iter().map(|(name, _)| *name)
 }
 
 struct Host {

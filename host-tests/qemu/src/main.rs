@@ -106,7 +106,6 @@ fn main() -> ExitCode {
 /// Everything that went wrong although the run could go on; `Err` if it could not.
 fn run(arguments: &Arguments, permission: Permission) -> Result<Vec<String>, String> {
     let stored = Stored::read(&Stored::path())?;
-    let expected = answers::expected()?;
     let calibrated = calibrate::expected()?;
     let is_chosen = |board: &Board| arguments.all_cores || arguments.overwrite || board.core == arguments.core;
     let boards: Vec<Board> = BOARDS.into_iter().filter(is_chosen).collect();
@@ -117,6 +116,7 @@ fn run(arguments: &Arguments, permission: Permission) -> Result<Vec<String>, Str
     let mut figures = Vec::new();
     let mut proved = Vec::new();
     for board in &boards {
+        let expected = answers::expected(measures_laws(board))?;
         match run_board(&toolchain, board) {
             Ok((protocol, code)) => {
                 let differences = protocol.differences(&expected);
@@ -219,13 +219,33 @@ fn run_board(toolchain: &Toolchain, board: &Board) -> Result<(Protocol, Vec<Figu
     let (mut all, mut figures) = (Protocol::default(), Vec::new());
     let folder = built(toolchain, board, firmware::PROBE, &MEASURING)?;
     for binary in MEASURING {
-        let firmware = folder.join(binary);
-        let protocol = Protocol::parse(&emulator::run(board, &firmware)?)
-            .map_err(|error| format!("{}, {binary}: {error}", board.core))?;
-        figures.extend(needs(board, &firmware, &protocol.code)?);
-        all.append(protocol);
+        figures.extend(run_binary(board, &folder.join(binary), &mut all)?);
+    }
+    if measures_laws(board) {
+        eprintln!("building and running each law of contact on {} ...", board.core);
+        for (place, law) in answers::laws().enumerate() {
+            let folder = firmware::build_law(toolchain, board, place, &["law", "flash_law", "flash_empty"])?;
+            figures.extend(run_binary(board, &folder.join("law"), &mut all)?);
+            let flash = |binary| Footprint::of(&folder.join(binary));
+            let added = flash("flash_law")?.minus(flash("flash_empty")?);
+            figures.push(of_scene(board, law, limits::SCALAR, Quantity::Flash, added.flash.into()));
+        }
     }
     Ok((all, figures))
+}
+
+/// Whether a board measures all laws of contact, each in a firmware of its own.
+fn measures_laws(board: &Board) -> bool {
+    board.core == REFERENCE_CORE
+}
+
+/// Adds what a binary says to a protocol, and returns what each of its scenes needs.
+fn run_binary(board: &Board, firmware: &Path, all: &mut Protocol) -> Result<Vec<Figure>, String> {
+    let protocol = Protocol::parse(&emulator::run(board, firmware)?)
+        .map_err(|error| format!("{}, {}: {error}", board.core, firmware.display()))?;
+    let figures = needs(board, firmware, &protocol.code)?;
+    all.append(protocol);
+    Ok(figures)
 }
 
 /// The same of calibrations.

@@ -26,7 +26,8 @@ impl Impact {
     }
 }
 
-const TABLE_1: Impact = Impact::new("table-1", APPROACH_M_S, 0.0, SPIN_RAD_S);
+/// That of Brach & Dunn (1995), Table 1.
+pub const TABLE_1: Impact = Impact::new("table-1", APPROACH_M_S, 0.0, SPIN_RAD_S);
 
 /// Every way in which an impact can end, with some of them close to another class.
 ///

@@ -8,6 +8,7 @@ pub mod calibrations;
 pub mod contacts;
 pub mod fixed_contacts;
 pub mod impacts;
+pub mod laws;
 #[cfg(feature = "methods")]
 pub mod methods;
 pub mod scenes;
