@@ -10,6 +10,8 @@ use crate::{InputError, Material, Real};
 /// assert!(MATERIALS.iter().all(|material| !material.density.source.is_empty()));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Sourced {
     /// The number.
     pub value: f64,
@@ -34,6 +36,8 @@ pub struct Sourced {
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct KnownMaterial {
     /// Its name, in lower case.
     pub name: &'static str,

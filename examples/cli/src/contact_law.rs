@@ -107,7 +107,7 @@ enum EndRule {
 pub struct RowLaw<T> {
     pub name: LawName,
     end_rule: EndRule,
-    stiffness: Stiffness<T>,
+    pub stiffness: Stiffness<T>,
     /// Strength of the ring, N/m, and its damping.
     ring: (T, T),
     /// Work of adhesion per area, J/m^2; zero where the law has none.

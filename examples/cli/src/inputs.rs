@@ -1,13 +1,18 @@
 //! What a row of a table states: the sphere and its motion, and the restitution of a rigid body.
 
+use microimpact::rigid::{ElasticPlasticRestitution, PowerRestitution};
 use microimpact::{ConstantRestitution, Real, RestitutionLaw, SpeedRestitution};
 use sheet::{Input, Row, Scalar};
 
 /// The numbers of a peeling moment.
 pub const PEELING_INPUT: Input = Input::optional(&["peeling_n_m"], "0 N m");
 
+/// The pressure from which a material yields.
+pub const YIELD_INPUT: Input = Input::optional(&["yield_pressure_pa"], "not known");
+
 /// The numbers of a restitution law.
-pub const RESTITUTION_INPUT: Input = Input::required(&["restitution", "restitution_speed_m_s"]);
+pub const RESTITUTION_INPUT: Input = Input::required(&["restitution", "restitution_speed_m_s", "yield_speed_m_s"]);
+pub const POWER_INPUT: Input = Input::optional(&["restitution_power"], "1");
 
 /// The density of a sphere.
 pub const DENSITY_INPUT: Input = Input::required(&["density_kg_m3"]);
@@ -27,6 +32,8 @@ pub const MOTION_INPUTS: [Input; 3] = [
 pub enum AnyRestitution<T> {
     Constant(ConstantRestitution<T>),
     Speed(SpeedRestitution<T>),
+    Power(PowerRestitution<T>),
+    ElasticPlastic(ElasticPlasticRestitution<T>),
 }
 
 impl<T: Real> RestitutionLaw<T> for AnyRestitution<T> {
@@ -34,6 +41,8 @@ impl<T: Real> RestitutionLaw<T> for AnyRestitution<T> {
         match self {
             Self::Constant(law) => law.restitution(speed),
             Self::Speed(law) => law.restitution(speed),
+            Self::Power(law) => law.restitution(speed),
+            Self::ElasticPlastic(law) => law.restitution(speed),
         }
     }
 
@@ -41,22 +50,33 @@ impl<T: Real> RestitutionLaw<T> for AnyRestitution<T> {
         match self {
             Self::Constant(law) => law.approach_speed(body_rebound),
             Self::Speed(law) => law.approach_speed(body_rebound),
+            Self::Power(law) => law.approach_speed(body_rebound),
+            Self::ElasticPlastic(law) => law.approach_speed(body_rebound),
         }
     }
 }
 
 /// The restitution law of a row, in numbers that `number` makes of those in its cells.
 pub fn restitution_law<T: Scalar, N: Real>(row: &Row<'_>, number: fn(T) -> N) -> Result<AnyRestitution<N>, String> {
-    match (row.number("restitution")?, row.number("restitution_speed_m_s")?) {
-        (Some(r), None) => {
-            ConstantRestitution::new(number(r)).map(AnyRestitution::Constant).map_err(|error| row.reason(error))
+    let power = row.number("restitution_power")?.map(number);
+    let given = (row.number("restitution")?, row.number("restitution_speed_m_s")?, row.number("yield_speed_m_s")?);
+    let law = match given {
+        (Some(r), None, None) => ConstantRestitution::new(number(r)).map(AnyRestitution::Constant),
+        (None, Some(k), None) => match power {
+            Some(power) => PowerRestitution::new(number(k), power).map(AnyRestitution::Power),
+            None => SpeedRestitution::new(number(k)).map(AnyRestitution::Speed),
+        },
+        (None, None, Some(speed)) => ElasticPlasticRestitution::new(number(speed)).map(AnyRestitution::ElasticPlastic),
+        (None, None, None) => {
+            return Err("restitution: missing; give restitution, restitution_speed_m_s or yield_speed_m_s".into());
         }
-        (None, Some(k)) => {
-            SpeedRestitution::new(number(k)).map(AnyRestitution::Speed).map_err(|error| row.reason(error))
+        _ => {
+            let columns = "restitution, restitution_speed_m_s and yield_speed_m_s";
+            return Err(format!("restitution: given twice; of {columns} leave all but one empty"));
         }
-        (None, None) => Err("restitution: missing; give restitution or restitution_speed_m_s".into()),
-        (Some(_), Some(_)) => {
-            Err("restitution: given twice, as restitution and restitution_speed_m_s; leave one of them empty".into())
-        }
+    };
+    if power.is_some() && given.1.is_none() {
+        return Err("restitution_power: restitution_speed_m_s is missing; give it too or leave the cell empty".into());
     }
+    law.map_err(|error| row.reason(error))
 }

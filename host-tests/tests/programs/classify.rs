@@ -120,6 +120,43 @@ fn all_ways_to_give_a_term() {
     }
 }
 
+/// Other laws of restitution and of adhesion of the rigid body, and the yield speed of the simulation.
+#[test]
+fn laws_that_depend_on_speed() {
+    let header = "radius_m,density_kg_m3,restitution,restitution_speed_m_s,restitution_power,yield_speed_m_s,adhesion_speed_m_s,adhesion_power,speed_normal_m_s\n";
+    let rows = [
+        "5e-6,2600,,4,0.5,,,,1\n",
+        "5e-6,2600,,,,0.5,,,5\n",
+        "5e-6,2600,1,,,,2,2,4\n",
+        "5e-6,2600,1,,,,4,,4\n",
+        "5e-6,2600,1,,0.5,,,,4\n",
+        "5e-6,2600,1,,,,,2,4\n",
+        "5e-6,2600,1,,,0.5,,,4\n",
+        "5e-6,2600,,4,1.5,,,,1\n",
+    ];
+    let (written, status) = classified(&(header.to_owned() + &rows.concat()));
+    assert_eq!(status, 1);
+    for (row, e) in [(0, 1.0 / 1.5), (1, 0.658558336665), (2, 0.8), (3, 0.5)] {
+        assert!((written.number(row, "overall_restitution") - e).abs() < 1e-11, "{row}");
+    }
+    for (row, words) in [
+        (4, "restitution_power: restitution_speed_m_s is missing"),
+        (5, "adhesion_power: adhesion_speed_m_s is missing"),
+        (6, "restitution: given twice"),
+        (7, "power of the restitution law is 1.5, but must be 0.01 to 1"),
+    ] {
+        assert!(written.text(row, "error").contains(words), "{}", written.text(row, "error"));
+    }
+
+    let table = "radius_m,density_kg_m3,stiffness_pa,yield_pressure_pa,speed_normal_m_s\n5e-6,1050,4.6e9,3e8,20\n5e-6,1050,4.6e9,,20\n";
+    let output = run(&["-", "--model", "simulation", "--format", "csv"], table.as_bytes());
+    let written = Written::read(&output.stdout, b',');
+    // 1.56052 (4 p/(3 K))^2 (p/density)^(1/2)
+    let speed = 1.56052147561322 * (4.0 * 3e8 / (3.0 * 4.6e9_f64)).powi(2) * (3e8_f64 / 1050.0).sqrt();
+    assert!((written.number(0, "speed_over_yield") * speed / 20.0 - 1.0).abs() < 1e-9);
+    assert_eq!(written.text(1, "speed_over_yield"), "");
+}
+
 /// What Excel writes where commas are decimal marks: semicolons, a byte-order mark and CRLF.
 #[test]
 fn spreadsheet_dialects() {

@@ -244,7 +244,8 @@ fn columns_used_defaulted_and_not_read() {
         [
             "classify: columns used: radius_m, density_kg_m3, restitution_speed_m_s, speed_normal_m_s",
             "  columns absent, and what is used: gyration_ratio (0.4, a solid sphere), speed_tangential_m_s (0 m/s), \
-             spin_rad_s (0 rad/s), friction (0), adhesion_coefficient or work_of_adhesion_j (no adhesion), \
+             spin_rad_s (0 rad/s), friction (0), restitution_power (1), adhesion_coefficient or work_of_adhesion_j or \
+             adhesion_speed_m_s (no adhesion), adhesion_power (1), \
              impulse_ratio (as friction gives it), rolling_arm_m (0 m)",
             "  columns not read: work_of_adhesion (did you mean `work_of_adhesion_j`?), fricton (did you mean \
              `friction`?), remark",
@@ -319,7 +320,7 @@ fn absent_required_columns_are_one_error() {
         assert!(output.complaint().contains(words), "{}", output.complaint());
     }
     let neither = said("radius_m,density_kg_m3,speed_normal_m_s\n", "classify", &[]);
-    assert!(neither.contains("restitution or restitution_speed_m_s; "), "{neither}");
+    assert!(neither.contains("restitution or restitution_speed_m_s or yield_speed_m_s; "), "{neither}");
 }
 
 /// The help of a command names all columns that the command reads.

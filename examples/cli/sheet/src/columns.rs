@@ -82,7 +82,8 @@ fn has_words_of(column: &str, name: &str) -> bool {
 }
 
 /// Columns of different quantities whose names are alike, so that neither is a misspelling of the other.
-const ALIKE: [&str; 2] = ["work_of_adhesion_j", "work_of_adhesion_j_m2"];
+const ALIKE: [&str; 5] =
+    ["work_of_adhesion_j", "work_of_adhesion_j_m2", "adhesion_n_m", "adhesion_speed_m_s", "adhesion_power"];
 
 /// How likely it is that a column is meant by a name, larger for a better guess; `None` if it is unlikely.
 fn likeness(name: &str, column: &str) -> Option<f64> {

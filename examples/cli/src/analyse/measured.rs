@@ -8,7 +8,7 @@ use microimpact::{
 use sheet::{Input, Row};
 
 use crate::command::Number;
-use crate::inputs::{DENSITY_INPUT, GYRATION_INPUT, RESTITUTION_INPUT, restitution_law};
+use crate::inputs::{DENSITY_INPUT, GYRATION_INPUT, POWER_INPUT, RESTITUTION_INPUT, restitution_law};
 
 /// Results with their derivatives by the six measured velocities: normal, tangential and peripheral, before and after.
 pub type Inputs<T> = Dual<T, 6>;
@@ -26,11 +26,12 @@ pub struct Measured<T: Real> {
 }
 
 /// The numbers of a measured impact.
-pub const INPUTS: [Input; 11] = [
+pub const INPUTS: [Input; 12] = [
     Input::required(&["diameter_m", "radius_m"]),
     DENSITY_INPUT,
     GYRATION_INPUT,
     RESTITUTION_INPUT,
+    POWER_INPUT,
     Input::required(&["speed_normal_m_s"]),
     Input::optional(&["speed_tangential_m_s"], "0 m/s"),
     Input::optional(&["spin_rad_s"], "that of a sphere that rolls at separation"),

@@ -29,7 +29,8 @@ use summary::Summary;
 ///
 /// Input columns, in SI units. Brackets give the value that an empty or absent cell has; the other columns are required.
 ///   diameter_m or radius_m, density_kg_m3, gyration_ratio (k^2/r^2) [0.4, a solid sphere],
-///   restitution (R) or restitution_speed_m_s (k of R = k/(k + v)),
+///   restitution (R), or restitution_speed_m_s and restitution_power (k and p of R = k^p/(k^p + v^p)) [p = 1],
+///   or yield_speed_m_s (elastic-plastic, Thornton 1997),
 ///   speed_normal_m_s (approach speed, a positive number), speed_tangential_m_s [0],
 ///   spin_rad_s [not measured: the sphere is assumed to roll at separation, and the spin that this implies is computed],
 ///   rebound_speed_m_s, speed_tangential_out_m_s,

@@ -5,14 +5,14 @@ use microimpact::contact::{
     TangentialVelocities,
 };
 use microimpact::rigid::EnergyLedger;
-use microimpact::{Class, Outcome, SurfaceMotion};
+use microimpact::{Approach, Class, Hertz, Outcome, SurfaceMotion};
 use sheet::{Input, Row};
 
 use super::method::Simulator;
 use super::{SCENE_INPUTS, sphere_and_motion};
 use crate::command::{BadRow, Number, Work};
 use crate::contact_law::{LAW_INPUTS, LawName, RowLaw};
-use crate::inputs::PEELING_INPUT;
+use crate::inputs::{PEELING_INPUT, YIELD_INPUT};
 use crate::words::{motion_name, name_of, outcome_name};
 
 /// The simulation by a method, in numbers of type `T`.
@@ -37,6 +37,7 @@ pub struct Simulated<T> {
     energy: Option<EnergyLedger<T>>,
     groups: Option<Groups<T>>,
     pub law: LawName,
+    speed_over_yield: Option<T>,
 }
 
 impl<T: Number> Simulated<T> {
@@ -68,7 +69,7 @@ impl<T: Number> Simulated<T> {
 
     /// The cells of the columns that the model computes.
     fn cells(&self, row: &Row<'_>) -> Vec<String> {
-        let Self { outcome, normal, times, impulses, works, slip, groups, law, .. } = self;
+        let Self { outcome, normal, times, impulses, works, slip, groups, law, speed_over_yield, .. } = self;
         let (followed, to_end) = (self.followed(), self.followed_to_end());
         let optional = |value: Option<T>| value.map(|value| row.cell(value)).unwrap_or_default();
         let at_end = |value: T| optional(to_end.then_some(value));
@@ -100,6 +101,7 @@ impl<T: Number> Simulated<T> {
             optional(groups.map(|groups| groups.material_damping)),
             optional(groups.map(|groups| groups.adhesion_damping)),
             name_of(law),
+            optional(*speed_over_yield),
         ]
     }
 
@@ -139,6 +141,11 @@ impl<T: Number> SimulationModel<T> {
         // Without a moment this is the same motion; so the solver is compiled for one scene only.
         let scene = Contact::new(sphere, law).with_friction(friction).and_then(|scene| scene.with_peeling(peeling));
         let scene = scene.map_err(|error| row.reason(error))?;
+        let yield_speed = match row.number("yield_pressure_pa")? {
+            Some(pressure) => Some(Hertz::yield_speed(&sphere, row_law.stiffness, pressure)),
+            None => None,
+        };
+        let yield_speed = yield_speed.transpose().map_err(|error| row.reason(error))?;
         let groups = row_law.groups(sphere, &before).map_err(|error| row.reason(error))?;
         let (impact, ((times, impulses, works), (slip, energy))) =
             (self.simulator.simulate)(&scene, &before).map_err(|error| row.reason(error))?;
@@ -160,13 +167,14 @@ impl<T: Number> SimulationModel<T> {
             energy,
             groups,
             law: row_law.name,
+            speed_over_yield: yield_speed.map(|speed| before.normal().speed() / speed),
         })
     }
 }
 
 impl<T: Number> Work for SimulationModel<T> {
     fn inputs(&self) -> Vec<Input> {
-        [&SCENE_INPUTS[..], &LAW_INPUTS, &[PEELING_INPUT]].concat()
+        [&SCENE_INPUTS[..], &LAW_INPUTS, &[PEELING_INPUT, YIELD_INPUT]].concat()
     }
 
     fn columns(&self) -> Vec<String> {
@@ -192,6 +200,7 @@ impl<T: Number> Work for SimulationModel<T> {
             "group_h",
             "group_g",
             "law",
+            "speed_over_yield",
         ]
         .map(String::from)
         .into()
@@ -258,7 +267,11 @@ radius_m,density_kg_m3,stiffness_pa,adhesion_n_m,zeta_h,zeta_a,friction,speed_no
             let named = model.columns().into_iter().zip(cells).filter(|(_, cell)| !cell.is_empty());
             named.map(|(column, _)| column).collect::<Vec<_>>()
         };
-        assert_eq!(filled(&rebound).len(), model.columns().len() - 1, "all but the turning point of a capture");
+        assert_eq!(
+            filled(&rebound).len(),
+            model.columns().len() - 2,
+            "all but the turning point of a capture and the yield"
+        );
 
         let undecided = Simulated { outcome: Outcome::Undecided, class: Class::Undecided, ..rebound };
         assert_eq!(undecided.cells(&row)[0], "undecided");

@@ -27,13 +27,16 @@ pub use method::OfferedNodes;
 ///   gyration_ratio (k^2/r^2) [0.4, a solid sphere], speed_tangential_m_s [0], spin_rad_s [0],
 ///   friction (Coulomb's coefficient f) [0].
 /// The rigid-body model also reads
-///   restitution (R) or restitution_speed_m_s (k of R = k/(k + v)),
-///   adhesion_coefficient (rho) or work_of_adhesion_j [no adhesion],
+///   restitution (R), or restitution_speed_m_s and restitution_power (k and p of R = k^p/(k^p + v^p)) [p = 1],
+///   or yield_speed_m_s (elastic-plastic, Thornton 1997),
+///   adhesion_coefficient (rho), or work_of_adhesion_j, or adhesion_speed_m_s and adhesion_power
+///   (l and q of rho = l^q/(l^q + v^q)) [no adhesion; q = 1],
 ///   impulse_ratio (mu) instead of friction, rolling_arm_m (mu_m a_c) [0].
 /// The simulation also reads
 ///   stiffness_pa (K), adhesion_n_m (f0) [0], zeta_h [0], zeta_a [0], peeling_n_m (lambda) [0],
 ///   external_force_n (positive out of the surface) [0],
-///   law, work_of_adhesion_j_m2, damping, damping_value, end_rule (below).
+///   law, work_of_adhesion_j_m2, damping, damping_value, end_rule (below),
+///   yield_pressure_pa (contact yield pressure) [not known].
 ///
 /// Computed by the simulation: restitution is the overall restitution. motion is sliding, rolling or resting, at separation
 /// or, for a captured sphere, when its slip has ended. time_roll_s is the time at which slip ends: 0 if there was no slip,
@@ -43,7 +46,8 @@ pub use method::OfferedNodes;
 /// sphere so far. In both cases the cells of a turning point are empty. The summary gives the velocities when slip has
 /// ended. The outcome is undecided where a method cannot distinguish rebound from capture; the cells that depend on it are
 /// then empty. A row that a method cannot solve has its reason in the column error, and no outcome. The column law holds the
-/// law of contact: hertz, ring, dmt or jkr. With both models, columns of the rigid body begin with rigid_body_.
+/// law of contact: hertz, ring, dmt or jkr. Above 1, speed_over_yield marks impacts that leave a dent, which the simulation
+/// does not know; it is empty without a yield_pressure_pa. With both models, columns of the rigid body begin with rigid_body_.
 #[derive(Args)]
 #[command(verbatim_doc_comment, after_long_help = simulation_help())]
 pub struct Options {

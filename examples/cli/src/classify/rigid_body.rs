@@ -8,13 +8,15 @@ use sheet::{Input, Row, Scalar};
 
 use super::{SCENE_INPUTS, sphere_and_motion};
 use crate::command::{BadRow, Work};
-use crate::inputs::{AnyRestitution, RESTITUTION_INPUT, restitution_law};
+use crate::inputs::{AnyRestitution, POWER_INPUT, RESTITUTION_INPUT, restitution_law};
 use crate::words::{motion_name, outcome_name};
 
 /// The numbers that only this model reads.
-const INPUTS: [Input; 4] = [
+const INPUTS: [Input; 6] = [
     RESTITUTION_INPUT,
-    Input::optional(&["adhesion_coefficient", "work_of_adhesion_j"], "no adhesion"),
+    POWER_INPUT,
+    Input::optional(&["adhesion_coefficient", "work_of_adhesion_j", "adhesion_speed_m_s"], "no adhesion"),
+    Input::optional(&["adhesion_power"], "1"),
     Input::optional(&["impulse_ratio"], "as friction gives it"),
     Input::optional(&["rolling_arm_m"], "0 m"),
 ];
@@ -40,17 +42,27 @@ impl<T: Scalar> RigidBodyModel<T> {
     pub fn compute(&self, row: &Row<'_>) -> Result<Classified<T>, String> {
         let (sphere, before) = sphere_and_motion(row)?;
         let scene = RigidBody::new(sphere, restitution_law(row, |number: T| number)?);
-        match (row.number("adhesion_coefficient")?, row.number("work_of_adhesion_j")?) {
-            (None, None) => with_adhesion(row, &before, scene),
-            (Some(rho), None) => {
+        let power = row.number("adhesion_power")?;
+        let given =
+            [row.number("adhesion_coefficient")?, row.number("work_of_adhesion_j")?, row.number("adhesion_speed_m_s")?];
+        if power.is_some() && given[2].is_none() {
+            return Err("adhesion_power: adhesion_speed_m_s is missing; give it too or leave the cell empty".into());
+        }
+        match given {
+            [None, None, None] => with_adhesion(row, &before, scene),
+            [Some(rho), None, None] => {
                 with_adhesion(row, &before, scene.with_adhesion_coefficient(rho).map_err(|error| row.reason(error))?)
             }
-            (None, Some(work)) => {
+            [None, Some(work), None] => {
                 with_adhesion(row, &before, scene.with_work_of_adhesion(work).map_err(|error| row.reason(error))?)
             }
-            (Some(_), Some(_)) => {
-                let columns = "adhesion_coefficient and work_of_adhesion_j";
-                Err(format!("adhesion: given twice, as {columns}; leave one of them empty"))
+            [None, None, Some(speed)] => {
+                let scene = scene.with_adhesion_at_speed(speed, power.unwrap_or(T::ONE));
+                with_adhesion(row, &before, scene.map_err(|error| row.reason(error))?)
+            }
+            _ => {
+                let columns = "adhesion_coefficient, work_of_adhesion_j and adhesion_speed_m_s";
+                Err(format!("adhesion: given twice; of {columns} leave all but one empty"))
             }
         }
     }
