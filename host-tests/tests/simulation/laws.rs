@@ -2,6 +2,7 @@
 
 mod attraction;
 mod jkr;
+mod outputs;
 mod random;
 mod reference;
 mod spring;
