@@ -43,7 +43,7 @@ impl Family {
 const CLASSIFICATION: (Quantity, &str) = (Quantity::Classify, "instructions of the most expensive impact");
 const CALIBRATION: (Quantity, &str) = (Quantity::Calibrate, "instructions");
 
-const FAMILIES: [Family; 5] = [
+const FAMILIES: [Family; 7] = [
     Family {
         title: "Rigid body with R = k/(k + v), classified",
         name: "rigid-body",
@@ -78,6 +78,39 @@ const FAMILIES: [Family; 5] = [
             more("collocation/peeling", "+ peeling", "simulation/oblique"),
             more("collocation/recording-16", "normal + recording, 16 samples", "simulation/normal"),
             more("collocation/recording-32", "normal + recording, 32 samples", "collocation/recording-16"),
+        ],
+    },
+    Family {
+        title: "Laws of contact by Adaptive at 1e-6: each in a firmware of its own, measured on one board",
+        name: "laws-adaptive",
+        work: CLASSIFICATION,
+        steps: &[
+            start("law/hertz", "Hertz"),
+            start("law/hertz-hysteretic", "Hertz, hysteretic damping"),
+            start("law/hertz-viscoelastic", "Hertz, viscoelastic damping"),
+            start("law/hertz-constant", "Hertz, constant damping"),
+            start("law/hertz-viscoelastic-without-tension", "Hertz, viscoelastic damping, end without tension"),
+            start("law/ring-hysteretic", "ring, hysteretic damping"),
+            start("law/dmt", "DMT"),
+            start("law/dmt-viscoelastic", "DMT, viscoelastic damping"),
+            start("law/jkr", "JKR"),
+            start("law/jkr-hysteretic", "JKR, hysteretic damping"),
+            start("law/jkr-viscoelastic", "JKR, viscoelastic damping"),
+            start("law/jkr-constant", "JKR, constant damping"),
+        ],
+    },
+    Family {
+        title: "Laws of contact by FixedCost<7>, 3 iterations: each in a firmware of its own, measured on one board",
+        name: "laws-fixed-cost",
+        work: CLASSIFICATION,
+        steps: &[
+            start("law-fixed-cost/hertz", "Hertz"),
+            start("law-fixed-cost/hertz-hysteretic", "Hertz, hysteretic damping"),
+            start("law-fixed-cost/hertz-viscoelastic", "Hertz, viscoelastic damping"),
+            start("law-fixed-cost/hertz-constant", "Hertz, constant damping"),
+            start("law-fixed-cost/ring-hysteretic", "ring, hysteretic damping"),
+            start("law-fixed-cost/dmt", "DMT"),
+            start("law-fixed-cost/dmt-viscoelastic", "DMT, viscoelastic damping"),
         ],
     },
     Family {
