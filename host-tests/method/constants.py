@@ -127,6 +127,7 @@ C = [
     ("MOST_SPLITS", "40", "split", "Newton steps, halvings included, for the end of sliding"),
     ("CLOSE_TO_END_OF_SLIP", "0.03", "split: `find_end_of_slip`", "times the root of the tolerance: the last step is applied to first order"),
     ("SLIP_ROOT_ACCURACY, CUBIC_STEPS, POLYNOMIAL_STEPS", "1e-6, 4, 20", "along/motion: `rolls_at`, `first_root`", "only a first value; also the least distance from the ends of the interval"),
+    ("TENSION_STEPS, BEYOND", "80, 2", "along/pressing: `largest_tension`", "thirds of the coordinates up to twice the undamped peak, to all digits of the tension"),
     ("ROUNDINGS", "8 ε", "rolling: `rounding`", "a rolling speed that is only rounding"),
     ("**Units and Runge-Kutta-Gill**",),
     ("CAPTURE_MARGIN, LEAST_LACK", "3, 0.5", "gill", "changes at the peak, and fraction of what half as many steps lack, by which a capture is certain"),
