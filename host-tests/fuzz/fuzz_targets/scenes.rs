@@ -4,7 +4,7 @@
 //! cargo fuzz run --sanitizer none scenes
 //! ```
 //!
-//! The bytes become a scene with any of its terms (see the library of this package) and the settings of the methods. Checked:
+//! The bytes become a scene of any law with any of its terms (see the library of this package) and the settings of the methods. Checked:
 //!
 //! * nothing panics, and each scene ends in a result or in an [`InputError`];
 //! * outputs of a solved impact are finite, and those of methods that control their error always;
@@ -21,14 +21,14 @@ use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use libfuzzer_sys::fuzz_target;
 use microimpact::contact::{
     Adaptive, AdaptiveNodes, AnyLaw, Classified, Collocation, Contact, ContactImpulses, ContactTimes, ContactWorks,
-    DimensionlessContact, DimensionlessImpact, Energy, FixedCost, Impulses, Method, NormalContact, Output,
+    DimensionlessContact, DimensionlessImpact, Energy, FixedCost, Impulses, JkrEnd, Method, NormalContact, Output,
     PhaseSamples, Recording, RestCriterion, RungeKuttaGill, Sample, SimulatedImpact, Slip, SlipHistory, Status,
     Surface, TangentialVelocities, Times, Trajectory, Works,
 };
 use microimpact::rigid::EnergyLedger;
 use microimpact::{
-    Approach, CriticalSpeed, FixedPoint, InputError, NormalMotion, Outcome, Parameter, PlanarMotion, Real, Sphere,
-    Stiffness,
+    Approach, CriticalSpeed, FixedPoint, Hertz, InputError, NormalMotion, Outcome, Parameter, PlanarMotion, Real,
+    Sphere, Stiffness,
 };
 use microimpact_fuzz::{scene, size};
 use truth::Scene;
@@ -57,6 +57,8 @@ struct Trial {
     groups: [f64; 3],
     /// The speed over the critical one, less one, where it is to be near.
     near_critical: Option<f64>,
+    law: Law,
+    damping: Damping,
 }
 
 /// The terms of a scene.
@@ -68,6 +70,23 @@ struct Terms {
     surface: Along,
 }
 
+/// The law of contact: the paper's, or another with adhesion of about the same strength.
+#[derive(Debug, PartialEq)]
+enum Law {
+    Paper,
+    Dmt,
+    Jkr(JkrEnd),
+    WithoutTension,
+}
+
+/// The damping of the materials: the paper's, or another of about the same strength.
+#[derive(Debug, PartialEq)]
+enum Damping {
+    Hysteretic,
+    Viscoelastic,
+    Constant,
+}
+
 /// What happens along the surface.
 #[derive(Debug, PartialEq)]
 enum Along {
@@ -75,6 +94,9 @@ enum Along {
     Friction,
     Peeling,
 }
+
+/// Work of adhesion (J/m^2) over the strength of a ring (N/m) with about the same force.
+const WORK_OVER_RING: f64 = 0.02;
 
 /// More steps take too long.
 const MOST_STEPS: u8 = 100;
@@ -96,7 +118,7 @@ impl Trial {
                 _ => Along::Friction,
             },
         };
-        Ok(Self {
+        let mut trial = Self {
             tolerance: size(bytes, Parameter::Tolerance.range())?,
             iterations: u32::from(bytes.arbitrary::<u8>()? % 44),
             steps: u32::from(bytes.arbitrary::<u8>()? % MOST_STEPS),
@@ -107,7 +129,30 @@ impl Trial {
             near_critical: (near & 3 == 3).then(|| sign * 10_f64.powf(-f64::from(near >> 3) / 3.1)),
             scene,
             terms,
-        })
+            law: Law::Paper,
+            damping: Damping::Hysteretic,
+        };
+        // Last, so that bytes which end here mean what they always meant.
+        let kind = bytes.arbitrary::<u8>()?;
+        trial.law = match kind % 6 {
+            1 | 2 => Law::Dmt,
+            3 => Law::Jkr(JkrEnd::SnapOff),
+            4 => Law::Jkr(JkrEnd::PullOff),
+            5 => Law::WithoutTension,
+            _ => Law::Paper,
+        };
+        trial.damping = match kind / 6 % 4 {
+            1 | 2 => Damping::Viscoelastic,
+            3 => Damping::Constant,
+            _ => Damping::Hysteretic,
+        };
+        if !matches!(trial.law, Law::Paper | Law::Dmt) {
+            trial.terms.force = false;
+        }
+        if trial.law != Law::Paper && trial.terms.surface == Along::Peeling {
+            trial.terms.surface = Along::Friction;
+        }
+        Ok(trial)
     }
 
     fn run<T: Real + AdaptiveNodes + PhaseSamples<5, 9>>(&self) -> std::result::Result<(), InputError> {
@@ -135,12 +180,29 @@ impl Trial {
 
     fn law<T: Real>(&self, stiffness: Stiffness<T>) -> std::result::Result<AnyLaw<T>, InputError> {
         let (scene, number) = (&self.scene, T::constant);
-        let mut law = AnyLaw::hertz(stiffness);
-        if self.terms.ring {
-            law = AnyLaw::ring(stiffness, number(scene.adhesion), number(scene.adhesion_damping))?;
-        }
+        let work = number(WORK_OVER_RING * scene.adhesion);
+        let mut law = match self.law {
+            Law::Dmt => AnyLaw::dmt(stiffness, work)?,
+            Law::Jkr(end) => AnyLaw::jkr(stiffness, work, end)?,
+            Law::WithoutTension => AnyLaw::without_tension(stiffness),
+            Law::Paper if self.terms.ring => {
+                AnyLaw::ring(stiffness, number(scene.adhesion), number(scene.adhesion_damping))?
+            }
+            Law::Paper => AnyLaw::hertz(stiffness),
+        };
         if self.terms.damping {
-            law = law.with_damping(number(scene.material_damping))?;
+            let zeta = scene.material_damping;
+            law = match self.damping {
+                Damping::Hysteretic => law.with_damping(number(zeta))?,
+                // The damping force of both at the peak of Hertz's impact.
+                Damping::Viscoelastic => {
+                    let sphere = Sphere::solid(scene.radius, scene.density)?;
+                    let peak = Hertz::new(&sphere, Stiffness::new(scene.stiffness)?, &NormalMotion::new(scene.speed)?);
+                    let group = (sphere.mass() / scene.radius.powi(3) / scene.stiffness / scene.speed.sqrt()).powf(0.4);
+                    law.with_viscoelastic_damping(number(zeta * group * peak.indentation))?
+                }
+                Damping::Constant => law.with_constant_damping(number((-0.1 * zeta).exp()))?,
+            };
         }
         if self.terms.force {
             law = law.with_external_force(number(scene.force))?;

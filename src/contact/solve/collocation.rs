@@ -90,7 +90,7 @@ impl<const N: usize, T: Real> Collocation<N, T> {
     pub(super) fn control(&self, timed: bool) -> Control<T> {
         let times = if timed { T::constant(TIMED) } else { T::constant(UNTIMED) };
         let converged = (T::constant(CONVERGED) * self.tolerance).max(T::constant(LEAST_CHANGE) * T::EPSILON);
-        Control { converged, error: self.tolerance, times }
+        Control { converged, error: self.tolerance, times, approach: T::ZERO }
     }
 }
 

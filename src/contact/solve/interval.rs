@@ -22,6 +22,8 @@ pub(crate) struct Control<T> {
     /// Weight of the error of the time of an interval: more than one if times are asked for, less if only the end of the motion is,
     /// because energies depend little on its slow end, which makes times inexact.
     pub(crate) times: T,
+    /// Square of the speed before the impact, which errors of the energy count against; zero where they count against what moves.
+    pub(crate) approach: T,
 }
 
 /// A point of the path.
@@ -338,13 +340,23 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
 
     /// Estimated error: the square of what the highest polynomial of the nodes contributes, since Radau's
     /// quadrature converges twice as fast as interpolation.
+    ///
+    /// The error of the losses is that square as a fraction of them. Where adhesion has multiplied the energy of the impact, losses
+    /// that are small here are not small against that energy.
     #[inline]
     fn error(&self, scale: T, rate: &[T; N], control: &Control<T>) -> T {
-        let tail = |f: &[T; N]| dot(&T::HIGHEST_COEFFICIENT, f).abs();
-        let fraction = tail(&self.power) / (dot(&T::WEIGHTS, &self.power).abs() + scale + T::SMALLEST);
+        let tail = dot(&T::HIGHEST_COEFFICIENT, &self.power).abs();
+        let lost = dot(&T::WEIGHTS, &self.power).abs();
+        let fraction = tail / (lost + scale + T::SMALLEST);
         let fraction =
             if control.times > T::ZERO { fraction.max(control.times * tail_of_times(rate)) } else { fraction };
-        T::constant(TAIL_ERROR) * fraction * fraction
+        let square = fraction * fraction;
+        if control.approach > T::ZERO && scale > control.approach {
+            // A sphere that loses more than it came with is captured, whatever the error.
+            let energy = control.approach.max(lost);
+            return T::constant(TAIL_ERROR) * square.max(tail / energy * (tail / (lost + T::SMALLEST)));
+        }
+        T::constant(TAIL_ERROR) * square
     }
 }
 

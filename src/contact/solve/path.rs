@@ -250,6 +250,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     /// At first contact, with a kinetic energy.
     pub(crate) fn arriving(law: &'a L, energy: T, control: Control<T>, observer: &'a mut O) -> Self {
         let at = Point::arriving(law, energy);
+        let control = Control { approach: at.speed_squared, ..control };
         let mut follower = Self::from(law, control, observer, at);
         follower.barrier = well::barrier(law);
         let (surplus, uncertain) = follower.surplus();

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::sync::LazyLock;
 
 use microimpact::contact::{Adaptive, AnyLaw, Collocation, Contact, FixedCost, JkrEnd, Method, RungeKuttaGill};
-use microimpact::{NormalMotion, Outcome, Real, Sphere, Stiffness};
+use microimpact::{CriticalSpeed, NormalMotion, Outcome, Real, Sphere, Stiffness};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use reference::repetitions;
@@ -21,6 +21,7 @@ struct Scene {
     damping: usize,
     adhesion: f64,
     strength: f64,
+    ring_damping: f64,
     speed: f64,
 }
 
@@ -40,15 +41,27 @@ impl Scene {
             "constant" => f64::from(random.random_range(0.2_f32..1.0)),
             _ => decades(-3.0, 0.0),
         };
-        Self { law, damping, adhesion, strength, speed }
+        Self { law, damping, adhesion, strength, ring_damping: 0.2, speed }
+    }
+
+    /// So weakly damped that adhesion multiplies the energy of an impact near the critical speed: losses are small against what moves,
+    /// and not against that energy.
+    fn weakly_damped(number: usize, random: &mut StdRng) -> Option<Self> {
+        let scene = Self::random(number, random);
+        let weak = 10_f64.powf(random.random_range(-6.0..-2.0));
+        let strength = if DAMPINGS[scene.damping] == "constant" { 1.0 - weak } else { weak };
+        let scene = Self { strength: f64::from(strength as f32), ring_damping: f64::from(weak as f32), ..scene };
+        let critical = scene.contact::<f64>().critical_speed(&Adaptive::new(1e-10).unwrap()).unwrap();
+        let distance = 10_f64.powf(random.random_range(-6.0..0.0)) * if random.random() { 1.0 } else { -0.9 };
+        let CriticalSpeed::At(critical) = critical else { return None };
+        Some(Self { speed: f64::from((critical * (1.0 + distance)) as f32), ..scene })
     }
 
     fn contact<T: Real>(&self) -> Contact<T, AnyLaw<T>> {
-        const RING_DAMPING: f64 = 0.2;
         let (stiffness, adhesion) = (Stiffness::new(T::ONE).unwrap(), T::constant(self.adhesion));
         let law = match LAWS[self.law] {
             "hertz" => Ok(AnyLaw::hertz(stiffness)),
-            "ring" => AnyLaw::ring(stiffness, adhesion, T::constant(RING_DAMPING)),
+            "ring" => AnyLaw::ring(stiffness, adhesion, T::constant(self.ring_damping)),
             "dmt" => AnyLaw::dmt(stiffness, adhesion),
             "without tension" => Ok(AnyLaw::without_tension(stiffness)),
             "jkr to snap-off" => AnyLaw::jkr(stiffness, adhesion, JkrEnd::SnapOff),
@@ -71,8 +84,10 @@ impl Scene {
 
 static SCENES: LazyLock<Vec<Solved>> = LazyLock::new(|| {
     let (mut random, exact) = (StdRng::seed_from_u64(14), Collocation::<14, f64>::new(1e-13).unwrap());
-    let scenes = (0..repetitions(24_000, 2_400)).map(|number| Scene::random(number, &mut random));
-    let solved = scenes.filter_map(|scene| {
+    let count = repetitions(24_000, 2_400);
+    let mut scenes: Vec<_> = (0..count).map(|number| Scene::random(number, &mut random)).collect();
+    scenes.extend((0..count).filter_map(|number| Scene::weakly_damped(number, &mut random)));
+    let solved = scenes.into_iter().filter_map(|scene| {
         let contact = scene.contact::<f64>().solve_normal(&scene.motion(), &exact).unwrap();
         let outcome = contact.outcome().unwrap_or_else(|| panic!("{scene:?}"));
         let restitution_squared = contact.overall_restitution().powi(2);
