@@ -166,7 +166,7 @@ parameters! {
         /// Strength lambda of the peeling moment.
         PeelingMoment: "peeling moment", "N m", 0.0 to 1e3;
         /// Adhesion relative to inertia: 5/3 of the equilibrium indentation, divided by the peak indentation of Hertz's
-        /// impact.
+        /// impact. For DMT's adhesion, 5/4 of the force, divided by the elastic force at that peak.
         AdhesionRatio: "adhesion over inertia", "1", 0.0 to 1e10;
         /// External force relative to elasticity: 5/4 of the force, divided by the elastic force at the peak indentation.
         ForceRatio: "external force over elasticity", "1", -1e6 to 1e6;
@@ -371,7 +371,7 @@ impl fmt::Display for InputError {
                 "be at least 1e-3 with four nodes, 3e-4 with five, 1e-5 with six, 1e-7 with seven, 1e-9 with eight and 1e-11 \
                  with nine; use more nodes or `Adaptive`",
             ),
-            Fault::OtherLaw => f.write_str("be zero with this law of contact; choose another law"),
+            Fault::OtherLaw => f.write_str("be zero with this law or end of contact; choose another"),
             Fault::OutOfOrder if parameter == Parameter::ReboundSpeed => {
                 f.write_str("not be below that of the point before; R v never falls with the speed v")
             }
@@ -397,6 +397,8 @@ impl InputError {
             {
                 write!(f, "; enter {value}{unit} as {}", Number(-self.value))
             }
+            Parameter::AdhesionRatio => f.write_str("; the approach speed is too small for this adhesion"),
+            Parameter::ForceRatio => f.write_str("; the approach speed is too small for this external force"),
             Parameter::Radius | Parameter::Thickness
                 if self.fault == Fault::TooLarge && (0.0..1e4).contains(&self.value) =>
             {

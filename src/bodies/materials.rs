@@ -115,6 +115,7 @@ const MAKE_IT_FROM: &str = "MakeItFrom.com, fused silica";
 const PHARES: &str = "Phares et al. 2000, by the database of Nasr";
 const SURFACE_ENERGIES: &str = "Sabreen Group, surface energies of untreated polymers";
 const WEB_ELEMENTS: &str = "WebElements, gold";
+const GIZMO: &str = "GIZMO code, silicate grains";
 const AZOM: &str = "AZoM, article 9282";
 
 /// Materials of particles and of surfaces, in alphabetical order.
@@ -128,7 +129,7 @@ const AZOM: &str = "AZoM, article 9282";
 ///     println!("{}: E = {:e} Pa ({})", material.name, material.youngs_modulus.value, material.youngs_modulus.source);
 /// }
 /// ```
-pub const MATERIALS: [KnownMaterial; 16] = [
+pub const MATERIALS: [KnownMaterial; 15] = [
     KnownMaterial::new("aluminium alloy", 70e9, 0.33, 2700.0, CHUNG_OOI),
     KnownMaterial::new("aluminium oxide", 380e9, 0.23, 4000.0, CHUNG_OOI),
     KnownMaterial::new("ammonium fluorescein", 1.2e9, 0.3, 1350.0, PASHA).with_yield_pressure(35.3e6, PASHA),
@@ -141,11 +142,12 @@ pub const MATERIALS: [KnownMaterial; 16] = [
         .with_density(922.5, "Squire et al. 1995, Annu. Rev. Fluid Mech. 27:115")
         .with_surface_energy(0.19, "Gundlach et al. 2011, Icarus 214:717"),
     KnownMaterial::new("limestone", 20e9, 0.25, 2500.0, CHUNG_OOI),
-    KnownMaterial::new("nylon", 2.5e9, 0.4, 1000.0, CHUNG_OOI),
-    KnownMaterial::new("polyethylene", 1e9, 0.4, 1400.0, CHUNG_OOI).with_surface_energy(0.03, SURFACE_ENERGIES),
     KnownMaterial::new("polystyrene", 2.8e9, 0.33, 1050.0, PHARES)
         .with_density(1050.0, "Cardarelli 2018, Materials Handbook")
         .with_surface_energy(0.038, SURFACE_ENERGIES),
+    KnownMaterial::new("silica grain", 54e9, 0.17, 2650.0, GIZMO)
+        .with_density(2650.0, "DustSimulation code, silicate")
+        .with_surface_energy(0.025, GIZMO),
     KnownMaterial::new("silver", 76e9, 0.37, 10_500.0, AZOM),
     KnownMaterial::new("soda-lime glass", 72e9, 0.23, 2530.0, PILKINGTON),
     KnownMaterial::new("steel", 208e9, 0.3, 7850.0, CHUNG_OOI),

@@ -38,6 +38,9 @@ impl<T: Real, L: ContactLaw<T>> ContactForce<T, L> {
     /// The force, N, positive out of the surface, at an indentation (m) that grows at a rate (m/s, positive inwards). The external
     /// force is not part of it. `None` where there is no contact.
     ///
+    /// A contact of Johnson, Kendall and Roberts begins at zero indentation and lasts to a negative one. Whether spheres that far apart
+    /// have touched is for the caller to know.
+    ///
     /// ```
     /// use microimpact::contact::Contact;
     /// use microimpact::{NormalMotion, Sphere, Stiffness};
@@ -49,8 +52,11 @@ impl<T: Real, L: ContactLaw<T>> ContactForce<T, L> {
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn at(&self, indentation: T, rate: T) -> Option<T> {
-        let s = self.law.coordinate_in_contact(indentation / self.units.length)?;
-        let damping = self.law.damping(s, rate < T::ZERO) * (rate / self.units.speed);
+        let (s, rate) = (self.law.coordinate_in_contact(indentation / self.units.length)?, rate / self.units.speed);
+        if self.law.release_speed(s).is_some_and(|most| -rate > most) {
+            return None; // the contact has ended before
+        }
+        let damping = self.law.damping(s, rate < T::ZERO) * rate;
         Some(self.force * (self.law.elastic_force(s) - self.law.adhesion_force(s) + damping))
     }
 }

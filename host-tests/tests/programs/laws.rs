@@ -237,15 +237,15 @@ fn refused_rows_say_why() {
         ),
         (
             &[("law", "jkr"), WORK, ("external_force_n", "1e-9")],
-            "external_force_n: \"1e-9\" is refused: external force must be zero with this law of contact; choose another law",
+            "external_force_n: \"1e-9\" is refused: external force must be zero with this law or end of contact; choose another",
         ),
         (
             &[("end_rule", "no-force"), ("external_force_n", "1e-9")],
-            "external_force_n: \"1e-9\" is refused: external force must be zero with this law of contact; choose another law",
+            "external_force_n: \"1e-9\" is refused: external force must be zero with this law or end of contact; choose another",
         ),
         (
             &[("peeling_n_m", "1e-12")],
-            "peeling_n_m: \"1e-12\" is refused: peeling moment must be zero with this law of contact; choose another law",
+            "peeling_n_m: \"1e-12\" is refused: peeling moment must be zero with this law or end of contact; choose another",
         ),
         (
             &[("law", "dmt"), WORK, ("peeling_n_m", "1e-12")],

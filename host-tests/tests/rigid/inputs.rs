@@ -293,6 +293,8 @@ fn errors_name_the_parameter_its_range_and_unit() {
             assert!(text.starts_with(&start), "{text}");
             let range = text.rsplit_once("but must be ").unwrap().1;
             let range = range.strip_prefix("a number from ").unwrap_or(range);
+            // Before what to do.
+            let range = range.split("; ").next().unwrap();
             let mut words = range.split(' ');
             assert_eq!(words.next().unwrap().parse(), Ok(smallest), "{text}");
             assert_eq!(words.next(), Some("to"), "{text}");

@@ -80,6 +80,23 @@ fn power_one_is_the_law_of_the_paper() {
     assert_eq!(power.approach_speed(7.1), None);
 }
 
+/// Spheres that were captured, or a rebound speed that is the same at two speeds: the critical speed is the largest that captures.
+#[test]
+fn plateaus_of_a_table() {
+    let held = TabulatedRestitution::new([(1.0, 0.0), (2.0, 0.0), (3.0, 0.5)]).unwrap();
+    assert_eq!((held.restitution(0.0), held.restitution(f64::MAX)), (0.0, 0.5));
+    let scene = RigidBody::new(sphere(), held);
+    assert_eq!(scene.critical_speed(), CriticalSpeed::At(2.0));
+    for (speed, outcome) in [(1.5, Outcome::Capture), (2.0, Outcome::Capture), (2.1, Outcome::Rebound)] {
+        assert_eq!(scene.classify(&NormalMotion::new(speed).unwrap()).outcome, outcome, "{speed}");
+    }
+    let flat = TabulatedRestitution::new([(1.0, 0.8), (2.0, 0.4), (3.0, 0.9)]).unwrap();
+    assert_eq!((flat.restitution(0.0), flat.approach_speed(0.8)), (0.8, Some(2.0)));
+    let scene = RigidBody::new(sphere(), flat).with_work_of_adhesion(0.5 * sphere().mass() * 0.64).unwrap();
+    let CriticalSpeed::At(critical) = scene.critical_speed() else { panic!() };
+    assert!((critical - 2.0).abs() < 1e-12);
+}
+
 /// Does the same with every law.
 macro_rules! for_laws {
     ($time:expr, |$law:ident| $check:expr) => {{

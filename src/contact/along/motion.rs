@@ -366,8 +366,8 @@ impl<T: Real, P: PressingForce<T>, const PEELS: bool> Observer<T> for Tangential
         let closing = -(self.closing() * self.pressing.at(law, s));
         if !PEELS {
             let late = self.slip_after(law, interval) / closing;
-            // Where nothing presses nothing changes.
-            return if P::PRESSES_AT_REST || late.is_finite() { late } else { T::ZERO };
+            // Where nothing presses nothing changes, and a slip next to the smallest number ends where the force is none yet.
+            return if late.is_finite() { late } else { T::ZERO };
         }
         let slide = self.slide(law, interval);
         let slope = self.direction * closing + self.peeling * law.contact_radius(s) * slide.peripheral_after;

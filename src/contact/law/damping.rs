@@ -213,7 +213,8 @@ impl<T: Real> Damping<T> for HystereticDamping<T> {
 
     #[inline]
     fn release_speed(&self, _radius: T, _root: T) -> T {
-        T::ONE.saturating_div(self.rate)
+        // 1/c_H, which no rebound reaches: the damping would stop it.
+        T::ONE / T::EPSILON
     }
 }
 

@@ -49,7 +49,7 @@ impl<T: Real> Attraction<T> for Dmt<T> {
     #[inline]
     fn in_units(&self, sphere: &Sphere<T>, units: &HertzUnits<T>) -> Result<Self, InputError> {
         let force = T::constant(2.0 * PI) * self.strength * sphere.radius();
-        Ok(Self { strength: Parameter::ForceRatio.check(units.force(force, sphere))? })
+        Ok(Self { strength: Parameter::AdhesionRatio.check(units.force(force, sphere))? })
     }
 
     /// The contact radius is the cube root of 2 pi G r^2/K.

@@ -39,7 +39,7 @@ use crate::{InputError, Real, Sphere};
 /// numbers. The potential contains the elastic force and adhesion, but no damping. Where the indentation is not x = s^2,
 /// implement [`indentation`](Self::indentation), [`indentation_slope`](Self::indentation_slope),
 /// [`coordinate`](Self::coordinate), [`conservative_force`](Self::conservative_force),
-/// [`contact_radius`](Self::contact_radius) and [`energy_power`](Self::energy_power) too. The solver cannot check that
+/// [`contact_radius`](Self::contact_radius), [`energy_power`](Self::energy_power) and [`duration`](Self::duration) too. The solver cannot check that
 /// these functions agree: test yours by comparing [`slope`](Self::slope) and [`mean_slope`](Self::mean_slope) with
 /// differences of [`potential`](Self::potential), or the results of two methods with each other.
 ///

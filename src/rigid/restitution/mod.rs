@@ -43,6 +43,6 @@ pub trait RestitutionLaw<T> {
     /// Kinetic restitution R at an approach `speed` (m/s).
     fn restitution(&self, speed: T) -> T;
 
-    /// Approach speed v (m/s) for which R(v) v is `body_rebound` (m/s). `None` if no speed is fast enough.
+    /// Approach speed v (m/s), the largest one, for which R(v) v is `body_rebound` (m/s). `None` if no speed is fast enough.
     fn approach_speed(&self, body_rebound: T) -> Option<T>;
 }

@@ -65,14 +65,13 @@ impl<T: Real, const N: usize> TabulatedRestitution<T, N> {
         Ok(Self { points: rebounds })
     }
 
-    /// The coordinate `of` a point on the polygon through the origin and all points, where its coordinate `by` has a value; from
-    /// the last point on along the line from the origin.
+    /// The coordinate `of` a point on the polygon through the origin and all points, the last where its coordinate `by` has a value;
+    /// from the last point on along the line from the origin.
     fn interpolate(&self, value: T, by: impl Fn(&(T, T)) -> T, of: impl Fn(&(T, T)) -> T) -> T {
         let mut before = (T::ZERO, T::ZERO);
         for point in &self.points {
-            if value <= by(point) {
-                let (from, to) = (by(&before), by(point));
-                let fraction = if to > from { (value - from) / (to - from) } else { T::ONE };
+            if value < by(point) {
+                let fraction = (value - by(&before)) / (by(point) - by(&before));
                 return of(&before) + fraction * (of(point) - of(&before));
             }
             before = *point;
@@ -83,10 +82,11 @@ impl<T: Real, const N: usize> TabulatedRestitution<T, N> {
 
 impl<T: Real, const N: usize> RestitutionLaw<T> for TabulatedRestitution<T, N> {
     fn restitution(&self, speed: T) -> T {
-        if speed <= T::ZERO {
-            return T::ZERO;
+        match (self.points.first(), self.points.last()) {
+            (Some(first), _) if speed <= first.0 => first.1 / first.0,
+            (_, Some(last)) if speed >= last.0 => last.1 / last.0,
+            _ => self.interpolate(speed, |point| point.0, |point| point.1) / speed,
         }
-        (self.interpolate(speed, |point| point.0, |point| point.1) / speed).min(T::ONE)
     }
 
     fn approach_speed(&self, body_rebound: T) -> Option<T> {

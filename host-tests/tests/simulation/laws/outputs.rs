@@ -1,7 +1,7 @@
 //! Trajectories, rest, slip, tables and single precision with every law and damping.
 
 use microimpact::contact::{
-    Adaptive, AnyLaw, Contact, Impulses, JkrEnd, Recording, RestCriterion, Sample, Slip, Status, Times,
+    Adaptive, AdaptiveNodes, AnyLaw, Contact, Impulses, JkrEnd, Recording, RestCriterion, Sample, Slip, Status, Times,
 };
 use microimpact::table::{BoundaryTable, Lookup, RestitutionTable, TableRebound};
 use microimpact::{CriticalSpeed, NormalMotion, Outcome, Real, Sphere, Stiffness, SurfaceMotion};
@@ -71,6 +71,56 @@ fn trajectories_follow_the_law() {
             assert_close(sample.force, expected, 1e-7 * peak.force, &format!("{name} at {:e}", sample.indentation));
         }
     }
+}
+
+/// However strong, hysteretic damping never cancels the elastic force: contact ends at zero indentation by either rule.
+#[test]
+fn hysteretic_damping_never_pulls() {
+    fn check<T: AdaptiveNodes>(tolerance: T) {
+        let c = T::constant;
+        let stiffness = Stiffness::new(c(7.5e10)).unwrap();
+        let sphere = Sphere::solid(c(5e-6), c(2600.0)).unwrap();
+        let motion = NormalMotion::new(c(10.0)).unwrap();
+        for zeta in [100.0, 1000.0, 3445.56, 8613.9, 25841.7] {
+            let solved = |law: AnyLaw<T>| {
+                let scene = Contact::new(sphere, law.with_damping(c(zeta)).unwrap());
+                let method = Adaptive::new(tolerance).unwrap();
+                let (impact, (times, impulses)) = scene.solve_for(&motion, &method, (Times, Impulses)).unwrap();
+                let rebound = impact.normal.rebound_speed();
+                assert!(scene.force(&motion).unwrap().at(c(1e-9), -rebound).is_some());
+                [rebound, times.peak.unwrap(), times.contact.unwrap(), impulses.elastic]
+            };
+            let (found, expected) = (solved(AnyLaw::without_tension(stiffness)), solved(AnyLaw::hertz(stiffness)));
+            for (found, expected) in found.into_iter().zip(expected) {
+                let error = (found / expected - T::ONE).abs();
+                assert!(error <= c(10.0) * tolerance, "{zeta}: {found:?} {expected:?}");
+            }
+        }
+    }
+    check(1e-12_f64);
+    check(1e-6_f32);
+}
+
+/// The force ends where the contact does.
+#[test]
+fn no_force_after_release() {
+    let sphere = Sphere::solid(5.06e-6, 2600.0).unwrap();
+    let law = AnyLaw::without_tension(Stiffness::new(7.5e10).unwrap()).with_constant_damping(0.5).unwrap();
+    let force = Contact::new(sphere, law).force(&NormalMotion::new(1.0).unwrap()).unwrap();
+    assert!(force.at(2e-9, -0.1).unwrap() > 0.0 && force.at(2e-10, 0.5).unwrap() > 0.0);
+    assert_eq!(force.at(2e-10, -0.5), None);
+}
+
+/// The slowest spheres are captured as others are.
+#[test]
+fn slow_spheres_with_dmt() {
+    let sphere = Sphere::solid(1e-6, 1050.0).unwrap();
+    let law = AnyLaw::dmt(Stiffness::new(5e9).unwrap(), 0.05).unwrap().with_viscoelastic_damping(1e-9).unwrap();
+    let scene = Contact::new(sphere, law);
+    let solve = |speed| scene.solve(&NormalMotion::new(speed).unwrap(), &adaptive());
+    assert_eq!(solve(1e-6).unwrap().normal.outcome(), Some(Outcome::Capture));
+    let message = solve(1e-11).unwrap_err().to_string();
+    assert!(message.contains("adhesion over inertia") && message.ends_with("too small for this adhesion"), "{message}");
 }
 
 /// A captured sphere rests where the forces balance; without damping it never does.
