@@ -143,7 +143,7 @@ fn laws_that_depend_on_speed() {
         (4, "restitution_power: restitution_speed_m_s is missing"),
         (5, "adhesion_power: adhesion_speed_m_s is missing"),
         (6, "restitution: given twice"),
-        (7, "power of the restitution law is 1.5, but must be 0.01 to 1"),
+        (7, "restitution_power: \"1.5\" is refused: power of the restitution law must be 0.01 to 1"),
     ] {
         assert!(written.text(row, "error").contains(words), "{}", written.text(row, "error"));
     }
