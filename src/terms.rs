@@ -1,6 +1,5 @@
 //! Terms that both models share. The type of a scene tells which terms take part. An absent term has size zero and no code.
 
-use crate::contact::ElasticForce;
 use crate::{InputError, Parameter, Real};
 
 /// No adhesion.
@@ -22,6 +21,16 @@ pub struct NoAdhesion;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NoFriction;
+
+/// The elastic force alone, to which Coulomb's friction is proportional in the paper (B8).
+///
+/// ```
+/// assert_eq!(size_of::<microimpact::contact::ElasticForce>(), 0);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct ElasticForce;
 
 /// Coulomb friction between sphere and surface. The rigid body knows only the impulse of the normal force; in the simulation friction
 /// is proportional to the [`PressingForce`](crate::contact::PressingForce) `P`.

@@ -48,7 +48,7 @@ mod solve;
 mod trajectory;
 mod units;
 
-pub use along::{ElasticForce, Peeling, PressingForce, Surface, TangentialVelocities, TotalAndPullOff, TotalForce};
+pub use along::{Peeling, PressingForce, Surface, TangentialVelocities, TotalAndPullOff, TotalForce};
 pub use dimensionless::{DimensionlessContact, DimensionlessImpact};
 pub use force::ContactForce;
 pub use law::{
@@ -67,6 +67,7 @@ pub use solve::{
 };
 pub use trajectory::{Recording, Sample, Trajectory};
 
+pub use crate::terms::ElasticForce;
 use crate::{Coulomb, NoFriction};
 
 /// An elastic contact with damping, without adhesion and friction.

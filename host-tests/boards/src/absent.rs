@@ -42,7 +42,19 @@ const TERM: Term = Term { name: "", modules: &[], types: &[], methods: &[] };
 const FRICTION: [Term; 1] = [Term { name: "friction, spin", types: &["Coulomb"], methods: &["with_friction"], ..TERM }];
 
 /// What no rigid body of the proof uses.
-const OF_THE_RIGID_BODY: [Term; 4] = [
+const OF_THE_RIGID_BODY: [Term; 5] = [
+    Term {
+        name: "other laws of restitution and adhesion",
+        types: &[
+            "PowerRestitution",
+            "ElasticPlasticRestitution",
+            "ViscoelasticRestitution",
+            "TabulatedRestitution",
+            "SpeedAdhesion",
+        ],
+        methods: &["with_adhesion_at_speed"],
+        ..TERM
+    },
     Term {
         name: "rolling dissipation",
         types: &["RollingDissipation"],
@@ -61,7 +73,13 @@ const OF_THE_RIGID_BODY: [Term; 4] = [
 ];
 
 /// What no simulation of the proof uses.
-const OF_THE_SIMULATION: [Term; 9] = [
+const OF_THE_SIMULATION: [Term; 10] = [
+    Term {
+        name: "other forces that press",
+        types: &["TotalForce", "TotalAndPullOff"],
+        methods: &["with_friction_under"],
+        ..TERM
+    },
     Term {
         name: "laws chosen at run time",
         modules: &["chosen"],

@@ -9,7 +9,7 @@ mod relaxation;
 pub use coulomb::TangentialVelocities;
 pub use motion::TangentialMotion;
 pub use peeling::Peeling;
-pub use pressing::{ElasticForce, PressingForce, TotalAndPullOff, TotalForce};
+pub use pressing::{PressingForce, TotalAndPullOff, TotalForce};
 
 use super::law::{ContactLaw, Units};
 use super::solve::observer::Observer;

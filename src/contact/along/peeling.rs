@@ -1,10 +1,11 @@
 //! Coulomb's friction with a moment that slows the spin.
 
 use super::coulomb::surface_motion;
-use super::{ElasticForce, SlipStart, Surface, TangentialMotion, TangentialVelocities};
+use super::{SlipStart, Surface, TangentialMotion, TangentialVelocities};
 use crate::contact::law::{ContactLaw, Units};
 use crate::contact::solve::path::{End, NormalPath};
 use crate::rolling::rolling;
+use crate::terms::ElasticForce;
 use crate::{Coulomb, InputError, Oblique, Parameter, Real, Sphere};
 
 /// Coulomb's friction and the peeling moment g = -lambda c_A a theta' against the spin (B10).

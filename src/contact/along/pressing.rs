@@ -3,6 +3,7 @@
 use crate::Real;
 use crate::contact::law::ContactLaw;
 use crate::numbers::{NotConverged, root};
+use crate::terms::ElasticForce;
 
 /// The normal force to which Coulomb's friction is proportional.
 ///
@@ -39,16 +40,6 @@ pub trait PressingForce<T: Real>: Copy {
         None
     }
 }
-
-/// The elastic force alone, as in the paper (B8).
-///
-/// ```
-/// assert_eq!(size_of::<microimpact::contact::ElasticForce>(), 0);
-/// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct ElasticForce;
 
 impl<T: Real> PressingForce<T> for ElasticForce {
     const PRESSES_AT_REST: bool = true;
