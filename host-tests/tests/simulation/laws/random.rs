@@ -96,15 +96,16 @@ static SCENES: LazyLock<Vec<Solved>> = LazyLock::new(|| {
     solved.collect()
 });
 
-/// Every outcome that a method has has to be right, and its error of e^2 within so many times the stated bound.
-fn check<T: Real>(method: &impl Method<T>, bounds: f64) {
+/// Every outcome that a method has has to be right, and its error of e^2 within so many times the stated bound. Where it is
+/// undecided, e^2 is within `undecided` bounds.
+fn check<T: Real>(method: &impl Method<T>, bounds: f64, undecided: f64) {
     let mut faults = String::new();
     for Solved { scene, outcome, restitution_squared } in SCENES.iter() {
         let found = scene.contact::<T>().solve(&scene.motion(), method).unwrap();
         let (e, bound) = (found.normal.overall_restitution().to_f64(), found.run.error_bound.to_f64());
         let right = match found.normal.outcome() {
             None => true,
-            Some(Outcome::Undecided) => *restitution_squared <= 2.0 * bound,
+            Some(Outcome::Undecided) => *restitution_squared <= undecided * bound,
             Some(found) => found == *outcome && (e * e - restitution_squared).abs() <= bounds * bound,
         };
         if !right {
@@ -137,19 +138,19 @@ fn scenes_are_captures_and_rebounds_of_every_law() {
 /// Their error adds up to ten times the tolerance in few scenes of a damping that takes nearly all.
 #[test]
 fn methods_that_control_their_error() {
-    check(&Adaptive::new(1e-6).unwrap(), 10.0);
-    check(&Adaptive::new(1e-9).unwrap(), 10.0);
-    check(&Collocation::<7, f64>::new(1e-6).unwrap(), 10.0);
-    check(&Collocation::<9, f64>::new(1e-9).unwrap(), 10.0);
-    check::<f32>(&Adaptive::new(1e-6).unwrap(), 2.0);
+    check(&Adaptive::new(1e-6).unwrap(), 10.0, 2.0);
+    check(&Adaptive::new(1e-9).unwrap(), 10.0, 2.0);
+    check(&Collocation::<7, f64>::new(1e-6).unwrap(), 10.0, 2.0);
+    check(&Collocation::<9, f64>::new(1e-9).unwrap(), 10.0, 2.0);
+    check::<f32>(&Adaptive::new(1e-6).unwrap(), 2.0, 2.0);
 }
 
 #[test]
 fn methods_of_fixed_cost() {
-    check::<f64>(&FixedCost::<5>::new(3).unwrap(), 1.0);
-    check::<f64>(&FixedCost::<7>::new(3).unwrap(), 1.0);
-    check::<f64>(&FixedCost::<9>::new(20).unwrap(), 1.0);
-    check::<f32>(&FixedCost::<7>::new(3).unwrap(), 1.0);
+    check::<f64>(&FixedCost::<5>::new(3).unwrap(), 1.0, 2.0);
+    check::<f64>(&FixedCost::<7>::new(3).unwrap(), 1.0, 2.0);
+    check::<f64>(&FixedCost::<9>::new(20).unwrap(), 1.0, 2.0);
+    check::<f32>(&FixedCost::<7>::new(3).unwrap(), 1.0, 2.0);
     let method = FixedCost::<7>::new(3).unwrap();
     for law in ["hertz", "ring", "dmt"] {
         assert!(answered(&method, law) > 50, "{law}");
@@ -162,7 +163,8 @@ fn methods_of_fixed_cost() {
 #[test]
 fn steps_in_time() {
     let method = RungeKuttaGill::new(2000);
-    check::<f64>(&method, 5.0);
+    // Its error adds up to five bounds, by which it may take a rebound for undecided.
+    check::<f64>(&method, 5.0, 6.0);
     for law in ["hertz", "ring", "dmt"] {
         assert!(answered(&method, law) > 50, "{law}");
     }
