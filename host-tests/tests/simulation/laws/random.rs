@@ -163,8 +163,8 @@ fn methods_of_fixed_cost() {
 #[test]
 fn steps_in_time() {
     let method = RungeKuttaGill::new(2000);
-    // Its error adds up to five bounds, by which it may take a rebound for undecided.
-    check::<f64>(&method, 5.0, 6.0);
+    // Its error adds up to five bounds. Where a slow sphere turns back too early, the bound is up to ten times too small.
+    check::<f64>(&method, 5.0, 20.0);
     for law in ["hertz", "ring", "dmt"] {
         assert!(answered(&method, law) > 50, "{law}");
     }
