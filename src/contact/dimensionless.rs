@@ -1,6 +1,6 @@
 //! An impact as the solver sees it: a few numbers near one, which any number type holds.
 
-use super::law::{Attraction, ContactLaw, Damping, HertzLaw, HystereticDamping, NoForce, Ring};
+use super::law::{Attraction, Damping, HertzLaw, HystereticDamping, NoForce, Ring};
 use super::scene::Contact;
 use super::solve::path::NormalPath;
 use super::solve::{Method, Status};
@@ -129,10 +129,7 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>> DimensionlessImpact<T, D, A> {
     }
 }
 
-impl<T: Real, D: Damping<T>, A: Attraction<T>, S> Contact<T, HertzLaw<T, D, A>, S>
-where
-    HertzLaw<T, D, A>: ContactLaw<T>,
-{
+impl<T: Real, D: Damping<T>, A: Attraction<T>, S> Contact<T, HertzLaw<T, D, A>, S> {
     /// The impact of a sphere that arrives with `motion`, in units of its own.
     ///
     /// # Errors

@@ -2,8 +2,8 @@
 
 use crate::checking::{Checked, EXACT, take_largest};
 use microimpact::contact::{
-    Attraction, Collocation, Contact, ContactLaw, Damping, DimensionlessImpact, FixedCost, HertzLaw, PhaseSamples,
-    RungeKuttaGill, Status,
+    Attraction, Collocation, Contact, Damping, DimensionlessImpact, FixedCost, HertzLaw, PhaseSamples, RungeKuttaGill,
+    Status,
 };
 use microimpact::{
     Fault, FixedPoint, InFixedPoint, InputError, NormalMotion, Outcome, Parameter, Real, Sphere, Stiffness,
@@ -210,8 +210,6 @@ fn check_law<D, A, E, B>(
 where
     D: Damping<f64> + InFixedPoint<f64, Fixed: Damping<FixedPoint>>,
     A: Attraction<f64> + InFixedPoint<f64, Fixed: Attraction<FixedPoint>>,
-    HertzLaw<f64, D, A>: ContactLaw<f64>,
-    HertzLaw<Checked<EXACT>, E, B>: ContactLaw<Checked<EXACT>>,
     E: Damping<Checked<EXACT>>,
     B: Attraction<Checked<EXACT>>,
 {

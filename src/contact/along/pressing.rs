@@ -170,9 +170,14 @@ const TENSION_STEPS: u32 = 80;
 /// Doublings in the search for a place where the elastic force prevails.
 const MOST_DOUBLINGS: u32 = 60;
 
+/// By how much adhesion exceeds the elastic force.
+fn tension<T: Real>(law: &impl ContactLaw<T>, s: T) -> T {
+    law.adhesion_force(s) - law.elastic_force(s)
+}
+
 /// Where the tension of a law is largest, and that tension; zero without adhesion. A law has one maximum of it at most.
 fn largest_tension<T: Real>(law: &impl ContactLaw<T>) -> (T, T) {
-    let tension = |s: T| law.adhesion_force(s) - law.elastic_force(s);
+    let tension = |s| tension(law, s);
     let (mut low, mut high) = (law.end().min(law.start()), T::constant(BEYOND));
     let ends = (low, tension(low));
     for _ in 0..TENSION_STEPS {
@@ -192,7 +197,7 @@ fn largest_tension<T: Real>(law: &impl ContactLaw<T>) -> (T, T) {
 
 /// Where adhesion and the elastic force balance; zero without adhesion.
 fn balance<T: Real>(law: &impl ContactLaw<T>) -> T {
-    let tension = |s: T| law.adhesion_force(s) - law.elastic_force(s);
+    let tension = |s| tension(law, s);
     let (place, largest) = largest_tension(law);
     if largest <= T::ZERO {
         return T::ZERO;

@@ -5,7 +5,7 @@
 
 use super::{FRACTION, FixedPoint, InFixedPoint};
 use crate::contact::{
-    DimensionlessImpact, Dmt, HertzLaw, HystereticDamping, NoDamping, NoForce, PhaseNodes, Ring, ViscoelasticDamping,
+    DimensionlessImpact, Dmt, HertzLaw, HystereticDamping, NoForce, PhaseNodes, Ring, ViscoelasticDamping,
 };
 use crate::{InputError, Parameter, Real, lift_tables};
 
@@ -13,14 +13,6 @@ use crate::{InputError, Parameter, Real, lift_tables};
 fn bounded<T: Real>(parameter: Parameter, value: T, factor: f64) -> Result<FixedPoint, InputError> {
     parameter.check(value * T::constant(factor))?;
     Ok(FixedPoint::nearest(value.to_f64()))
-}
-
-impl<T> InFixedPoint<T> for NoDamping {
-    type Fixed = Self;
-
-    fn in_fixed_point(&self, _unit: T) -> Result<Self, InputError> {
-        Ok(Self)
-    }
 }
 
 /// In units of an impact.

@@ -3,6 +3,7 @@
 use core::f64::consts::PI;
 
 use super::FixedPoint;
+use crate::contact::NoDamping;
 use crate::rigid::{AdhesionCoefficient, WorkOfAdhesion};
 use crate::{
     ConstantRestitution, Coulomb, InputError, NoAdhesion, NoFriction, NormalMotion, ObliqueMotion, Parameter,
@@ -128,7 +129,7 @@ macro_rules! nothing_to_convert {
     )*};
 }
 
-nothing_to_convert!(NoAdhesion, NoFriction);
+nothing_to_convert!(NoAdhesion, NoFriction, NoDamping);
 
 impl<T, L, A, S> InFixedPoint<T> for RigidBody<T, L, A, S>
 where

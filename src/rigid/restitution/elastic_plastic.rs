@@ -1,6 +1,6 @@
 //! The restitution of a sphere that yields.
 
-use crate::numbers::inverse;
+use super::searched_approach_speed;
 use crate::{Hertz, InputError, Parameter, Real, RestitutionLaw, Sphere, Stiffness};
 
 /// The law of an elastic, perfectly plastic contact (Thornton 1997): R = 1 up to the yield speed v_y, and beyond it, with
@@ -74,6 +74,6 @@ impl<T: Real> RestitutionLaw<T> for ElasticPlasticRestitution<T> {
         if body_rebound <= self.yield_speed {
             return Some(body_rebound);
         }
-        inverse(|speed| self.restitution(speed) * speed, body_rebound, body_rebound)
+        searched_approach_speed(self, body_rebound)
     }
 }

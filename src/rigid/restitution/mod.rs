@@ -7,6 +7,9 @@ mod speed;
 mod tabulated;
 mod viscoelastic;
 
+use crate::Real;
+use crate::numbers::inverse;
+
 pub use constant::ConstantRestitution;
 pub use elastic_plastic::ElasticPlasticRestitution;
 pub use power::PowerRestitution;
@@ -45,4 +48,9 @@ pub trait RestitutionLaw<T> {
 
     /// Approach speed v (m/s), the largest one, for which R(v) v is `body_rebound` (m/s). `None` if no speed is fast enough.
     fn approach_speed(&self, body_rebound: T) -> Option<T>;
+}
+
+/// The approach speed of a law that has no formula for it. R is at most one, so that the speed is no less than the rebound.
+fn searched_approach_speed<T: Real>(law: &impl RestitutionLaw<T>, body_rebound: T) -> Option<T> {
+    inverse(|speed| law.restitution(speed) * speed, body_rebound, body_rebound)
 }

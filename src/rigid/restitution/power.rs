@@ -1,6 +1,7 @@
 //! A restitution that decreases with a power of the speed.
 
-use crate::numbers::{inverse, power};
+use super::searched_approach_speed;
+use crate::numbers::power;
 use crate::{InputError, Parameter, Real, RestitutionLaw};
 
 /// The law R = k^p/(k^p + v^p) (Brach and Dunn 1992), of which [`SpeedRestitution`](crate::SpeedRestitution) is the case p = 1.
@@ -44,6 +45,6 @@ impl<T: Real> RestitutionLaw<T> for PowerRestitution<T> {
     }
 
     fn approach_speed(&self, body_rebound: T) -> Option<T> {
-        inverse(|speed| self.restitution(speed) * speed, body_rebound, body_rebound)
+        searched_approach_speed(self, body_rebound)
     }
 }

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use crate::numbers::inverse;
+use super::searched_approach_speed;
 use crate::{InputError, Parameter, Real, RestitutionLaw, Sphere, Stiffness};
 
 /// Coefficients of the numerator and of the denominator in z = sqrt(x): a least-squares fit to the simulation for x up to 150. The
@@ -83,6 +83,6 @@ impl<T: Real> RestitutionLaw<T> for ViscoelasticRestitution<T> {
     }
 
     fn approach_speed(&self, body_rebound: T) -> Option<T> {
-        inverse(|speed| self.restitution(speed) * speed, body_rebound, body_rebound)
+        searched_approach_speed(self, body_rebound)
     }
 }

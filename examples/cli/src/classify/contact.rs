@@ -141,10 +141,8 @@ impl<T: Number> SimulationModel<T> {
         // Without a moment this is the same motion; so the solver is compiled for one scene only.
         let scene = Contact::new(sphere, law).with_friction(friction).and_then(|scene| scene.with_peeling(peeling));
         let scene = scene.map_err(|error| row.reason(error))?;
-        let yield_speed = match row.number("yield_pressure_pa")? {
-            Some(pressure) => Some(Hertz::yield_speed(&sphere, row_law.stiffness, pressure)),
-            None => None,
-        };
+        let yield_pressure = row.number("yield_pressure_pa")?;
+        let yield_speed = yield_pressure.map(|pressure| Hertz::yield_speed(&sphere, row_law.stiffness, pressure));
         let yield_speed = yield_speed.transpose().map_err(|error| row.reason(error))?;
         let groups = row_law.groups(sphere, &before).map_err(|error| row.reason(error))?;
         let (impact, ((times, impulses, works), (slip, energy))) =
