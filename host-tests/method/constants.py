@@ -104,6 +104,7 @@ C = [
     ("LEAST_SQUARED_FRACTION", "1e-4", "critical: `try_energy`, `step`", "stricter tolerances are out of reach of rounding"),
     ("STIFF_FRACTION, STIFF_ERROR", "0.2, 1e-4", "critical: `step`", "if damping takes nearly all of the speed, an error is not the square of the tail any more"),
     ("SHARE_OF_A_TRIAL, MUCH_FLATTER", "0.5, 0.5", "critical: `critical_speed`, `note`", "two paths and the secant share the tolerance; a flatter excess needs more exact trials"),
+    ("COARSER", "8", "critical: `note`", "factor on the tolerance of all further trials where one cannot be solved, as in single precision"),
     ("BESIDE_BARRIER", "0.1", "critical: `beside_barrier`", "distance over that of the bottom or the end of contact, and the fourth root of the tolerance"),
     ("ROOT_ERROR, BARRIER_ERROR", "0.02, 1e-3", "critical: `ascend`", "errors of paths from rest are no squares; the test `tolerance_is_kept_over_random_scenes` shows it"),
     ("MOST_SQUARED_SPEED", "4", "critical: `ascend`", "factor on $2(E-V(s_q))$ of the arrival, the largest $y^2$ of an undamped impact"),
@@ -137,6 +138,7 @@ C = [
     ("PEAK_RATIO", "0.58, 0.315", "law/hertz: `inverse_peak_contact_radius`", "first value of $b$ to 1e-3"),
     ("PEAK_STEPS, PEAK_ACCURACY", "4, 0.06 ε", "law/hertz: `inverse_peak_contact_radius`", "the remaining error is below twice the square of the step"),
     ("HERTZ_DURATION", "2.9432752", "law/hertz", "duration of Hertz's impact in $\\delta_H/v$"),
+    ("LARGEST_DECAY", "1", "gill", "decay of a spin in a step under a peeling moment: larger ones count as not solved, and beyond 2.8 steps are unstable"),
     ("LEAST_STEPS, LONGEST_RUN", "16, 64", "gill", "a quarter as many still follow the motion; slow departures take several times Hertz's duration"),
     ("INVERSE_ACCURACY", "1e-3", "gill", "refuses a law whose coordinate is not the inverse of its indentation"),
 ]

@@ -508,8 +508,9 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
     pub const MOST_TRIALS: u32 = critical::MOST_TRIALS;
 
     /// The approach speed, m/s, that separates capture from rebound (B6), to the relative tolerance of `method`. In single
-    /// precision rounding leaves an error of up to 5e-4 where damping is so strong that little depends on the speed, and a well that
-    /// an external force has flattened to a millionth may not be seen.
+    /// precision rounding leaves an error of up to 1e-3 where damping is so strong that little depends on the speed, and of up to a
+    /// tenth where it takes all but a millionth of the energy; a well that an external force has flattened to a millionth may not be
+    /// seen.
     ///
     /// A sphere that just separates arrived with exactly the energy that damping dissipates. That energy grows with the
     /// damping, and the damping falls with the speed (B4), so there is at most one such speed. A law of your own must have
@@ -521,7 +522,8 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
     /// even at the largest of them, [`CriticalSpeed::NeverRebounds`].
     ///
     /// # Errors
-    /// A ratio of the scene's forces outside its range at the critical speed.
+    /// A ratio of the scene's forces outside its range at the critical speed. [`Parameter::Tolerance`] where rounding does not allow
+    /// even the largest tolerance.
     ///
     /// ```
     /// use microimpact::contact::{Adaptive, Contact};

@@ -256,3 +256,26 @@ fn table_of_the_paper_by_its_own_method() {
 fn table_of_the_paper_by_collocation() {
     reproduces_the_table(&printed(collocated));
 }
+
+/// A moment that takes the spin in less than a step: the method must not answer, since its steps grow without bound then.
+#[test]
+fn a_spin_that_decays_faster_than_the_steps_is_no_result() {
+    let sphere = Sphere::solid(2.5e-6, 2600.0).unwrap();
+    let scene = Contact::hertz(sphere, Stiffness::new(7.5e10).unwrap()).with_damping(1.0).unwrap();
+    let scene = scene.with_ring(250.0, 6.25).unwrap().with_friction(0.1).unwrap();
+    let motion = NormalMotion::new(20.0).unwrap().with_tangential(-9.0).unwrap().with_spin(&sphere, -1e6).unwrap();
+    let mut answers = Vec::new();
+    for lambda in [1e-12, 1e-9, 1e-7, 1e-5] {
+        let scene = scene.with_peeling(lambda).unwrap();
+        let exact = scene.solve(&motion, &Collocation::<12, f64>::new(1e-10).unwrap()).unwrap().tangential.spin();
+        for steps in [16, 100, 1000, 10_000] {
+            let found = scene.solve(&motion, &RungeKuttaGill::new(steps)).unwrap();
+            if found.run.status == Status::Solved {
+                let error = (found.tangential.spin() - exact).abs() / 1e6;
+                assert!(error < 0.1, "{lambda:e}, {steps} steps: {error:e}");
+            }
+            answers.push(found.run.status == Status::Solved);
+        }
+    }
+    assert!(answers[..4].iter().all(|solved| *solved) && answers[12..].contains(&false), "{answers:?}");
+}

@@ -358,6 +358,11 @@ impl<T: Real, P: PressingForce<T>, const PEELS: bool> Observer<T> for Tangential
         Some(if interval.forward { z } else { T::ONE - z })
     }
 
+    #[inline]
+    fn fastest_decay(&self, law: &impl ContactLaw<T>, s: T) -> T {
+        if PEELS { self.peeling * law.contact_radius(s) } else { T::ZERO }
+    }
+
     fn residual<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>) -> T
     where
         T: Nodes<N>,

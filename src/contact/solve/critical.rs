@@ -9,7 +9,7 @@
 use super::collocation::UNTIMED;
 use super::interval::{Control, Course, END_FROM_SPEED, Interval, Point, pass};
 use super::nodes::Nodes;
-use super::path::{Follower, REFUSED_SHRINK};
+use super::path::{End, Follower, REFUSED_SHRINK};
 use super::well::{depth, well};
 use crate::contact::law::ContactLaw;
 use crate::{CriticalSpeed, InputError, Parameter, Real};
@@ -61,6 +61,12 @@ const SECANT_ACCURACY: f64 = 0.1;
 /// Error of a trial, over the tolerance: those of its two paths add up, and the secant adds its own.
 const SHARE_OF_A_TRIAL: f64 = 0.5;
 
+/// Halvings of a distance down to what is less than any fraction of it.
+const MOST_HALVINGS: u32 = 60;
+
+/// Factor on the error of further trials where one could not be solved.
+const COARSER: f64 = 8.0;
+
 /// Slope of the excess over the one that the trials were made for, below which they were not exact enough.
 const MUCH_FLATTER: f64 = 0.5;
 
@@ -78,8 +84,8 @@ pub(crate) fn critical_speed<T: Real>(
     let first = first.max(slowest).min(fastest);
     let mut search = Search::from(first);
     for trial in 0..MOST_TRIALS {
-        let strict = T::constant(SHARE_OF_A_TRIAL) * search.slope * tolerance;
-        let outcome = try_speed(search.speed, strict);
+        let allowed = T::constant(SHARE_OF_A_TRIAL) * search.slope * search.coarser * tolerance;
+        let outcome = try_speed(search.speed, allowed);
         if let Some(result) = search.note(outcome, first, trial < MOST_GUIDED_TRIALS, tolerance) {
             return result;
         }
@@ -114,23 +120,25 @@ pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(toleranc
     } else {
         Point { s: barrier, energy: rest, speed_squared: T::ZERO }
     };
-    let captured = Trial::Tried { rebounds: false, excess: None };
     let arrival = Point::arriving(law, energy);
     let fastest = two * (arrival.energy - law.potential(bottom));
     let most = T::constant(MOST_SQUARED_SPEED) * fastest;
-    let Some(departure) = Follower::from(law, finer, &mut (), start).ascend::<N>(bottom, most) else {
-        return captured;
+    let departure = match Follower::from(law, finer, &mut (), start).ascend::<N>(bottom, most, tolerance) {
+        Ok(point) => point,
+        Err(trial) => return trial,
     };
     let kinetic = half * departure.speed_squared;
     // Where damping leaves little of the energy of the impact, errors count in proportion to what is left.
     let left = (kinetic / energy).min(T::ONE);
     control.error = (control.error * (left * left).max(T::constant(LEAST_SQUARED_FRACTION))).max(unattainable());
+    control.converged = (control.converged * left.sqrt()).max(T::constant(LEAST_CHANGE) * T::EPSILON);
     if barred {
         // The sphere is slow where it passes the barrier on its way in.
         control.times = T::constant(UNTIMED);
     }
-    let Some(impact) = Follower::from(law, control, &mut (), arrival).descend::<N>(bottom) else {
-        return captured;
+    let impact = match Follower::from(law, control, &mut (), arrival).descend::<N>(bottom, kinetic) {
+        Ok(point) => point,
+        Err(trial) => return trial,
     };
     // If little of the energy remains, the speed is known better, else the energy.
     let surplus = if kinetic < T::constant(END_FROM_SPEED) * energy {
@@ -182,6 +190,13 @@ pub enum Trial<T> {
     /// both paths lose: close to the critical one, as losses hardly depend on the speed, so that the excess is almost linear.
     /// Where damping is strong it is what the squares of the speeds at the bottom differ by. `None` where a path ends early.
     Tried { rebounds: bool, excess: Option<T> },
+    /// A path could not be followed so exactly.
+    Unsolved,
+}
+
+impl<T> Trial<T> {
+    /// Damping takes so much that one of the paths ends early.
+    const CAPTURED: Self = Self::Tried { rebounds: false, excess: None };
 }
 
 /// A search for the root of the excess in a bracket of speeds.
@@ -199,6 +214,8 @@ struct Search<T> {
     /// Change of the excess for each relative change of the speed, at most one. Where it is small, as under strong damping, the
     /// trials have to be as much more exact.
     slope: T,
+    /// By how much the trials are less exact, since rounding hides smaller errors.
+    coarser: T,
 }
 
 fn speed_range<T: Real>() -> (T, T) {
@@ -208,7 +225,8 @@ fn speed_range<T: Real>() -> (T, T) {
 
 impl<T: Real> Search<T> {
     fn from(speed: T) -> Self {
-        Self { speed, bracket: speed_range(), tried: (false, false), errors: (None, None), last: None, slope: T::ONE }
+        let (bracket, one) = (speed_range(), T::ONE);
+        Self { speed, bracket, tried: (false, false), errors: (None, None), last: None, slope: one, coarser: one }
     }
 
     /// Takes in the outcome of the trial; the result, or the next trial.
@@ -224,6 +242,10 @@ impl<T: Real> Search<T> {
         let (rebounds, excess, error) = match outcome {
             Ok(Trial::Free) => return Some(Ok(CriticalSpeed::AlwaysRebounds)),
             Ok(Trial::Tried { rebounds, excess }) => (rebounds, excess, None),
+            Ok(Trial::Unsolved) => {
+                self.coarser = self.coarser * T::constant(COARSER);
+                return Parameter::Tolerance.check(self.coarser * tolerance).err().map(Err);
+            }
             // Forces outgrow the elastic one at low speeds; damping does so at high ones as well.
             Err(error) => (error.parameter == Parameter::DampingRatio && speed > first, None, Some(error)),
         };
@@ -267,7 +289,7 @@ impl<T: Real> Search<T> {
                 return Some(Ok(CriticalSpeed::At(next)));
             }
             // What the trials so far have told is not exact enough.
-            *self = Self { slope: slope.max(T::EPSILON), ..Self::from(next) };
+            *self = Self { slope: slope.max(T::EPSILON), coarser: self.coarser, ..Self::from(next) };
             return None;
         }
         self.speed = if next > low && next < high {
@@ -295,29 +317,38 @@ impl<T: Real> Search<T> {
 }
 
 impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
-    /// From first contact over the peak down to the contact radius `to`; `None` where the sphere does not get there.
-    fn descend<const N: usize>(mut self, to: T) -> Option<Point<T>>
+    /// From first contact over the peak down to the contact radius `to`; `Err` where the sphere does not get there. It is captured if
+    /// it would arrive with less than the kinetic energy `least`.
+    fn descend<const N: usize>(mut self, to: T, least: T) -> Result<Point<T>, Trial<T>>
     where
         T: Nodes<N>,
     {
-        self.approach::<N>().ok()?;
+        let early = |end| if end == End::Budget { Trial::Unsolved } else { Trial::CAPTURED };
+        self.approach::<N>().map_err(early)?;
         let peak = self.at.s;
         if peak <= to {
-            return None;
+            return Err(Trial::CAPTURED);
         }
-        self.leave_peak::<N>(peak - to).ok()?;
+        self.leave_peak::<N>(peak - to).map_err(early)?;
         let converged = self.control.converged;
         let mut length = self.at.s - to;
         while self.at.s > to {
             // Strong damping leaves a speed that is small against what the potential drives; it counts by itself.
             self.control.converged = converged * self.at.speed_squared.sqrt().min(T::ONE);
-            (_, length) = self.step::<N>(-length.min(self.at.s - to), false, Course::REBOUND)?;
+            let Some((_, next)) = self.step::<N>(-length.min(self.at.s - to), false, Course::REBOUND) else {
+                // Next to the bottom, where it creeps, no interval is short enough.
+                let most =
+                    self.law.mean_slope(self.at.s, to) * (self.at.s - to) + T::constant(0.5) * self.at.speed_squared;
+                return Err(if most < least { Trial::CAPTURED } else { Trial::Unsolved });
+            };
+            length = next;
         }
-        Some(self.at)
+        Ok(self.at)
     }
 
-    /// From rest up to the coordinate `to`, against time; `None` where the square of its speed exceeds `most`.
-    fn ascend<const N: usize>(mut self, to: T, most: T) -> Option<Point<T>>
+    /// From rest up to the coordinate `to`, against time, where its speed is exact to a relative `tolerance`; `Err` where the square of
+    /// its speed exceeds `most`.
+    fn ascend<const N: usize>(mut self, to: T, most: T, tolerance: T) -> Result<Point<T>, Trial<T>>
     where
         T: Nodes<N>,
     {
@@ -330,15 +361,43 @@ impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
         while self.at.s < to {
             let course = Course { rebound: true, reversed: true };
             let taken;
-            (taken, length) = self.step::<N>(length.min(to - self.at.s), resting, course)?;
+            (taken, length) = self.step::<N>(length.min(to - self.at.s), resting, course).ok_or(Trial::Unsolved)?;
             if taken {
+                (resting, self.control.error) = (false, error);
+            } else if resting && length < self.negligible(to, tolerance) {
+                self.at = self.beside_rest(length);
                 (resting, self.control.error) = (false, error);
             }
             if self.at.speed_squared > most {
-                return None;
+                return Err(Trial::CAPTURED);
             }
         }
-        Some(self.at)
+        Ok(self.at)
+    }
+
+    /// A distance from rest in which losses are less than a fraction of those on the way to the coordinate `to`.
+    fn negligible(&self, to: T, fraction: T) -> T {
+        let (half, s) = (T::constant(0.5), self.at.s);
+        let lost = |length: T| self.law.loss(s + length, true) * length;
+        let mut length = half * (to - s);
+        let few = fraction * lost(length);
+        for _ in 0..MOST_HALVINGS {
+            if lost(length) <= few {
+                break;
+            }
+            length = length * half;
+        }
+        length
+    }
+
+    /// The path at a small distance from where it rests, with losses as if linear in the distance. What is wrong with the speed is less
+    /// than those losses, and does not grow on the way.
+    fn beside_rest(&self, distance: T) -> Point<T> {
+        let s = self.at.s + distance;
+        let free = (T::constant(-2.0) * self.law.mean_slope(s, self.at.s) * distance).max(T::ZERO);
+        let speed = free.sqrt() + T::constant(0.25) * self.law.loss(s, true) * distance;
+        let speed_squared = speed * speed;
+        Point { s, energy: self.law.potential(s) + T::constant(0.5) * speed_squared, speed_squared }
     }
 
     /// Tries an interval of signed length `step`, `from_rest` where the speed begins as a power of it: whether it was

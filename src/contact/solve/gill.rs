@@ -117,6 +117,9 @@ const LARGEST_ERROR: f64 = 0.1;
 /// energies hardly change while times do, and with them the end of a slip.
 const LARGEST_TIME_CHANGE: f64 = 0.02;
 
+/// Largest decay in a step, with which the method is still exact to a percent. Steps of more than 2.8 of it grow without bound.
+const LARGEST_DECAY: f64 = 1.0;
+
 /// Roundings of the largest energy by which a change may vanish by chance.
 const ROUNDINGS: f64 = 64.0;
 
@@ -178,6 +181,7 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
         let total = |s: T, speed: T| half * speed * speed + law.potential(s);
         let (mut at_peak, mut left, mut margin) = (energy, energy, zero);
         let (mut at_entry, mut at_barrier) = (None, None);
+        let mut too_long = false;
         // Change of a quantity by half as many steps.
         let change = |now: T, of: fn(&Followed<T>) -> T| {
             coarser.map_or(zero, |[coarse, coarsest]| {
@@ -234,6 +238,7 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
             (state, carry) = (next, rest);
             times.now = times.now + duration;
             let s = law.coordinate(depth)?;
+            too_long = too_long || (O::DEMANDS && step * observer.fastest_decay(law, s) > T::constant(LARGEST_DECAY));
             left = total(s, speed);
             let here = || left + (before.1 - left) * (outside - depth) / (before.0 - depth);
             if speed < zero && before.0 > outside && depth <= outside {
@@ -292,7 +297,7 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
                 uncertain = uncertain.max(entry_change).max((entry - escape).abs());
             }
             path.error_bound = uncertain.min(energy) / energy;
-            if change(times.peak, |other| other.peak_time) > T::constant(LARGEST_TIME_CHANGE) * times.now {
+            if too_long || change(times.peak, |other| other.peak_time) > T::constant(LARGEST_TIME_CHANGE) * times.now {
                 path.end = End::Budget;
             }
         }

@@ -90,6 +90,12 @@ pub trait Observer<T: Real> {
     /// Its rate of change in time at the coordinate s and a speed of size y, on the way in or out.
     fn rates(&self, state: &Self::State, law: &impl ContactLaw<T>, s: T, y: T, rebound: bool) -> Self::State;
 
+    /// The largest rate at which something decays at the coordinate s: no time step may be longer than its inverse.
+    #[inline]
+    fn fastest_decay(&self, _law: &impl ContactLaw<T>, _s: T) -> T {
+        T::ZERO
+    }
+
     /// Slip in its first direction while the sphere slides.
     #[inline]
     fn slip(&self, _state: &Self::State) -> Option<T> {
@@ -203,6 +209,11 @@ impl<T: Real, A: Observer<T>, B: Observer<T>> Observer<T> for (A, B) {
     #[inline]
     fn rates(&self, state: &Self::State, law: &impl ContactLaw<T>, s: T, y: T, rebound: bool) -> Self::State {
         (self.0.rates(&state.0, law, s, y, rebound), self.1.rates(&state.1, law, s, y, rebound))
+    }
+
+    #[inline]
+    fn fastest_decay(&self, law: &impl ContactLaw<T>, s: T) -> T {
+        self.0.fastest_decay(law, s).max(self.1.fastest_decay(law, s))
     }
 
     #[inline]

@@ -172,3 +172,35 @@ fn steps_in_time() {
         assert_eq!(answered(&method, law), 0, "{law}");
     }
 }
+
+/// Damping of every strength. In single precision the critical speed is less exact where damping takes nearly all of the energy.
+#[test]
+fn critical_speeds_keep_their_tolerance_under_any_damping() {
+    let mut random = StdRng::seed_from_u64(15);
+    let (mut tried, mut inexact) = (0, 0);
+    for number in 0..repetitions(40_000, 2_000) {
+        let scene = Scene::random(number, &mut random);
+        let strength = 10_f64.powf(random.random_range(-3.0..3.0));
+        let strength = match DAMPINGS[scene.damping] {
+            "constant" => (-0.1 * strength).exp().max(1e-3),
+            "viscoelastic" => strength.min(1.0),
+            _ => strength,
+        };
+        let scene = Scene { strength: f64::from(strength as f32), ..scene };
+        let found = |tolerance| scene.contact::<f64>().critical_speed(&Adaptive::new(tolerance).unwrap()).unwrap();
+        let single = scene.contact::<f32>().critical_speed(&Adaptive::new(1e-4).unwrap()).unwrap();
+        match (found(1e-10), found(1e-6), single) {
+            (CriticalSpeed::At(exact), CriticalSpeed::At(found), CriticalSpeed::At(single)) => {
+                let (error, single) = ((found / exact - 1.0).abs(), (f64::from(single) / exact - 1.0).abs());
+                assert!(error <= 1e-5 && single <= 0.1, "{scene:?}: {exact} {error:e} {single:e}");
+                tried += 1;
+                inexact += usize::from(error > 1e-6) + usize::from(single > 1e-3);
+            }
+            (exact, found, single) => {
+                assert_eq!(exact, found, "{scene:?}");
+                assert_eq!(format!("{single:?}"), format!("{exact:?}"), "{scene:?}");
+            }
+        }
+    }
+    assert!(tried > 100 && inexact * 100 <= tried, "{inexact} of {tried}");
+}
