@@ -299,29 +299,32 @@ impl<T: Real, S> Output<T, S> for Works {
 pub struct Energy;
 
 impl Energy {
-    /// The ledger, from the energies along the surface over m U^2: kinetic after, and taken by friction and peeling.
+    /// The ledger, from the energies along the surface: kinetic after, and taken by friction and peeling, in units of the mass and the
+    /// square of a speed in units of the impact.
     fn ledger<T: Real, L: ContactLaw<T>>(
         works: &integrals::Works<T>,
-        [after, friction, peeling]: [T; 3],
+        (along, energy_speed): ([T; 3], T),
         end: &Ended<'_, T, L>,
     ) -> Option<EnergyLedger<T>> {
         if end.path.end != End::Separation {
             return None;
         }
         let joules = |energy: T| end.sphere.mass() * end.units.speed * (end.units.speed * energy);
+        let unit = end.units.speed * energy_speed;
+        let [after, friction, peeling] = along.map(|energy| end.sphere.mass() * unit * (unit * energy));
         let mut works = ContactWorks::new(works, end);
         if end.law.release_speed(end.law.end()).is_some() {
             // What the materials have not given back where damping cancels their force remains in them.
             works.material = joules(end.units.energy - end.path.energy);
         }
         Some(EnergyLedger {
-            before: joules(end.units.energy + after + friction + peeling),
-            after: joules(end.path.energy.max(T::ZERO) + after),
+            before: joules(end.units.energy) + after + friction + peeling,
+            after: joules(end.path.energy.max(T::ZERO)) + after,
             material: works.material,
             // Adhesion that pulls farther out than it caught the sphere keeps what lies between.
             adhesion: works.adhesion - joules(end.law.potential(end.law.start())),
-            friction: joules(friction),
-            rolling: joules(peeling),
+            friction,
+            rolling: peeling,
             external: T::ZERO,
         })
     }
@@ -337,7 +340,7 @@ impl<T: Real> Output<T, ()> for Energy {
     }
 
     fn finish<L: ContactLaw<T>>(&self, works: Self::Observer, end: &Ended<'_, T, L>) -> Self::Result {
-        Self::ledger(&works, [T::ZERO; 3], end)
+        Self::ledger(&works, ([T::ZERO; 3], T::ONE), end)
     }
 }
 
@@ -351,7 +354,8 @@ impl<T: Real, P: PressingForce<T>, const PEELS: bool> Output<T, SlipStart<T, P, 
     }
 
     fn finish<L: ContactLaw<T>>(&self, (works, motion): Self::Observer, end: &Ended<'_, T, L>) -> Self::Result {
-        Self::ledger(&works, [motion.energy(), motion.friction_loss, motion.peeling_loss], end)
+        let along = [motion.energy(), motion.friction_loss, motion.peeling_loss];
+        Self::ledger(&works, (along, motion.energy_speed), end)
     }
 }
 

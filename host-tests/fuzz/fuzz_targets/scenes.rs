@@ -27,8 +27,8 @@ use microimpact::contact::{
 };
 use microimpact::rigid::EnergyLedger;
 use microimpact::{
-    Approach, CriticalSpeed, FixedPoint, Hertz, InputError, NormalMotion, Outcome, Parameter, PlanarMotion, Real,
-    Sphere, Stiffness,
+    Approach, CriticalSpeed, FixedPoint, Hertz, InputError, NormalMotion, Oblique, Outcome, Parameter, PlanarMotion,
+    Real, Sphere, Stiffness,
 };
 use microimpact_fuzz::{scene, size};
 use truth::Scene;
@@ -387,6 +387,15 @@ impl<T: Real + AdaptiveNodes + PhaseSamples<5, 9>> Solver<'_, T> {
         self.check(scene, &RungeKuttaGill::new(steps), Care::Bounded);
     }
 
+    /// Kinetic energy before the impact; without friction only that of the normal motion takes part.
+    fn kinetic(&self) -> T {
+        let (v, u, sphere) = (self.motion.tangential(), self.motion.peripheral(), self.scene.sphere());
+        let speed = self.motion.normal().speed();
+        let along =
+            if self.trial.terms.surface == Along::Nothing { T::ZERO } else { v * v + sphere.gyration_ratio() * u * u };
+        T::constant(0.5) * sphere.mass() * (speed * speed + along)
+    }
+
     /// The scene as 13 numbers, and the trial in words.
     fn inputs(&self) -> String {
         let speed = self.motion.normal().speed().to_f64();
@@ -435,6 +444,9 @@ impl<T: Real + AdaptiveNodes + PhaseSamples<5, 9>> Solver<'_, T> {
         assert!(!rebounds || times.contact >= times.peak, "{}", what());
         assert!(!solved || run.estimated_error >= T::ZERO, "{}", what());
         self.check_ledger(ledger.as_ref(), care == Care::Controlled, &what);
+        let starts_with_its_energy =
+            ledger.is_none_or(|ledger| (ledger.before / self.kinetic() - T::ONE).abs() <= T::constant(0.1));
+        assert!(starts_with_its_energy, "{}", what());
         let bound = if care == Care::Controlled { run.error_bound } else { T::constant(LARGEST_BOUND) };
         self.check_alone(normal, method, bound);
     }

@@ -1,7 +1,8 @@
 //! The energy ledger closes to rounding, however strong the damping.
 
-use microimpact::contact::{Adaptive, Collocation, Contact, Method, Status, Works};
-use microimpact::{InputError, NormalMotion, Real, Sphere, Stiffness};
+use microimpact::contact::{Adaptive, Collocation, Contact, Energy, FixedCost, Method, RungeKuttaGill, Status, Works};
+use microimpact::rigid::EnergyLedger;
+use microimpact::{InputError, NormalMotion, Oblique, Real, Sphere, Stiffness};
 
 /// What the works lack of the energy lost, over the energy before, at a damping h of the materials; without adhesion and with.
 fn lacking<T, M>(method: &M, damping: f64, strength: f64) -> Result<f64, InputError>
@@ -64,5 +65,64 @@ fn single_precision() -> Result<(), InputError> {
             }
         }
     }
+    Ok(())
+}
+
+/// The ledger of a rebound of Table 1's sphere with a spin (rad/s), under a peeling moment, and its kinetic energy before.
+fn along<T: Real>(
+    method: &impl Method<T>,
+    spin: f64,
+    lambda: f64,
+    speed: f64,
+) -> Result<(EnergyLedger<T>, T), InputError> {
+    let c = T::constant;
+    let sphere = Sphere::solid(c(5.06e-6), c(2600.0))?;
+    let scene = Contact::hertz(sphere, Stiffness::new(c(7.5e10))?).with_damping(c(10.5))?;
+    let scene = scene.with_ring(c(if speed < 1.0 { 0.0 } else { 250.0 }), c(6.25))?.with_friction(c(0.1))?;
+    let motion = NormalMotion::new(c(speed))?.with_tangential(c(3.0))?.with_spin(&sphere, c(spin))?;
+    let (v, u) = (motion.tangential(), motion.peripheral());
+    let kinetic = sphere.mass() * (c(0.5) * (c(speed) * c(speed) + v * v + sphere.gyration_ratio() * u * u));
+    let (impact, ledger) = scene.with_peeling(c(lambda))?.solve_for(&motion, method, Energy)?;
+    assert_eq!(impact.run.status, Status::Solved);
+    Ok((ledger.unwrap(), kinetic))
+}
+
+/// What friction and the peeling moment take, by every method.
+#[test]
+fn along_the_surface() -> Result<(), InputError> {
+    for lambda in [0.0, 1e-12, 1e-9] {
+        for spin in [-1e6, 1.454e5, 5e5] {
+            let (exact, _) = along(&Collocation::<12, f64>::new(1e-11)?, spin, lambda, 2.8)?;
+            let ledgers = [
+                (along(&Adaptive::new(1e-9)?, spin, lambda, 2.8)?, 1e-8),
+                (along(&Collocation::<9, f64>::new(1e-9)?, spin, lambda, 2.8)?, 1e-8),
+                (along(&FixedCost::<7>::new(4)?.with_outputs::<13>(), spin, lambda, 2.8)?, 1e-4),
+                (along(&RungeKuttaGill::new(4000), spin, lambda, 2.8)?, 1e-5),
+            ];
+            for ((ledger, kinetic), bound) in ledgers {
+                for (found, exact) in [
+                    (ledger.before, kinetic),
+                    (ledger.after, exact.after),
+                    (ledger.friction, exact.friction),
+                    (ledger.rolling, exact.rolling),
+                ] {
+                    assert!(
+                        (found - exact).abs() <= bound * kinetic,
+                        "{lambda:e} {spin:e} {bound:e}: {ledger:?} {exact:?}"
+                    );
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A slow sphere with a spin so fast that the square of the ratio is beyond single precision.
+#[test]
+fn a_slow_sphere_that_spins_fast_in_single_precision() -> Result<(), InputError> {
+    let (ledger, kinetic) = along::<f32>(&Adaptive::new(1e-6)?, 1e11, 0.0, 1e-12)?;
+    assert!((ledger.before / kinetic - 1.0).abs() < 1e-5 && (ledger.after / kinetic - 1.0).abs() < 1e-5, "{ledger:?}");
+    let (ledger, kinetic) = along::<f32>(&FixedCost::<5>::new(5)?.with_outputs::<10>(), 1e11, 0.0, 1e-12)?;
+    assert!((ledger.before / kinetic - 1.0).abs() < 1e-5, "{ledger:?}");
     Ok(())
 }

@@ -51,9 +51,12 @@ pub struct TangentialMotion<T, P, const PEELS: bool> {
     pub(crate) displacement: T,
     /// Rotation angle times radius.
     pub(crate) rotation: T,
-    /// Energies that friction and the peeling moment have taken, over the mass.
+    /// Energies that friction and the peeling moment have taken, in units of the next.
     pub(crate) friction_loss: T,
     pub(crate) peeling_loss: T,
+    /// A velocity whose square times the mass is the unit of energies: one or, where that is larger, the largest before contact, so that
+    /// no square is too large.
+    pub(crate) energy_speed: T,
     /// Largest velocity before contact.
     scale: T,
     /// Sign of the slip, zero when rolling.
@@ -77,6 +80,7 @@ impl<T: Real, P: PressingForce<T>, const PEELS: bool> TangentialMotion<T, P, PEE
         let SlipStart { friction, pressing, gyration_ratio, velocity, peripheral, peeling } = *start;
         // Of the velocities in these units: their rounding may leave nothing of a slip in SI units.
         let direction = direction(velocity - peripheral);
+        let scale = velocity.abs().max(peripheral.abs());
         Self {
             friction,
             pressing,
@@ -88,7 +92,8 @@ impl<T: Real, P: PressingForce<T>, const PEELS: bool> TangentialMotion<T, P, PEE
             rotation: T::ZERO,
             friction_loss: T::ZERO,
             peeling_loss: T::ZERO,
-            scale: velocity.abs().max(peripheral.abs()),
+            energy_speed: scale.max(T::ONE),
+            scale,
             direction,
             now: T::ZERO,
             rolls_from: (direction == T::ZERO).then_some(T::ZERO),
@@ -100,9 +105,9 @@ impl<T: Real, P: PressingForce<T>, const PEELS: bool> TangentialMotion<T, P, PEE
         self.direction != T::ZERO
     }
 
-    /// Kinetic energy along the surface and of the spin, over the mass.
+    /// Kinetic energy along the surface and of the spin.
     pub(crate) fn energy(&self) -> T {
-        let (v, u) = (self.velocity, self.peripheral);
+        let (v, u) = (self.velocity / self.energy_speed, self.peripheral / self.energy_speed);
         T::constant(0.5) * (v * v + self.gyration_ratio * u * u)
     }
 
@@ -113,7 +118,7 @@ impl<T: Real, P: PressingForce<T>, const PEELS: bool> TangentialMotion<T, P, PEE
     {
         let mut peeled = T::ZERO;
         for j in 0..N {
-            let u = peripheral[j];
+            let u = peripheral[j] / self.energy_speed;
             peeled = peeled + T::WEIGHTS[j] * interval.rate[j] * law.contact_radius(interval.s[j]) * u * u;
         }
         self.gyration_ratio * self.peeling * peeled
@@ -406,12 +411,13 @@ impl<T: Real, P: PressingForce<T>, const PEELS: bool> Observer<T> for Tangential
         }
     }
 
-    /// Velocities of centre and periphery, and the distances of both.
-    type State = ([T; 2], [T; 2]);
+    /// Velocities of centre and periphery, the distances of both, and what friction and the moment have taken.
+    type State = ([T; 2], ([T; 2], [T; 2]));
 
     #[inline]
     fn state(&self) -> Self::State {
-        ([self.velocity, self.peripheral], [self.displacement, self.rotation])
+        let losses = [self.friction_loss, self.peeling_loss];
+        ([self.velocity, self.peripheral], ([self.displacement, self.rotation], losses))
     }
 
     /// B7 to B10.
@@ -420,15 +426,19 @@ impl<T: Real, P: PressingForce<T>, const PEELS: bool> Observer<T> for Tangential
         let ([velocity, peripheral], _) = *state;
         let ratio = self.gyration_ratio;
         let braking = if PEELS { self.peeling * law.contact_radius(s) * peripheral } else { T::ZERO };
-        let accelerations = if self.slides() {
+        let (accelerations, rubbed) = if self.slides() {
             let force = self.direction * self.friction * self.pressing.at(law, s);
-            [-force, force / ratio - braking]
+            (
+                [-force, force / ratio - braking],
+                force / self.energy_speed * ((velocity - peripheral) / self.energy_speed),
+            )
         } else {
             // The friction that keeps the sphere rolling divides the moment between both.
             let divided = -(ratio / (T::ONE + ratio) * braking);
-            [divided, divided]
+            ([divided, divided], T::ZERO)
         };
-        (accelerations, [velocity, peripheral])
+        let peeled = ratio * (braking / self.energy_speed) * (peripheral / self.energy_speed);
+        (accelerations, ([velocity, peripheral], [rubbed, peeled]))
     }
 
     #[inline]
@@ -444,7 +454,8 @@ impl<T: Real, P: PressingForce<T>, const PEELS: bool> Observer<T> for Tangential
 
     #[inline]
     fn ended(&mut self, state: &Self::State, _times: &Times<T>) {
-        ([self.velocity, self.peripheral], [self.displacement, self.rotation]) = *state;
+        let ([velocity, peripheral], ([displacement, rotation], [friction_loss, peeling_loss])) = *state;
+        *self = Self { velocity, peripheral, displacement, rotation, friction_loss, peeling_loss, ..*self };
     }
 }
 
