@@ -137,6 +137,8 @@ parameters! {
         WorkOfAdhesion: "work of adhesion", "J", 0.0 to 1e6;
         /// Coulomb's friction coefficient f.
         Friction: "friction coefficient", "1", 0.0 to 1e3;
+        /// Stiffness ratio chi: the tangential stiffness of a contact divided by (3/2) K a, with the contact radius a.
+        StiffnessRatio: "stiffness ratio", "1", 1e-3 to 1e3;
         /// Impulse ratio mu.
         ImpulseRatio: "impulse ratio", "1", -1e3 to 1e3;
         /// Rolling-dissipation coefficient times its moment arm, mu_m a_c.
@@ -370,6 +372,9 @@ impl fmt::Display for InputError {
             Fault::TooFewNodes => f.write_str(
                 "be at least 1e-3 with four nodes, 3e-4 with five, 1e-5 with six, 1e-7 with seven, 1e-9 with eight and 1e-11 \
                  with nine; use more nodes or `Adaptive`",
+            ),
+            Fault::OtherLaw if self.parameter == Parameter::StiffnessRatio => f.write_str(
+                "only be given with Hertz's contact without adhesion and external force, with hysteretic damping or none",
             ),
             Fault::OtherLaw => f.write_str("be zero with this law or end of contact; choose another"),
             Fault::OutOfOrder if parameter == Parameter::ReboundSpeed => {

@@ -52,4 +52,10 @@ impl<T: Real> Material<T> {
     pub fn elastic_constant(&self) -> T {
         (T::ONE - self.poisson_ratio) * (T::ONE + self.poisson_ratio) / (T::constant(PI) * self.youngs_modulus)
     }
+
+    /// The same for a tangential force: (2 - nu)(1 + nu)/(pi E), half of (2 - nu)/G over pi with the shear modulus G.
+    pub(super) fn tangential_constant(&self) -> T {
+        let two = T::constant(2.0);
+        (two - self.poisson_ratio) * (T::ONE + self.poisson_ratio) / (T::constant(PI) * self.youngs_modulus)
+    }
 }

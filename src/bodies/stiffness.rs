@@ -50,6 +50,24 @@ impl<T: Real> Stiffness<T> {
         Self::new(T::constant(4.0 / (3.0 * PI)) / elastic_constants)
     }
 
+    /// Stiffness ratio chi = k_t/((3/2) K a) of a sphere and a surface, with Mindlin's (1949) tangential stiffness k_t = 8 G* a of a
+    /// contact of radius a, and 1/G* the sum of (2 - nu)/G of both materials.
+    ///
+    /// It is 2/3 to 1 for two equal materials of a Poisson's ratio nu from 1/2 to 0: chi = 2 (1 - nu)/(2 - nu).
+    ///
+    /// ```
+    /// use microimpact::{Material, Stiffness};
+    ///
+    /// let alumina = Material::new(360e9, 0.23)?;
+    /// let chi: f64 = Stiffness::tangential_ratio_between(&alumina, &alumina);
+    /// assert!((chi - 2.0 * 0.77 / 1.77).abs() < 1e-12);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn tangential_ratio_between(sphere: &Material<T>, surface: &Material<T>) -> T {
+        let elastic_constants = sphere.elastic_constant() + surface.elastic_constant();
+        T::constant(2.0) * elastic_constants / (sphere.tangential_constant() + surface.tangential_constant())
+    }
+
     /// The stiffness in Pa.
     ///
     /// ```

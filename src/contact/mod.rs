@@ -25,6 +25,9 @@
 //! Every damping goes with every law, and an external force with all but the second and the last. G is the work of adhesion for
 //! each area, twice the surface energy of equal materials.
 //!
+//! Along the surface acts no friction, Coulomb's friction (`.with_friction(f)`), friction and a peeling moment (`.with_peeling(lambda)`),
+//! or friction on a contact that sticks elastically (`.with_compliance(chi)`).
+//!
 //! # Figures
 //! Figures 6 and 7 of the paper, by this simulation:
 //!
@@ -48,7 +51,10 @@ mod solve;
 mod trajectory;
 mod units;
 
-pub use along::{Peeling, PressingForce, Surface, TangentialVelocities, TotalAndPullOff, TotalForce};
+pub use along::{
+    Compliance, CompliantVelocities, Peeling, PressingForce, Surface, TangentialVelocities, TotalAndPullOff,
+    TotalForce, Unloading,
+};
 pub use dimensionless::{DimensionlessContact, DimensionlessImpact};
 pub use force::ContactForce;
 pub use law::{

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use super::along::{PressingForce, SlipStart, TangentialMotion};
+use super::along::{CompliantMotion, PressingForce, SlipStart, TangentialMotion};
 use super::law::{ContactLaw, Units};
 use super::solve::integrals;
 use super::solve::observer::Observer;
@@ -359,7 +359,24 @@ impl<T: Real, P: PressingForce<T>, const PEELS: bool> Output<T, SlipStart<T, P, 
     }
 }
 
-/// Asks for [`SlipHistory`]. A scene without friction has none, and gives `()`.
+impl<T: Real> Output<T, CompliantMotion<T>> for Energy {
+    type Observer = (integrals::Works<T>, CompliantMotion<T>);
+    type Result = Option<EnergyLedger<T>>;
+
+    #[inline]
+    fn begin(&self, start: &CompliantMotion<T>) -> Self::Observer {
+        (integrals::Works::new(), *start)
+    }
+
+    fn finish<L: ContactLaw<T>>(&self, (works, motion): Self::Observer, end: &Ended<'_, T, L>) -> Self::Result {
+        // At separation the element holds no energy.
+        let [before, after] = motion.energies();
+        Self::ledger(&works, ([after, before - after, T::ZERO], motion.energy_speed()), end)
+    }
+}
+
+/// Asks for [`SlipHistory`]. A scene without friction has none, and gives `()`. With tangential compliance slip begins again before
+/// separation, so that it does not end.
 ///
 /// ```
 /// use microimpact::contact::{Collocation, Contact, Slip};
@@ -458,6 +475,29 @@ impl<T: Real, P: PressingForce<T>, const PEELS: bool> Output<T, SlipStart<T, P, 
             rotation: motion.rotation * (units.length / radius),
             displacement: motion.displacement * units.length,
             rolls_from: motion.rolls_from.map(|time| time * units.time()),
+        }
+    }
+}
+
+impl<T: Real> Output<T, CompliantMotion<T>> for Slip {
+    type Observer = CompliantMotion<T>;
+    type Result = SlipHistory<T>;
+
+    #[inline]
+    fn begin(&self, start: &CompliantMotion<T>) -> Self::Observer {
+        *start
+    }
+
+    fn finish<L: ContactLaw<T>>(&self, motion: Self::Observer, end: &Ended<'_, T, L>) -> SlipHistory<T> {
+        let (units, radius) = (end.units, end.sphere.radius());
+        let ((velocity, peripheral), (displacement, rotation)) = (motion.velocities(), motion.distances());
+        SlipHistory {
+            slides: motion.moves(),
+            velocity: velocity * units.speed,
+            spin: peripheral * units.speed / radius,
+            rotation: rotation * (units.length / radius),
+            displacement: displacement * units.length,
+            rolls_from: (!motion.moves()).then_some(T::ZERO),
         }
     }
 }

@@ -1,13 +1,15 @@
 //! Results of a simulation, in SI units.
 
-use super::along::TangentialVelocities;
 use super::law::{ContactLaw, Units};
+use super::scene::Classified;
 use super::solve::path::NormalPath;
 use super::solve::{MotionToRest, RunReport, Status};
-use crate::{Class, Outcome, Real};
+#[cfg(doc)]
+use super::{CompliantVelocities, TangentialVelocities};
+use crate::{Class, ContactClass, Outcome, Real};
 
 /// The result of a simulation, with `V` for the velocities along the surface: `()` without friction, else
-/// [`TangentialVelocities`].
+/// [`TangentialVelocities`], or [`CompliantVelocities`] with compliance.
 ///
 /// ```
 /// use microimpact::contact::{Contact, Collocation, SimulatedImpact};
@@ -31,7 +33,7 @@ pub struct SimulatedImpact<T, V> {
     pub run: RunReport<T>,
 }
 
-impl<T: Real> SimulatedImpact<T, TangentialVelocities<T>> {
+impl<T: Real, V: Classified<T, Contact = ContactClass<T>>> SimulatedImpact<T, V> {
     /// Outcome and motion along the surface in one word; `None` where the method found no solution.
     ///
     /// ```
@@ -52,7 +54,7 @@ impl<T: Real> SimulatedImpact<T, TangentialVelocities<T>> {
     /// ```
     #[inline]
     pub fn class(&self) -> Option<Class> {
-        self.normal.outcome.map(|outcome| Class::of(outcome, self.tangential.motion()))
+        self.normal.outcome.map(|outcome| Class::of(outcome, self.tangential.contact().motion))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Scenes: a sphere, the law of its contact, and what happens along the surface.
 
-use super::along::{Peeling, PressingForce, Surface};
+use super::along::{Compliance, CompliantVelocities, Peeling, PressingForce, Surface, Unloading};
 use super::law::{
     AnyLaw, Attraction, ConstantDamping, ConstantForce, ContactLaw, Dmt, Groups, HertzLaw, HystereticDamping,
     NoTension, ProportionalDamping, Ring, RingStrength, Units, ViscoelasticDamping,
@@ -304,6 +304,62 @@ impl<T: Real, D, X> Contact<T, HertzLaw<T, D, Ring<T>, X>, Coulomb<T>> {
     /// ```
     pub fn with_peeling(self, lambda: T) -> Result<Contact<T, HertzLaw<T, D, Ring<T>, X>, Peeling<T>>, InputError> {
         Ok(Contact { sphere: self.sphere, law: self.law, surface: Peeling::new(self.surface, lambda)? })
+    }
+}
+
+impl<T: Real, L: ContactLaw<T>> Contact<T, L, Coulomb<T>> {
+    /// The same scene with tangential compliance: the contact sticks elastically, with the stiffness k_t = chi (3/2) K a, and slips
+    /// where friction is exhausted.
+    ///
+    /// It goes with Hertz's contact without adhesion and external force, with hysteretic damping or none, and with the methods
+    /// [`Adaptive`](super::Adaptive), [`Collocation`](super::Collocation) and [`FixedCost`](super::FixedCost). For
+    /// [`RungeKuttaGill`](super::RungeKuttaGill) the status is [`Unsupported`](Status::Unsupported).
+    ///
+    /// # Errors
+    /// A stiffness ratio chi outside 1e-3 to 1e3, or another law of contact.
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact};
+    /// use microimpact::{NormalMotion, Parameter, Sphere, Stiffness};
+    ///
+    /// // A ball of alumina, at 20 degrees from the normal (Kharaz, Gorham and Salman 2001).
+    /// let chi = 2.0 * (1.0 - 0.23) / (2.0 - 0.23);
+    /// let scene = Contact::hertz(Sphere::solid(2.5e-3, 4000.0)?, Stiffness::new(2.6e11)?).with_friction(0.092)?;
+    /// let speed = 20f64.to_radians().tan();
+    /// let motion = NormalMotion::new(1.0)?.with_tangential(speed)?;
+    /// let after = scene.with_compliance(chi)?.solve(&motion, &Adaptive::new(1e-9)?)?.tangential;
+    /// assert!((after.velocity() / speed - 0.62).abs() < 0.01);
+    /// // With adhesion the compliance of a contact is not known as well.
+    /// let refused = scene.with_dmt(0.1)?.with_compliance(chi).unwrap_err();
+    /// assert_eq!(refused.parameter, Parameter::StiffnessRatio);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn with_compliance(self, stiffness_ratio: T) -> Result<Contact<T, L, Compliance<T>>, InputError> {
+        let surface = Compliance::new(self.surface, stiffness_ratio)?.under(&self.law)?;
+        Ok(Contact { sphere: self.sphere, law: self.law, surface })
+    }
+}
+
+impl<T: Real, L> Contact<T, L, Compliance<T>> {
+    /// The same scene with another rule for the element while the contact shrinks.
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact, Unloading};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?)
+    ///     .with_friction(0.5)?
+    ///     .with_compliance(0.85)?;
+    /// let slip_after = |unloading| -> Result<f64, microimpact::InputError> {
+    ///     let motion = NormalMotion::new(1.0)?.with_tangential(0.1)?;
+    ///     Ok(scene.with_unloading(unloading).solve(&motion, &Adaptive::new(1e-9)?)?.tangential.slip())
+    /// };
+    /// assert!(slip_after(Unloading::Incremental)?.abs() > slip_after(Unloading::Rescaled)?.abs());
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[must_use]
+    pub fn with_unloading(self, unloading: Unloading) -> Self {
+        Self { surface: self.surface.with_unloading(unloading), ..self }
     }
 }
 
@@ -616,6 +672,16 @@ impl<T: Real> Classified<T> for TangentialVelocities<T> {
     #[inline]
     fn contact(&self) -> ContactClass<T> {
         self.class()
+    }
+}
+
+impl<T: Real> Classified<T> for CompliantVelocities<T> {
+    type Contact = ContactClass<T>;
+
+    /// Without a margin: the slip of a compliant contact ends and begins again.
+    #[inline]
+    fn contact(&self) -> ContactClass<T> {
+        ContactClass { motion: self.motion(), friction_over_limit: None }
     }
 }
 

@@ -194,7 +194,8 @@ impl<T: Real, const N: usize> Trajectory<T, N> {
         self.marked(self.peak)
     }
 
-    /// The moment at which a sliding sphere begins to roll; `None` where it does not, or rolls from first contact.
+    /// The moment at which a sliding sphere begins to roll; `None` where it does not, or rolls from first contact. With tangential
+    /// compliance no sphere rolls.
     ///
     /// ```
     /// use microimpact::contact::{Collocation, Contact, Recording, Slip};

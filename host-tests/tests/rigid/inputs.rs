@@ -1,6 +1,6 @@
 //! Every input has a range, and every value outside it is an error that names the input.
 
-use microimpact::contact::{Adaptive, Collocation, Contact, DimensionlessImpact, FixedCost, RestCriterion};
+use microimpact::contact::{Adaptive, Collocation, Compliance, Contact, DimensionlessImpact, FixedCost, RestCriterion};
 use microimpact::measure::ring_strength;
 use microimpact::measure::{NormalDistribution, Uncertain};
 use microimpact::rigid::{
@@ -85,6 +85,7 @@ fn supply<T: Single + NormalDistribution + Into<f64>>(parameter: Parameter, valu
         Parameter::AdhesionCoefficient => AdhesionCoefficient::new(value).map(drop),
         Parameter::WorkOfAdhesion => WorkOfAdhesion::new(value, &sphere()).map(drop),
         Parameter::Friction => Coulomb::new(value).map(drop),
+        Parameter::StiffnessRatio => Compliance::new(Coulomb::new(c(0.1)).unwrap(), value).map(drop),
         Parameter::ImpulseRatio => {
             // Fast sliding the one way or the other, so that no valid ratio exceeds mu_0.
             let slip = if value > T::ZERO { c(-1e7) } else { c(1e7) };

@@ -5,6 +5,7 @@ mod bounds;
 mod captured;
 mod checking;
 mod chosen;
+mod compliance;
 mod contest;
 mod critical_speed;
 mod dual;

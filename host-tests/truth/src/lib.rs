@@ -11,11 +11,13 @@
 //! Each step ends at the first event inside it: the end of slip, the peak, separation, or the turning point of a
 //! captured sphere. A sphere that creeps to rest without turning is proven to do so.
 
+mod compliance;
 mod double;
 mod path;
 mod scene;
 mod series;
 
+pub use compliance::{CompliantImpact, CompliantRebound};
 pub use double::Double;
 pub use path::{Outcome, Truth, solve, solve_changed, solve_exactly};
 pub use scene::{INPUTS, Scene};

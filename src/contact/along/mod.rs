@@ -1,11 +1,13 @@
-//! What happens along the surface: nothing, Coulomb's friction, or friction with a peeling moment.
+//! What happens along the surface: nothing, Coulomb's friction, or friction with a peeling moment or with compliance.
 
+mod compliance;
 mod coulomb;
 mod motion;
 mod peeling;
 mod pressing;
 mod relaxation;
 
+pub use compliance::{Compliance, CompliantMotion, CompliantVelocities, Unloading};
 pub use coulomb::TangentialVelocities;
 pub use motion::TangentialMotion;
 pub use peeling::Peeling;
@@ -38,7 +40,7 @@ pub trait Surface<T: Real, B>: Copy {
     /// What follows the motion along the surface.
     type Observer: Observer<T>;
 
-    /// Velocities after the impact: `()` without friction, else [`TangentialVelocities`].
+    /// Velocities after the impact: `()` without friction, else [`TangentialVelocities`], or [`CompliantVelocities`] with compliance.
     type After;
 
     /// The state before contact.

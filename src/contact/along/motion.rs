@@ -305,7 +305,7 @@ impl<T: Real, P: PressingForce<T>, const PEELS: bool> Observer<T> for Tangential
         self.rotation = self.rotation + distance;
     }
 
-    fn error<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>) -> T
+    fn error<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, _allowed: T) -> T
     where
         T: Nodes<N>,
     {

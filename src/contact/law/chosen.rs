@@ -266,6 +266,11 @@ impl<T: Real> Damping<T> for AnyDamping<T> {
     }
 
     #[inline]
+    fn is_proportional(&self) -> bool {
+        matches!(self, Self::None | Self::Hysteretic(_))
+    }
+
+    #[inline]
     fn needs_root(&self) -> bool {
         matches!(self, Self::Constant(_))
     }
@@ -323,6 +328,11 @@ impl<T: Real> Attraction<T> for AnyForce<T> {
         matches!(self, Self::Constant(_))
     }
 
+    #[inline]
+    fn is_absent(&self) -> bool {
+        matches!(self, Self::None)
+    }
+
     of_force! {
         energy(s: T);
         slope(s: T);
@@ -370,6 +380,7 @@ impl<T: Real> ContactLaw<T> for AnyLaw<T> {
         end() -> T;
         release_speed(s: T) -> Option<T>;
         may_have_barrier() -> bool;
+        admits_compliance() -> bool;
         energy_power() -> f64;
         speed_of_adhesion(sphere: &Sphere<T>) -> T;
         duration(energy: T) -> T;

@@ -31,6 +31,12 @@ pub trait Damping<T: Real>: Copy {
     /// Outward speed at which the damping cancels the elastic force.
     fn release_speed(&self, radius: T, root: T) -> T;
 
+    /// Whether the force is in proportion to the elastic force, or none.
+    #[inline]
+    fn is_proportional(&self) -> bool {
+        false
+    }
+
     /// Whether the force is a polynomial in the root of the contact radius only. The root is then the coordinate of the law.
     #[inline]
     fn needs_root(&self) -> bool {
@@ -167,6 +173,11 @@ impl<T: Real> ConstantDamping<T> {
 
 impl<T: Real> Damping<T> for NoDamping {
     #[inline]
+    fn is_proportional(&self) -> bool {
+        true
+    }
+
+    #[inline]
     fn in_units(&self, _units: &HertzUnits<T>) -> Result<Self, InputError> {
         Ok(Self)
     }
@@ -195,6 +206,11 @@ impl<T: Real> ProportionalDamping<T> for NoDamping {
 }
 
 impl<T: Real> Damping<T> for HystereticDamping<T> {
+    #[inline]
+    fn is_proportional(&self) -> bool {
+        true
+    }
+
     #[inline]
     fn in_units(&self, units: &HertzUnits<T>) -> Result<Self, InputError> {
         Ok(Self { rate: Parameter::DampingRatio.check(self.rate * units.damping)? })

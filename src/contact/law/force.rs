@@ -57,6 +57,11 @@ impl<T: Real> Attraction<T> for NoForce {
     }
 
     #[inline]
+    fn is_absent(&self) -> bool {
+        true
+    }
+
+    #[inline]
     fn moves_peak(&self) -> bool {
         false
     }

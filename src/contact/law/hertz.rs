@@ -59,6 +59,12 @@ pub trait Attraction<T: Real>: Copy {
         true
     }
 
+    /// Whether there is no such force, and contact lasts to zero indentation.
+    #[inline]
+    fn is_absent(&self) -> bool {
+        false
+    }
+
     /// Equilibrium indentation that adhesion alone would give the sphere, m.
     #[inline]
     fn equilibrium(&self, _sphere: &Sphere<T>, _stiffness: T) -> T {
@@ -130,6 +136,11 @@ impl<T: Real> Attraction<T> for NoAdhesion {
     #[inline]
     fn in_units(&self, _sphere: &Sphere<T>, _units: &HertzUnits<T>) -> Result<Self, InputError> {
         Ok(Self)
+    }
+
+    #[inline]
+    fn is_absent(&self) -> bool {
+        true
     }
 
     #[inline]
@@ -427,6 +438,11 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> ContactLaw<T> f
     #[inline]
     fn may_have_barrier(&self) -> bool {
         self.force.moves_peak()
+    }
+
+    #[inline]
+    fn admits_compliance(&self) -> bool {
+        self.damping.is_proportional() && self.adhesion.is_absent() && self.force.is_absent()
     }
 
     #[inline]

@@ -214,6 +214,13 @@ pub trait ContactLaw<T: Real>: Copy {
         true
     }
 
+    /// Whether [`Compliance`](crate::contact::Compliance) along the surface goes with this law: Hertz's force alone, with the contact
+    /// radius for coordinate, and a damping in proportion to it or none. `false` unless given.
+    #[inline]
+    fn admits_compliance(&self) -> bool {
+        false
+    }
+
     /// The power of s to which the elastic energy is proportional: 5 for Hertz's with x = s^2. Adaptive and FixedCost estimate
     /// the peak with it and may need more iterations if it is wrong.
     #[inline]

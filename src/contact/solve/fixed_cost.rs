@@ -148,7 +148,7 @@ where
                 return T::ZERO;
             }
             let whole = phase.samples::<M>(law, rebound);
-            let error = if O::DEMANDS { observer.error(law, &whole) } else { T::ZERO };
+            let error = if O::DEMANDS { observer.error(law, &whole, T::constant(LARGEST_ERROR)) } else { T::ZERO };
             show(law, phase, &whole, rebound, T::constant(END_OF_SLIP).max(T::EPSILON), observer);
             error
         };

@@ -67,8 +67,8 @@ impl RungeKuttaGill {
 
 impl<T: Real> Method<T> for RungeKuttaGill {
     fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
-        if T::SMALLEST == T::EPSILON {
-            // Fixed point has no digits for the small changes in a step.
+        // Fixed point has no digits for the small changes in a step.
+        if T::SMALLEST == T::EPSILON || !O::IN_STEPS {
             return NormalPath::unsupported(energy);
         }
         let step = law.duration(energy) / T::constant(f64::from(self.steps));

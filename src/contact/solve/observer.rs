@@ -23,6 +23,9 @@ pub trait Observer<T: Real> {
     /// Whether it can need shorter intervals than the motion does.
     const DEMANDS: bool = false;
 
+    /// Whether a method with a time step can carry it.
+    const IN_STEPS: bool = true;
+
     /// Whether a captured sphere is to be followed until it first turns back, and not only until it cannot escape.
     const TO_TURNING_POINT: bool = true;
 
@@ -37,9 +40,10 @@ pub trait Observer<T: Real> {
     where
         T: Nodes<N>;
 
-    /// Estimated error of what it integrates over an interval, as a fraction of its scale.
+    /// Estimated error of what it integrates over an interval, as a fraction of its scale. It is no larger than the error `allowed`
+    /// where the interval is short enough.
     #[inline]
-    fn error<const N: usize>(&self, _law: &impl ContactLaw<T>, _interval: &Interval<T, N>) -> T
+    fn error<const N: usize>(&self, _law: &impl ContactLaw<T>, _interval: &Interval<T, N>, _allowed: T) -> T
     where
         T: Nodes<N>,
     {
@@ -143,6 +147,7 @@ impl<T: Real, A: Observer<T>, B: Observer<T>> Observer<T> for (A, B) {
     const OBSERVES: bool = A::OBSERVES || B::OBSERVES;
     const TIMED: bool = A::TIMED || B::TIMED;
     const DEMANDS: bool = A::DEMANDS || B::DEMANDS;
+    const IN_STEPS: bool = A::IN_STEPS && B::IN_STEPS;
     const TO_TURNING_POINT: bool = A::TO_TURNING_POINT || B::TO_TURNING_POINT;
 
     #[inline]
@@ -160,11 +165,11 @@ impl<T: Real, A: Observer<T>, B: Observer<T>> Observer<T> for (A, B) {
     }
 
     #[inline]
-    fn error<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>) -> T
+    fn error<const N: usize>(&self, law: &impl ContactLaw<T>, interval: &Interval<T, N>, allowed: T) -> T
     where
         T: Nodes<N>,
     {
-        self.0.error(law, interval).max(self.1.error(law, interval))
+        self.0.error(law, interval, allowed).max(self.1.error(law, interval, allowed))
     }
 
     #[inline]

@@ -728,7 +728,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         T: Nodes<N>,
     {
         if O::DEMANDS && interval.accepted {
-            interval.error = interval.error.max(self.observer.error(self.law, interval));
+            interval.error = interval.error.max(self.observer.error(self.law, interval, self.control.error));
             interval.accepted = interval.error <= self.control.error;
         }
     }

@@ -22,7 +22,8 @@ pub enum Status {
     Solved,
     /// The iterations did not converge, or the intervals ran out; the result is not to be relied on.
     BudgetSpent,
-    /// The method cannot represent the law of contact, or the force that friction is proportional to; there is no result.
+    /// The method cannot represent the law of contact, the force that friction is proportional to, or tangential compliance; there is
+    /// no result.
     Unsupported,
 }
 

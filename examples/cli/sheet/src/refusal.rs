@@ -26,6 +26,7 @@ fn columns(parameter: Parameter) -> &'static [&'static str] {
         Parameter::AdhesionCoefficient => &["adhesion_coefficient"],
         Parameter::WorkOfAdhesion => &["work_of_adhesion_j"],
         Parameter::Friction => &["friction"],
+        Parameter::StiffnessRatio => &["stiffness_ratio"],
         Parameter::ImpulseRatio => &["impulse_ratio"],
         Parameter::RollingArm => &["rolling_arm_m"],
         Parameter::ExternalForce => &["external_force_n"],
