@@ -78,8 +78,15 @@ pub enum Class {
 }
 
 impl Class {
+    /// The class of an impact with this outcome, whose contact point moves so.
+    ///
+    /// ```
+    /// use microimpact::{Class, Outcome, SurfaceMotion};
+    ///
+    /// assert_eq!(Class::of(Outcome::Capture, SurfaceMotion::Rolling), Class::CapturedRolling);
+    /// ```
     #[inline]
-    pub(crate) const fn of(outcome: Outcome, motion: SurfaceMotion) -> Self {
+    pub const fn of(outcome: Outcome, motion: SurfaceMotion) -> Self {
         match (outcome, motion) {
             (Outcome::Rebound, SurfaceMotion::Sliding) => Self::ReboundSliding,
             (Outcome::Rebound, SurfaceMotion::Rolling | SurfaceMotion::Resting) => Self::ReboundRolling,

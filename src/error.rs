@@ -109,6 +109,10 @@ parameters! {
         Spin: "spin", "rad/s", -1e17 to 1e17;
         /// Peripheral velocity of a spinning sphere: spin times radius.
         PeripheralVelocity: "peripheral velocity", "m/s", -1e7 to 1e7;
+        /// A component of a velocity in space.
+        VelocityComponent: "component of the velocity", "m/s", -1e7 to 1e7;
+        /// Length of the normal of a wall, or from one sphere to another.
+        NormalLength: "length of the normal", "1", 0.999 to 1.001;
         /// Normal velocity away from the surface after the impact.
         ReboundSpeed: "rebound speed", "m/s", 0.0 to 1e6;
         /// Standard error of the measured velocities.
@@ -309,6 +313,10 @@ pub enum Fault {
     OtherLaw,
     /// The value does not rise from point to point.
     OutOfOrder,
+    /// The quantity acts on one body, and two meet.
+    TwoBodies,
+    /// The bodies move apart along the normal, or stay as they are.
+    Receding,
 }
 
 /// An invalid input: the parameter, the value found, and how the value misses its range.
@@ -377,6 +385,8 @@ impl fmt::Display for InputError {
                 "only be given with Hertz's contact without adhesion and external force, with hysteretic damping or none",
             ),
             Fault::OtherLaw => f.write_str("be zero with this law or end of contact; choose another"),
+            Fault::Receding => f.write_str("be positive; let the normal point to the particle that approaches"),
+            Fault::TwoBodies => f.write_str("be zero where two spheres meet; it acts on one of them"),
             Fault::OutOfOrder if parameter == Parameter::ReboundSpeed => {
                 f.write_str("not be below that of the point before; R v never falls with the speed v")
             }
@@ -402,6 +412,7 @@ impl InputError {
             {
                 write!(f, "; enter {value}{unit} as {}", Number(-self.value))
             }
+            Parameter::NormalLength => f.write_str("; divide the normal by its length"),
             Parameter::AdhesionRatio => f.write_str("; the approach speed is too small for this adhesion"),
             Parameter::ForceRatio => f.write_str("; the approach speed is too small for this external force"),
             Parameter::Radius | Parameter::Thickness

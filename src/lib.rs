@@ -15,13 +15,14 @@ mod motion;
 mod numbers;
 pub mod rigid;
 mod rolling;
+pub mod space;
 pub mod table;
 mod terms;
 
 pub use bodies::{AdhesionRegime, Hertz, KnownMaterial, MATERIALS, Material, Sourced, Sphere, Sticking, Stiffness};
 pub use classify::{Class, Classification, ContactClass, CriticalSpeed, Outcome, SurfaceMotion};
 pub use error::{Fault, ImpactError, InputError, Parameter};
-pub use motion::{Approach, NormalMotion, Oblique, ObliqueMotion, PlanarMotion};
+pub use motion::{Approach, NormalMotion, Oblique, ObliqueMotion, Planar, PlanarMotion};
 pub use numbers::{Dual, Real};
 #[cfg(feature = "fixed")]
 pub use numbers::{FixedPoint, InFixedPoint};

@@ -19,6 +19,9 @@ use crate::{InputError, Parameter, Real, Sphere};
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 pub trait Approach<T> {
+    /// Whether it is the motion of two bodies towards each other, on which external forces do not act as on one.
+    const OF_TWO_BODIES: bool = false;
+
     /// Normal part of the motion.
     fn normal(&self) -> NormalMotion<T>;
 }
@@ -42,6 +45,28 @@ pub trait Oblique<T: Real>: Approach<T> {
     /// Slip velocity v_ct = v_t - r w of the contact point, m/s. It is zero if the sphere rolls.
     fn slip(&self) -> T;
 }
+
+/// A motion in one plane, whose spin has one axis. A peeling moment and rolling dissipation act against such a spin only: how they
+/// act against others is not known.
+///
+/// ```
+/// use microimpact::{NormalMotion, Planar};
+///
+/// fn spin_parameter(motion: &impl Planar<f64>) -> f64 {
+///     motion.peripheral() / motion.normal().speed()
+/// }
+/// assert_eq!(spin_parameter(&NormalMotion::new(2.0)?.with_tangential(0.0)?.with_peripheral_velocity(1.0)?), 0.5);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "a peeling moment or rolling dissipation acts against a spin about one axis, which `{Self}` may not have",
+    label = "give a planar motion: `.with_tangential(v_t)?.with_spin(&sphere, w)?`"
+)]
+pub trait Planar<T: Real>: Oblique<T> {}
+
+impl<T: Real> Planar<T> for ObliqueMotion<T> {}
+
+impl<T: Real> Planar<T> for PlanarMotion<T> {}
 
 /// Motion along the normal, without tangential velocity and spin.
 ///

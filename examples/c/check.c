@@ -442,6 +442,254 @@ static void restitution(void)
     free(scene), free(motion), free(table), free(reading);
 }
 
+static int close_to(float value, float expected, float scale)
+{
+    return fabsf(value - expected) < 2e-6f * scale;
+}
+
+/* What a scene gives for a planar motion of a sphere. */
+struct after {
+    float restitution, tangential;
+    MicroimpactClass impact_class;
+};
+
+static struct after impact_of(float radius, float density, const MicroimpactMotion *planar, int simulated)
+{
+    struct after after;
+    MicroimpactError error;
+    if (simulated) {
+        MicroimpactContactScene scene = CONTACT;
+        MicroimpactContact result;
+        size_t written;
+        scene.radius = radius, scene.density = density;
+        assert(microimpact_contact_init(&scene, &scene, &error) == MICROIMPACT_STATUS_OK);
+        assert(microimpact_simulate(&scene, planar, 1, &result, 1, &written, &error) == MICROIMPACT_STATUS_OK);
+        after = (struct after){result.restitution, result.tangential, result.impact_class};
+    } else {
+        MicroimpactRigidScene scene = BODY;
+        MicroimpactClassification result;
+        scene.radius = radius, scene.density = density;
+        assert(microimpact_rigid_init(&scene, &scene, &error) == MICROIMPACT_STATUS_OK);
+        assert(microimpact_classify(&scene, planar, &result, &error) == MICROIMPACT_STATUS_OK);
+        after = (struct after){result.restitution, result.tangential, result.impact_class};
+    }
+    return after;
+}
+
+static void wall_values(void)
+{
+    const float r = BODY.radius;
+    const MicroimpactWall floor = {{0.0f, 0.0f, 1.0f}, {0}}, lift = {{0.0f, 0.0f, 1.0f}, {1.0f, 0.0f, 0.5f}};
+    const MicroimpactWall slope = {{0.6f, 0.0f, 0.8f}, {0}};
+    MicroimpactSpatialMotion motion = {{0.3f, 0.4f, -2.8f}, {0.0f, 0.0f, 7.0f}}, after, moved;
+    MicroimpactMotion planar;
+    MicroimpactError error;
+
+    for (int simulated = 0; simulated < 2; simulated++) {
+        /* Along x and y at once; it rolls off with 5/7 of the tangential velocity and goes on spinning about the normal. */
+        assert(microimpact_wall_incidence(&floor, r, &motion, &planar, &error) == MICROIMPACT_STATUS_OK);
+        assert(planar.approach == 2.8f && close_to(planar.tangential, 0.5f, 0.5f) && planar.peripheral == 0.0f);
+        struct after end = impact_of(r, BODY.density, &planar, simulated);
+        assert(end.impact_class == MICROIMPACT_CLASS_REBOUND_ROLLING && end.restitution > 0.5f);
+        assert(microimpact_wall_after(&floor, r, &motion, end.restitution, end.tangential, &after, &error) == MICROIMPACT_STATUS_OK);
+        assert(close_to(after.velocity[0], 0.3f * 5.0f / 7.0f, 1.0f) && close_to(after.velocity[1], 0.4f * 5.0f / 7.0f, 1.0f));
+        assert(close_to(after.velocity[2], 2.8f * end.restitution, 2.8f) && after.spin[2] == 7.0f);
+        assert(close_to(r * after.spin[1], after.velocity[0], 1.0f) && close_to(-r * after.spin[0], after.velocity[1], 1.0f));
+
+        /* Seen from a lift, all is the same. */
+        MicroimpactSpatialMotion seen = motion;
+        for (size_t i = 0; i < 3; i++)
+            seen.velocity[i] += lift.velocity[i];
+        assert(microimpact_wall_incidence(&lift, r, &seen, &planar, &error) == MICROIMPACT_STATUS_OK);
+        assert(close_to(planar.approach, 2.8f, 2.8f) && close_to(planar.tangential, 0.5f, 1.0f));
+        assert(microimpact_wall_after(&lift, r, &seen, end.restitution, end.tangential, &moved, NULL) == MICROIMPACT_STATUS_OK);
+        for (size_t i = 0; i < 3; i++)
+            assert(close_to(moved.velocity[i] - lift.velocity[i], after.velocity[i], 2.8f));
+    }
+
+    /* Straight onto a slope, and the same memory for both motions. */
+    motion = (MicroimpactSpatialMotion){{-1.2f, 0.0f, -1.6f}, {0}};
+    assert(microimpact_wall_incidence(&slope, r, &motion, &planar, NULL) == MICROIMPACT_STATUS_OK);
+    assert(close_to(planar.approach, 2.0f, 2.0f) && close_to(planar.tangential, 0.0f, 2.0f));
+    assert(microimpact_wall_after(&slope, r, &motion, 0.5f, 0.0f, &motion, NULL) == MICROIMPACT_STATUS_OK);
+    assert(close_to(motion.velocity[0], 0.6f, 2.0f) && motion.velocity[1] == 0.0f && close_to(motion.velocity[2], 0.8f, 2.0f));
+    /* A captured sphere stays on its wall. */
+    motion = (MicroimpactSpatialMotion){{0.0f, 0.0f, -0.5f}, {0}};
+    assert(microimpact_wall_incidence(&lift, r, &motion, &planar, &error) == MICROIMPACT_STATUS_OK);
+    assert(close_to(planar.approach, 1.0f, 1.0f) && close_to(planar.tangential, 1.0f, 1.0f));
+    assert(microimpact_wall_after(&lift, r, &motion, 0.0f, 0.0f, &after, &error) == MICROIMPACT_STATUS_OK);
+    for (size_t i = 0; i < 3; i++)
+        assert(close_to(after.velocity[i], lift.velocity[i], 1.0f));
+}
+
+static void pair_values(void)
+{
+    const float r = BODY.radius, density = BODY.density;
+    const MicroimpactPair head_on = {{2.0f * r, 2.0f * r}, {density, density}, {1.0f, 0.0f, 0.0f},
+                                     {{{-1.4f, 0.0f, 0.0f}, {0}}, {{1.4f, 0.0f, 0.0f}, {0}}}};
+    const MicroimpactPair oblique = {{r, 3.0f * r}, {density, 0.5f * density}, {0.0f, 0.6f, 0.8f},
+                                     {{{0.2f, -1.0f, -2.0f}, {0.0f, 3e4f, -1e4f}}, {{0.1f, 0.5f, 0.4f}, {2e4f, 0.0f, 0.0f}}}};
+    MicroimpactSpatialMotion after[2];
+    MicroimpactMotion planar;
+    MicroimpactError error;
+    float radius, reduced;
+
+    /* Equal spheres exchange their velocities but for what is lost. */
+    assert(microimpact_pair_incidence(&head_on, &radius, &reduced, &planar, &error) == MICROIMPACT_STATUS_OK);
+    assert(close_to(radius / r, 1.0f, 1.0f) && close_to(reduced / density, 4.0f, 4.0f));
+    assert(planar.approach == 2.8f && planar.tangential == 0.0f && planar.peripheral == 0.0f);
+    struct after end = impact_of(radius, reduced, &planar, 1);
+    assert(end.restitution > 0.5f && end.restitution < 1.0f && end.tangential == 0.0f);
+    assert(microimpact_pair_after(&head_on, end.restitution, end.tangential, after, &error) == MICROIMPACT_STATUS_OK);
+    assert(close_to(after[0].velocity[0], 1.4f * end.restitution, 1.4f) && close_to(after[1].velocity[0], -1.4f * end.restitution, 1.4f));
+    /* What holds them makes them go on together. */
+    assert(microimpact_pair_after(&head_on, 0.0f, 0.0f, after, NULL) == MICROIMPACT_STATUS_OK);
+    assert(close_to(after[0].velocity[0], 0.0f, 1.4f) && close_to(after[1].velocity[0], 0.0f, 1.4f));
+
+    /* Unequal ones that spin: momentum is kept, and they roll off each other. */
+    const float mass[2] = {1.0f, 13.5f};
+    for (int simulated = 0; simulated < 2; simulated++) {
+        assert(microimpact_pair_incidence(&oblique, &radius, &reduced, &planar, &error) == MICROIMPACT_STATUS_OK);
+        assert(close_to(radius / r, 0.75f, 1.0f) && close_to(reduced / density, 13.5f / 14.5f * 64.0f / 27.0f, 3.0f));
+        assert(close_to(planar.approach, 2.82f, 2.82f) && planar.tangential > 0.0f && planar.peripheral == 0.0f);
+        end = impact_of(radius, reduced, &planar, simulated);
+        assert(end.impact_class == MICROIMPACT_CLASS_REBOUND_ROLLING);
+        assert(microimpact_pair_after(&oblique, end.restitution, end.tangential, after, &error) == MICROIMPACT_STATUS_OK);
+        float normal = 0.0f;
+        for (size_t i = 0; i < 3; i++) {
+            const size_t j = (i + 1) % 3, k = (i + 2) % 3;
+            const MicroimpactSpatialMotion *before = oblique.motion;
+            float momentum = 0.0f, slip = after[0].velocity[i] - after[1].velocity[i];
+            for (size_t s = 0; s < 2; s++) {
+                const float *n = oblique.normal, *spin = after[s].spin;
+                momentum += mass[s] * (after[s].velocity[i] - before[s].velocity[i]);
+                slip -= oblique.radius[s] * (spin[j] * n[k] - spin[k] * n[j]);
+            }
+            normal += (after[0].velocity[i] - after[1].velocity[i]) * oblique.normal[i];
+            assert(close_to(momentum, 0.0f, 14.0f) && close_to(slip, 2.82f * end.restitution * oblique.normal[i], 4.0f));
+        }
+        assert(close_to(normal, 2.82f * end.restitution, 4.0f));
+    }
+
+    /* In the memory of the motions before. */
+    MicroimpactPair *pair = copy(&oblique, sizeof oblique);
+    assert(microimpact_pair_after(pair, end.restitution, end.tangential, pair->motion, &error) == MICROIMPACT_STATUS_OK);
+    assert(memcmp(pair->motion, after, sizeof after) == 0 && memcmp(pair, &oblique, offsetof(MicroimpactPair, motion)) == 0);
+    free(pair);
+}
+
+static void wall_misuse(void)
+{
+    const MicroimpactStatus null = MICROIMPACT_STATUS_POINTER;
+    const MicroimpactWall floor = {{0.0f, 0.0f, 1.0f}, {0}};
+    const MicroimpactSpatialMotion falls = {{0.3f, 0.4f, -2.8f}, {0}};
+    const float r = BODY.radius;
+    MicroimpactWall *wall = copy(&floor, sizeof floor);
+    MicroimpactSpatialMotion *motion = copy(&falls, sizeof falls), *after = copy(&falls, sizeof falls);
+    MicroimpactMotion *planar = copy(&MOTION, sizeof MOTION);
+    MicroimpactError error;
+
+    assert(microimpact_wall_incidence(NULL, r, motion, planar, &error) == null);
+    assert(microimpact_wall_incidence(wall, r, NULL, planar, &error) == null);
+    assert(microimpact_wall_incidence(wall, r, motion, NULL, &error) == null);
+    assert(microimpact_wall_incidence((const MicroimpactWall *)((uintptr_t)wall + 1), r, motion, planar, &error) == null);
+    assert(microimpact_wall_after(NULL, r, motion, 0.5f, 0.0f, after, &error) == null);
+    assert(microimpact_wall_after(wall, r, NULL, 0.5f, 0.0f, after, &error) == null);
+    assert(microimpact_wall_after(wall, r, motion, 0.5f, 0.0f, NULL, &error) == null);
+    assert(microimpact_wall_after(wall, r, motion, 0.5f, 0.0f, (MicroimpactSpatialMotion *)((uintptr_t)after + 2), &error) == null);
+
+    static const float BAD[] = {NAN, INFINITY, -INFINITY, -3.4e38f, 3.4e38f};
+    for (size_t i = 0; i < sizeof BAD / sizeof BAD[0]; i++) {
+        for (size_t axis = 0; axis < 3; axis++) {
+            float *const places[] = {&wall->normal[axis], &wall->velocity[axis], &motion->velocity[axis], &motion->spin[axis]};
+            static const char *const NAMES[] = {"length of the normal", "component of the velocity", "component of the velocity", "spin"};
+            for (size_t place = 0; place < sizeof places / sizeof places[0]; place++) {
+                const float good = *places[place];
+                *places[place] = BAD[i];
+                refused(microimpact_wall_incidence(wall, r, motion, planar, &error), &error, NAMES[place]);
+                refused(microimpact_wall_after(wall, r, motion, 0.5f, 0.0f, after, &error), &error, NAMES[place]);
+                *places[place] = good;
+            }
+        }
+        refused(microimpact_wall_incidence(wall, BAD[i], motion, planar, &error), &error, "radius");
+        refused(microimpact_wall_after(wall, BAD[i], motion, 0.5f, 0.0f, after, &error), &error, "radius");
+        refused(microimpact_wall_after(wall, r, motion, BAD[i], 0.0f, after, &error), &error, "restitution");
+        refused(microimpact_wall_after(wall, r, motion, 0.5f, BAD[i], after, &error), &error, "tangential velocity");
+    }
+    refused(microimpact_wall_after(wall, r, motion, -0.001f, 0.0f, after, &error), &error, "restitution");
+    refused(microimpact_wall_after(wall, r, motion, 1.001f, 0.0f, after, &error), &error, "restitution");
+    assert(error.fault == MICROIMPACT_FAULT_TOO_LARGE);
+
+    /* A normal that is not of length one, and one that points into the wall; what rests on the wall does not approach it. */
+    wall->normal[2] = 1.01f;
+    refused(microimpact_wall_incidence(wall, r, motion, planar, &error), &error, "length of the normal");
+    wall->normal[2] = 0.0f;
+    refused(microimpact_wall_incidence(wall, r, motion, planar, &error), &error, "length of the normal");
+    wall->normal[2] = -1.0f;
+    refused(microimpact_wall_incidence(wall, r, motion, planar, &error), &error, "approach speed");
+    assert(error.fault == MICROIMPACT_FAULT_RECEDING);
+    refused(microimpact_wall_after(wall, r, motion, 0.5f, 0.0f, after, &error), &error, "approach speed");
+    assert(error.fault == MICROIMPACT_FAULT_RECEDING);
+    wall->normal[2] = 1.0f, motion->velocity[2] = 0.0f;
+    refused(microimpact_wall_incidence(wall, r, motion, planar, &error), &error, "approach speed");
+    assert(memcmp(after, &falls, sizeof falls) == 0 && memcmp(planar, &MOTION, sizeof MOTION) == 0);
+
+    free(wall), free(motion), free(after), free(planar);
+}
+
+static void pair_misuse(void)
+{
+    const MicroimpactStatus null = MICROIMPACT_STATUS_POINTER;
+    const MicroimpactPair meeting = {{1e-5f, 2e-5f}, {1000.0f, 2600.0f}, {1.0f, 0.0f, 0.0f},
+                                     {{{-1.4f, 0.0f, 0.0f}, {0}}, {{1.4f, 0.5f, 0.0f}, {0}}}};
+    MicroimpactPair *pair = copy(&meeting, sizeof meeting);
+    /* Room for two motions and not one more. */
+    MicroimpactSpatialMotion *after = copy(meeting.motion, sizeof meeting.motion);
+    MicroimpactMotion *planar = copy(&MOTION, sizeof MOTION);
+    float *radius = copy(&BODY.radius, sizeof BODY.radius), *density = copy(&BODY.density, sizeof BODY.density);
+    MicroimpactError error;
+
+    assert(microimpact_pair_incidence(NULL, radius, density, planar, &error) == null);
+    assert(microimpact_pair_incidence(pair, NULL, density, planar, &error) == null);
+    assert(microimpact_pair_incidence(pair, radius, NULL, planar, &error) == null);
+    assert(microimpact_pair_incidence(pair, radius, density, NULL, &error) == null);
+    assert(microimpact_pair_incidence((const MicroimpactPair *)((uintptr_t)pair + 1), radius, density, planar, &error) == null);
+    assert(microimpact_pair_after(NULL, 0.5f, 0.0f, after, &error) == null);
+    assert(microimpact_pair_after(pair, 0.5f, 0.0f, NULL, &error) == null);
+    assert(microimpact_pair_after(pair, 0.5f, 0.0f, (MicroimpactSpatialMotion *)((uintptr_t)after + 2), NULL) == null);
+
+    static const float BAD[] = {NAN, INFINITY, -INFINITY, -3.4e38f, 3.4e38f};
+    for (size_t i = 0; i < sizeof BAD / sizeof BAD[0]; i++) {
+        for (size_t s = 0; s < 2; s++) {
+            float *const places[] = {&pair->radius[s], &pair->density[s], &pair->normal[s], &pair->motion[s].velocity[s],
+                                     &pair->motion[s].spin[s]};
+            static const char *const NAMES[] = {"radius", "density", "length of the normal", "component of the velocity", "spin"};
+            for (size_t place = 0; place < sizeof places / sizeof places[0]; place++) {
+                const float good = *places[place];
+                *places[place] = BAD[i];
+                refused(microimpact_pair_incidence(pair, radius, density, planar, &error), &error, NAMES[place]);
+                refused(microimpact_pair_after(pair, 0.5f, 0.0f, after, &error), &error, NAMES[place]);
+                *places[place] = good;
+            }
+        }
+        refused(microimpact_pair_after(pair, BAD[i], 0.0f, after, &error), &error, "restitution");
+        refused(microimpact_pair_after(pair, 0.5f, BAD[i], after, &error), &error, "tangential velocity");
+    }
+    pair->normal[0] = -1.0f;
+    refused(microimpact_pair_incidence(pair, radius, density, planar, &error), &error, "approach speed");
+    assert(error.fault == MICROIMPACT_FAULT_RECEDING);
+    refused(microimpact_pair_after(pair, 0.5f, 0.0f, after, &error), &error, "approach speed");
+    /* A pair that was never filled. */
+    memset(pair, 0, sizeof *pair);
+    refused(microimpact_pair_incidence(pair, radius, density, planar, &error), &error, "radius");
+    memset(pair, 0xff, sizeof *pair);
+    refused(microimpact_pair_after(pair, 0.5f, 0.0f, after, &error), &error, "radius");
+    assert(memcmp(after, meeting.motion, sizeof meeting.motion) == 0 && memcmp(planar, &MOTION, sizeof MOTION) == 0);
+    assert(*radius == BODY.radius && *density == BODY.density);
+
+    free(pair), free(after), free(planar), free(radius), free(density);
+}
+
 static void parameter_names(void)
 {
     for (size_t capacity = 0; capacity < 10; capacity++) {
@@ -482,6 +730,10 @@ int main(int count, char **arguments)
     trajectory();
     boundary();
     restitution();
+    wall_values();
+    pair_values();
+    wall_misuse();
+    pair_misuse();
     parameter_names();
     return 0;
 }

@@ -1,5 +1,5 @@
-/* Classifies and simulates some impacts, looks them up in tables, and prints every bit of the results. Runs on a
-   microcontroller and on a host. */
+/* Classifies and simulates some impacts, in one plane and in space, looks them up in tables, and prints every bit of the results.
+   Runs on a microcontroller and on a host. */
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -43,6 +43,20 @@ static const float SMALLEST_RADIUS = 2e-6f, LARGEST_SPEED_RATIO = 10.0f;
 
 /* As `cargo microimpact table` has written it. */
 static const MicroimpactBoundaryTable CONSTANT = {BOUNDARY_SMALLEST_RADIUS, BOUNDARY_MARGIN, boundary, BOUNDARY_CELLS};
+
+/* Motions in space: onto walls, one of which moves, and of spheres that collide. */
+static const MicroimpactWall WALLS[] = {
+    {{0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 0.0f}}, {{0.48f, -0.6f, 0.64f}, {0.3f, 0.2f, 0.1f}},
+};
+static const MicroimpactSpatialMotion IN_SPACE[] = {
+    {{0.3f, 0.4f, -2.8f}, {1e5f, -2e5f, 7e4f}}, {{12.0f, 16.0f, -3.0f}, {0.0f, 0.0f, 0.0f}}, {{-0.1f, 0.3f, -0.5f}, {0.0f, 3e4f, 0.0f}},
+};
+static const MicroimpactPair PAIRS[] = {
+    {{5.06e-6f, 5.06e-6f}, {2600.0f, 2600.0f}, {1.0f, 0.0f, 0.0f}, {{{-2.8f, 0.2f, 0.1f}, {0.0f, 0.0f, 1e5f}}, {{2.8f, 0.0f, 0.0f}, {0}}}},
+    {{4e-6f, 1.2e-5f}, {2600.0f, 1300.0f}, {0.0f, 0.6f, 0.8f},
+     {{{0.2f, -1.0f, -4.0f}, {0.0f, 3e4f, -1e4f}}, {{9.0f, 0.5f, 0.4f}, {2e4f, 0.0f, 0.0f}}}},
+    {{6e-6f, 5e-6f}, {1000.0f, 2000.0f}, {0.0f, 0.0f, 1.0f}, {{{0.1f, 0.0f, -0.3f}, {0}}, {{0}, {0}}}},
+};
 
 static unsigned long bits(float number)
 {
@@ -130,6 +144,55 @@ static int simulations(const char *name, const MicroimpactContactScene *scene)
     return 1;
 }
 
+static void print_motion(const MicroimpactSpatialMotion *motion)
+{
+    printf(" %08lx %08lx %08lx %08lx %08lx %08lx", bits(motion->velocity[0]), bits(motion->velocity[1]), bits(motion->velocity[2]),
+           bits(motion->spin[0]), bits(motion->spin[1]), bits(motion->spin[2]));
+}
+
+static int walls(void)
+{
+    MicroimpactMotion planar;
+    MicroimpactContact c;
+    MicroimpactSpatialMotion after;
+    size_t written;
+    for (size_t i = 0; i < COUNT(WALLS); i++) {
+        for (size_t j = 0; j < COUNT(IN_SPACE); j++) {
+            if (microimpact_wall_incidence(&WALLS[i], contact.radius, &IN_SPACE[j], &planar, NULL) != MICROIMPACT_STATUS_OK
+                || microimpact_simulate(&contact, &planar, 1, &c, 1, &written, NULL) != MICROIMPACT_STATUS_OK
+                || microimpact_wall_after(&WALLS[i], contact.radius, &IN_SPACE[j], c.restitution, c.tangential, &after, NULL)
+                       != MICROIMPACT_STATUS_OK)
+                return 0;
+            printf("wall %lu %lu %d %08lx %08lx %08lx", (unsigned long)i, (unsigned long)j, (int)c.impact_class, bits(planar.approach),
+                   bits(planar.tangential), bits(planar.peripheral));
+            print_motion(&after);
+            printf("\n");
+        }
+    }
+    return 1;
+}
+
+static int pairs(void)
+{
+    MicroimpactMotion planar;
+    MicroimpactContact c;
+    MicroimpactSpatialMotion after[2];
+    size_t written;
+    for (size_t i = 0; i < COUNT(PAIRS); i++) {
+        MicroimpactContactScene scene = contact;
+        if (microimpact_pair_incidence(&PAIRS[i], &scene.radius, &scene.density, &planar, NULL) != MICROIMPACT_STATUS_OK
+            || microimpact_simulate(&scene, &planar, 1, &c, 1, &written, NULL) != MICROIMPACT_STATUS_OK
+            || microimpact_pair_after(&PAIRS[i], c.restitution, c.tangential, after, NULL) != MICROIMPACT_STATUS_OK)
+            return 0;
+        printf("pair %lu %d %08lx %08lx %08lx %08lx", (unsigned long)i, (int)c.impact_class, bits(scene.radius), bits(scene.density),
+               bits(planar.approach), bits(planar.tangential));
+        print_motion(&after[0]);
+        print_motion(&after[1]);
+        printf("\n");
+    }
+    return 1;
+}
+
 int main(void)
 {
     MicroimpactError error;
@@ -157,5 +220,7 @@ int main(void)
         return 5;
     if (!restitutions())
         return 6;
+    if (!walls() || !pairs())
+        return 8;
     return 0;
 }

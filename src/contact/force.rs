@@ -78,7 +78,7 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn force(&self, before: &impl Approach<T>) -> Result<ContactForce<T, L>, InputError> {
-        let (law, units) = self.law().in_units(self.sphere(), before.normal().speed())?;
+        let (law, units, _) = self.in_units_of(before)?;
         let force = self.sphere().mass() * units.speed * (units.speed / units.length);
         Ok(ContactForce { law, units, force })
     }

@@ -452,8 +452,7 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
     where
         S: Surface<T, B>,
     {
-        let approach = before.normal().speed();
-        let (law, units) = self.law.in_units(&self.sphere, approach)?;
+        let (law, units, approach) = self.in_units_of(before)?;
         let start = self.surface.start(before, &self.sphere, &law, &units)?;
         let mut observer = (outputs.begin(&start), S::observer(&start));
         let path = method.solve(&law, units.energy, &mut observer);
@@ -490,8 +489,7 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
         before: &impl Approach<T>,
         method: &impl Method<T>,
     ) -> Result<NormalContact<T>, InputError> {
-        let approach = before.normal().speed();
-        let (law, units) = self.law.in_units(&self.sphere, approach)?;
+        let (law, units, approach) = self.in_units_of(before)?;
         let path = method.solve(&law, units.energy, &mut ());
         Ok(NormalContact::new(&path, approach, &law, &units))
     }
@@ -532,8 +530,7 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
         M: ErrorControl<T>,
         O: Output<T, S::Start>,
     {
-        let approach = before.normal().speed();
-        let (law, units) = self.law.in_units(&self.sphere, approach)?;
+        let (law, units, approach) = self.in_units_of(before)?;
         let start = self.surface.start(before, &self.sphere, &law, &units)?;
         let mut observer = (Times::new(), (outputs.begin(&start), S::observer(&start)));
         let (path, settling) = method.solve_to_rest(&law, units.energy, &mut observer, criterion);
@@ -644,6 +641,18 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
         Ok(Some(Classification { outcome, speed_over_critical, contact: tangential.contact() }))
     }
 
+    /// The law in units of the impact of a sphere that arrives with a motion, those units, and the approach speed.
+    #[inline]
+    pub(super) fn in_units_of<B: Approach<T>>(&self, before: &B) -> Result<(L, Units<T>, T), InputError> {
+        let (speed, force) = (before.normal().speed(), self.law.external_force());
+        if B::OF_TWO_BODIES && force != T::ZERO {
+            let value = force.to_f64() as f32;
+            return Err(InputError { parameter: Parameter::ExternalForce, fault: Fault::TwoBodies, value });
+        }
+        let (law, units) = self.law.in_units(&self.sphere, speed)?;
+        Ok((law, units, speed))
+    }
+
     /// The law in units of the impact of a sphere with an approach speed (m/s), and those units.
     pub(super) fn in_units(&self, approach: T) -> Result<(L, Units<T>), InputError> {
         self.law.in_units(&self.sphere, approach)
@@ -707,7 +716,7 @@ where
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn groups(&self, before: &impl Approach<T>) -> Result<Groups<T>, InputError> {
-        let (law, units) = self.law.in_units(&self.sphere, before.normal().speed())?;
+        let (law, units, _) = self.in_units_of(before)?;
         Ok(law.groups(units.energy))
     }
 }

@@ -13,6 +13,9 @@ use crate::{InputError, Parameter, Real, Sphere};
 /// assert_eq!(NoMicroforce.rebound(1.5), 1.5);
 /// ```
 pub trait MicroforceTerm<T> {
+    /// Whether it acts at all.
+    const ACTS: bool = true;
+
     /// Part of the approach `speed` that the body has to stop (A5).
     fn body_approach(&self, speed: T) -> T;
 
@@ -38,6 +41,8 @@ pub trait MicroforceTerm<T> {
 pub struct NoMicroforce;
 
 impl<T: Real> MicroforceTerm<T> for NoMicroforce {
+    const ACTS: bool = false;
+
     #[inline]
     fn body_approach(&self, speed: T) -> T {
         speed

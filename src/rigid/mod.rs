@@ -309,6 +309,7 @@ where
         M: Approach<T>,
         S: TangentialTerm<T, M>,
     {
+        const { assert!(!(M::OF_TWO_BODIES && X::ACTS), "external impulses act on one body, and two meet") };
         let normal = NormalImpact::of(&self.restitution, &self.adhesion, &self.microforce, &motion.normal());
         let tangential = self.surface.impact(&self.sphere, motion, &normal);
         Impact { normal, tangential }

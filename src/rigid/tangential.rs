@@ -6,7 +6,7 @@
 use crate::rolling::{Friction, friction_over_limit};
 use crate::{
     Approach, ContactClass, Coulomb, ImpactError, InputError, NoFriction, NormalImpact, Oblique, Outcome, Parameter,
-    Real, Sphere, SurfaceMotion,
+    Planar, Real, Sphere, SurfaceMotion,
 };
 
 /// What happens along the surface to a sphere that arrives with a motion `M`.
@@ -116,7 +116,7 @@ impl<T: Real> RollingDissipation<T> {
     }
 }
 
-impl<T: Real, M: Oblique<T>> TangentialTerm<T, M> for RollingDissipation<T> {
+impl<T: Real, M: Planar<T>> TangentialTerm<T, M> for RollingDissipation<T> {
     type Impact = TangentialImpact<T>;
 
     #[inline]

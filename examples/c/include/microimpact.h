@@ -58,6 +58,8 @@ enum MicroimpactFault
   MICROIMPACT_FAULT_TOO_LARGE,
   // A term that does not go with the others of the scene.
   MICROIMPACT_FAULT_OTHER_LAW,
+  // Bodies that do not approach each other along the normal.
+  MICROIMPACT_FAULT_RECEDING,
   // Any other fault.
   MICROIMPACT_FAULT_OTHER,
 };
@@ -237,6 +239,35 @@ typedef struct MicroimpactContact {
   float spin;
 } MicroimpactContact;
 
+// The wall that a sphere hits, at rest or moving.
+typedef struct MicroimpactWall {
+  // Direction from the wall to the sphere, a vector of length one; within 1e-3 of it, the length is set to one.
+  float normal[3];
+  // Velocity of the surface of the wall at the contact, m/s; zeros for a wall at rest.
+  float velocity[3];
+} MicroimpactWall;
+
+// The motion of a solid sphere in space.
+typedef struct MicroimpactSpatialMotion {
+  // Velocity of the centre, m/s.
+  float velocity[3];
+  // Spin, rad/s.
+  float spin[3];
+} MicroimpactSpatialMotion;
+
+// Two solid spheres that collide.
+typedef struct MicroimpactPair {
+  // Radius of each sphere, m.
+  float radius[2];
+  // Density of each sphere, kg/m^3.
+  float density[2];
+  // Direction from the centre of the second sphere to that of the first, a vector of length one; within 1e-3 of it, the
+  // length is set to one.
+  float normal[3];
+  // Motion of each sphere before the impact.
+  struct MicroimpactSpatialMotion motion[2];
+} MicroimpactPair;
+
 // The critical speeds of spheres of one material on one surface, over a range of radii. Made by microimpact_boundary_make,
 // or a constant that `cargo microimpact table` has written.
 typedef struct MicroimpactBoundaryTable {
@@ -332,6 +363,79 @@ MicroimpactStatus microimpact_simulate(const struct MicroimpactContactScene *sce
                                        size_t capacity,
                                        size_t *written,
                                        struct MicroimpactError *error);
+
+// Computes the planar motion of a solid sphere of the given radius (m) that hits a wall. microimpact_classify and
+// microimpact_simulate take it, with a scene of the same radius.
+//
+// The plane contains the normal and the velocity with which the contact point slips on the wall. The sphere keeps its velocity
+// across that plane, so that a class such as rolling or resting describes the motion in the plane.
+//
+// It is an error with the fault MICROIMPACT_FAULT_RECEDING if the sphere does not approach the wall. Where this fails, nothing
+// is written but the error, which may be null.
+//
+// # Safety
+// Each pointer is null or points to what its type says, and nobody else uses it during the call.
+MicroimpactStatus microimpact_wall_incidence(const struct MicroimpactWall *wall,
+                                             float radius,
+                                             const struct MicroimpactSpatialMotion *motion,
+                                             struct MicroimpactMotion *planar,
+                                             struct MicroimpactError *error);
+
+// Computes the motion in space of a solid sphere after its impact on a wall: from the wall, the radius (m) and the motion that
+// microimpact_wall_incidence took, and from the overall restitution (0 to 1) and the tangential velocity (m/s) that
+// microimpact_classify or microimpact_simulate returned for its planar motion.
+//
+// With a restitution of zero, the sphere stays on the wall. An impact of MICROIMPACT_CLASS_UNDECIDED has that restitution, too,
+// but the motion after it is not known: do not call this function for it.
+//
+// The motions before and after may be the same memory. Where this fails, nothing is written but the error, which may be null.
+//
+// # Safety
+// Each pointer is null or points to what its type says, and nobody else uses it during the call.
+MicroimpactStatus microimpact_wall_after(const struct MicroimpactWall *wall,
+                                         float radius,
+                                         const struct MicroimpactSpatialMotion *motion,
+                                         float restitution,
+                                         float tangential,
+                                         struct MicroimpactSpatialMotion *after,
+                                         struct MicroimpactError *error);
+
+// Computes the reduced sphere of two solid spheres that collide, whose impact on a wall is equivalent to the collision: its
+// radius (m), its density (kg/m^3) and its planar motion. Initialise a scene with this radius and this density;
+// microimpact_classify and microimpact_simulate then take the planar motion. All other parameters of the scene are those of the
+// contact of the two spheres, and a work of adhesion in joules is that of the relative motion.
+//
+// The tangential velocity is that with which the spheres slip on each other, and the peripheral velocity is zero.
+//
+// It is an error with the fault MICROIMPACT_FAULT_RECEDING if the spheres do not approach each other. Where this fails, nothing
+// is written but the error, which may be null.
+//
+// # Safety
+// Each pointer is null or points to what its type says, and nobody else uses it during the call.
+MicroimpactStatus microimpact_pair_incidence(const struct MicroimpactPair *pair,
+                                             float *radius,
+                                             float *density,
+                                             struct MicroimpactMotion *planar,
+                                             struct MicroimpactError *error);
+
+// Computes the motions in space of two solid spheres after their collision: from the pair that microimpact_pair_incidence took,
+// and from the overall restitution (0 to 1) and the tangential velocity (m/s) that microimpact_classify or microimpact_simulate
+// returned for its planar motion. There is room for two motions, those of the first and of the second sphere.
+//
+// With a restitution of zero, the spheres go on together. An impact of MICROIMPACT_CLASS_UNDECIDED has that restitution, too, but
+// the motions after it are not known: do not call this function for it.
+//
+// The motions after the impact may be in the memory of those of the pair. Where this fails, nothing is written but the error,
+// which may be null.
+//
+// # Safety
+// Each pointer is null or points to what its type says, the motions to room for two of them, and nobody else uses them during
+// the call.
+MicroimpactStatus microimpact_pair_after(const struct MicroimpactPair *pair,
+                                         float restitution,
+                                         float tangential,
+                                         struct MicroimpactSpatialMotion *after,
+                                         struct MicroimpactError *error);
 
 // Writes the name of a parameter and a zero byte to a buffer, cut off where it is too small, and returns the length of the
 // whole name, zero for a parameter that there is not.

@@ -9,12 +9,17 @@
 mod memory;
 mod rigid;
 mod simulation;
+mod space;
 mod status;
 mod tables;
 mod trajectory;
 
 pub use rigid::{Classification, RigidScene, microimpact_classify, microimpact_rigid_init};
 pub use simulation::{Contact, ContactScene, microimpact_contact_init, microimpact_simulate};
+pub use space::{
+    Pair, SpatialMotion, Wall, microimpact_pair_after, microimpact_pair_incidence, microimpact_wall_after,
+    microimpact_wall_incidence,
+};
 pub use status::{Class, Error, Fault, Motion, Status, microimpact_parameter_name};
 pub use tables::{
     BoundaryTable, RestitutionTable, SurfaceMotion, TableReading, Verdict, microimpact_boundary_check,

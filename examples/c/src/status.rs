@@ -38,6 +38,8 @@ pub enum Fault {
     TooLarge,
     /// A term that does not go with the others of the scene.
     OtherLaw,
+    /// Bodies that do not approach each other along the normal.
+    Receding,
     /// Any other fault.
     Other,
 }
@@ -70,6 +72,7 @@ impl From<InputError> for Error {
             microimpact::Fault::TooSmall => Fault::TooSmall,
             microimpact::Fault::TooLarge => Fault::TooLarge,
             microimpact::Fault::OtherLaw => Fault::OtherLaw,
+            microimpact::Fault::Receding => Fault::Receding,
             _ => Fault::Other,
         };
         Self { parameter: parameter.unwrap_or(Parameter::ALL.len()) as u32, fault, smallest, largest }

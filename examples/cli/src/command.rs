@@ -10,7 +10,7 @@ use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 use microimpact::contact::{Adaptive, AdaptiveNodes};
 use microimpact::measure::NormalDistribution;
 use microimpact::{InputError, Real};
-use sheet::{Decimal, Input, LABEL, Row, Scalar, Sheet};
+use sheet::{Decimal, Header, Input, LABEL, Row, Scalar, Sheet};
 
 use crate::Streams;
 use crate::classify::OfferedNodes;
@@ -47,7 +47,7 @@ pub struct Reading {
 
 impl Reading {
     /// Opens a table, and says on standard error which of its columns a command reads. `computed` are the columns that it will
-    /// add.
+    /// add to it.
     ///
     /// # Errors
     /// What is wrong with the table, in words.
@@ -56,12 +56,12 @@ impl Reading {
         command: &str,
         source: impl BufRead + 'a,
         inputs: &[Input],
-        computed: &[String],
+        computed: impl Fn(&Header<'_>) -> Vec<String>,
         errors: &mut dyn Write,
     ) -> Result<Sheet<Box<dyn BufRead + 'a>>, String> {
         let sheet = Sheet::open(source, inputs, self.decimal)?;
         // If standard error is closed, nobody wants to know.
-        let _ = write!(errors, "{command}: {}", sheet.columns_in_words(computed));
+        let _ = write!(errors, "{command}: {}", sheet.columns_in_words(&computed(&sheet.header())));
         Ok(sheet)
     }
 }
@@ -158,8 +158,8 @@ pub trait Work {
     /// The numbers that it reads.
     fn inputs(&self) -> Vec<Input>;
 
-    /// Computed columns, in the order in which they are written; the column `error` follows them.
-    fn columns(&self) -> Vec<String>;
+    /// Columns that are computed for a table, in the order in which they are written; the column `error` follows them.
+    fn columns(&self, header: &Header<'_>) -> Vec<String>;
 
     /// The computed cells of a row.
     fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow>;
@@ -201,7 +201,8 @@ impl TableOptions {
             Some(path) if path.as_os_str() == "-" => Box::new(&mut *streams.input),
             Some(path) => Box::new(open(path)?),
         };
-        let sheet = self.reading.open(command, source, &work.inputs(), &work.columns(), streams.errors)?;
+        let computed = |header: &Header<'_>| work.columns(header);
+        let sheet = self.reading.open(command, source, &work.inputs(), computed, streams.errors)?;
         match self.format {
             Format::Csv => write_csv(sheet, &mut *streams.output, work),
             Format::Table => write_table(sheet, &mut *streams.output, work),
@@ -238,7 +239,7 @@ fn is_broken_pipe(error: &(dyn Error + 'static)) -> bool {
 }
 
 fn write_csv(mut sheet: Sheet<Box<dyn BufRead + '_>>, sink: impl Write, work: &impl Work) -> BadRows {
-    let mut columns = work.columns();
+    let mut columns = work.columns(&sheet.header());
     let computed = columns.len();
     columns.push("error".into());
     let mut writer = sheet.writer(io::BufWriter::new(sink), &columns)?;

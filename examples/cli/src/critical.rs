@@ -6,7 +6,7 @@
 use clap::Args;
 use microimpact::contact::{Adaptive, Contact};
 use microimpact::{CriticalSpeed, Sphere};
-use sheet::{Input, Row};
+use sheet::{Header, Input, Row};
 
 use crate::Streams;
 use crate::command::{BadRow, BadRows, Number, SimulationOptions, TableCommand, TableOptions, Work, simulation_help};
@@ -82,7 +82,7 @@ impl<T: Number> Work for Critical<T> {
         [&[Input::required(&["radius_m"]), DENSITY_INPUT], &LAW_INPUTS[..]].concat()
     }
 
-    fn columns(&self) -> Vec<String> {
+    fn columns(&self, _header: &Header<'_>) -> Vec<String> {
         ["critical_speed_m_s", "critical", "law"].map(String::from).into()
     }
 

@@ -98,7 +98,7 @@ fn run(options: &Options, streams: &mut Streams<'_>) -> Result<(), Box<dyn Error
 
 /// The impacts of a table.
 fn read(options: &Options, errors: &mut dyn Write) -> Result<Vec<Impact>, String> {
-    let mut sheet = options.reading.open(NAME, open(&options.file)?, &INPUTS, &[], errors)?;
+    let mut sheet = options.reading.open(NAME, open(&options.file)?, &INPUTS, |_| Vec::new(), errors)?;
     let mut impacts = Vec::new();
     while let Some(row) = sheet.next_row()? {
         let within = |parameter: Parameter, column: &str| {

@@ -25,6 +25,7 @@ mod fixed_point;
 #[cfg(feature = "probe")]
 mod instrument;
 mod measure;
+mod space;
 mod table;
 
 /// Calls everything, with one number type.
@@ -35,6 +36,7 @@ where
     call_rigid_body::<T>();
     keep(table::call_all::<T>());
     keep(contact::call_all::<T>());
+    keep(space::call_all::<T>());
     keep(fixed_point::call_all::<T>());
     measure::call_all::<T>();
     #[cfg(feature = "probe")]
@@ -86,7 +88,7 @@ fn elasticity<T: Real>() -> Result<(), InputError> {
     let material = Material::<T>::new(any(), any())?;
     keep(material.elastic_constant());
     let stiffness = Stiffness::new(any::<T>()).or(Stiffness::between(&material, &material))?;
-    keep(stiffness.pascals());
+    keep((stiffness.pascals(), Stiffness::tangential_ratio_between(&material, &material)));
     for sphere in [
         Sphere::<T>::solid(any(), any()),
         Sphere::hollow(any(), any(), any()),

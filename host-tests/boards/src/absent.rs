@@ -73,7 +73,13 @@ const OF_THE_RIGID_BODY: [Term; 5] = [
 ];
 
 /// What no simulation of the proof uses.
-const OF_THE_SIMULATION: [Term; 10] = [
+const OF_THE_SIMULATION: [Term; 11] = [
+    Term {
+        name: "compliance along the surface",
+        modules: &["compliance"],
+        types: &["Compliance", "CompliantMotion", "CompliantVelocities", "Unloading"],
+        methods: &["with_compliance", "with_unloading", "tangential_ratio_between"],
+    },
     Term {
         name: "other forces that press",
         types: &["TotalForce", "TotalAndPullOff"],
@@ -102,7 +108,8 @@ const OF_THE_SIMULATION: [Term; 10] = [
 ];
 
 /// What no impact alone uses.
-const AROUND_AN_IMPACT: [Term; 5] = [
+const AROUND_AN_IMPACT: [Term; 6] = [
+    Term { name: "motions in space", modules: &["space"], ..TERM },
     Term { name: "tables", modules: &["table"], ..TERM },
     Term { name: "calibration", modules: &["measure"], ..TERM },
     Term { name: "uncertainty", modules: &["dual"], types: &["Dual"], ..TERM },

@@ -5,10 +5,11 @@ use std::fmt::Write;
 use microimpact::contact::{
     Collocation, Contact, ContactLaw, JkrEnd, JkrLaw, PaperScene, Recording, RingScene, Sample, Slip, Trajectory,
 };
+use microimpact::space::{Pair, SpatialMotion, Wall};
 use microimpact::table::{BoundarySlice, BoundaryTable, Lookup, RestitutionTable, TableRebound};
 use microimpact::{
-    Coulomb, InputError, NormalMotion, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness,
-    SurfaceMotion,
+    Approach, Coulomb, InputError, NormalMotion, Oblique, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere,
+    Stiffness, SurfaceMotion,
 };
 
 use microimpact_scenes::table_1::{
@@ -35,6 +36,33 @@ pub const RADII: [f32; 4] = [1e-6, 2.5e-6, 5.06e-6, 1e-5];
 pub const LOOKED_UP: [[f32; 3]; 6] =
     [[5.15957, 0.0, 0.0], [2.8, 0.0, 0.7388], [2.8, 20.0, 0.0], [1.4, 0.0, 0.0], [9.0, 1.0, -2.5], [300.0, 0.0, 0.0]];
 
+/// Normal and velocity (m/s) of each wall.
+pub const WALLS: [[[f32; 3]; 2]; 2] = [[[0.0, 0.0, 1.0], [0.0; 3]], [[0.48, -0.6, 0.64], [0.3, 0.2, 0.1]]];
+
+/// Velocity (m/s) and spin (rad/s) of each sphere that hits the walls.
+pub const IN_SPACE: [[[f32; 3]; 2]; 3] =
+    [[[0.3, 0.4, -2.8], [1e5, -2e5, 7e4]], [[12.0, 16.0, -3.0], [0.0; 3]], [[-0.1, 0.3, -0.5], [0.0, 3e4, 0.0]]];
+
+/// Two spheres that collide: radii (m), densities (kg/m^3), normal, and motions as [`IN_SPACE`].
+pub struct Collision([f32; 2], [f32; 2], [f32; 3], [[[f32; 3]; 2]; 2]);
+
+/// Pairs of spheres that collide.
+pub const PAIRS: [Collision; 3] = [
+    Collision(
+        [5.06e-6, 5.06e-6],
+        [2600.0, 2600.0],
+        [1.0, 0.0, 0.0],
+        [[[-2.8, 0.2, 0.1], [0.0, 0.0, 1e5]], [[2.8, 0.0, 0.0], [0.0; 3]]],
+    ),
+    Collision(
+        [4e-6, 1.2e-5],
+        [2600.0, 1300.0],
+        [0.0, 0.6, 0.8],
+        [[[0.2, -1.0, -4.0], [0.0, 3e4, -1e4]], [[9.0, 0.5, 0.4], [2e4, 0.0, 0.0]]],
+    ),
+    Collision([6e-6, 5e-6], [1000.0, 2000.0], [0.0, 0.0, 1.0], [[[0.1, 0.0, -0.3], [0.0; 3]], [[0.0; 3], [0.0; 3]]]),
+];
+
 /// Where the tables begin, m.
 const SMALLEST_RADIUS: f32 = 2e-6;
 const LARGEST_SPEED_RATIO: f32 = 10.0;
@@ -47,7 +75,7 @@ pub const CONSTANT: [&str; 6] = ["--smallest-radius", "2e-6", "--cells", "8", "-
 /// # Errors
 /// None for the values here.
 pub fn expected() -> Result<String, InputError> {
-    Ok(impacts()? + &laws()? + &trajectories()? + &boundaries()? + &restitutions()?)
+    Ok(impacts()? + &laws()? + &trajectories()? + &boundaries()? + &restitutions()? + &walls()? + &pairs()?)
 }
 
 /// The lines of both models.
@@ -224,6 +252,56 @@ fn restitutions() -> Result<String, InputError> {
         }
     }
     Ok(text)
+}
+
+/// The lines of impacts on walls in space.
+fn walls() -> Result<String, InputError> {
+    let c = f32::constant;
+    let method = Collocation::<7, f32>::new(1e-6)?;
+    let scene = surface(c(RADIUS_M))?.with_friction(c(FRICTION))?;
+    let mut text = String::new();
+    for (i, [normal, velocity]) in WALLS.into_iter().enumerate() {
+        let wall = Wall::moving(normal, velocity)?;
+        for (j, [velocity, spin]) in IN_SPACE.into_iter().enumerate() {
+            let before = wall.incidence(scene.sphere(), &SpatialMotion::new(velocity, spin)?)?;
+            let impact = scene.solve(&before, &method)?;
+            let class = impact.class().map_or(u8::MAX, |class| class as u8);
+            let after = before.after(&impact).map_or([f32::NAN; 6], numbers);
+            let planar = [before.normal().speed(), before.tangential(), before.peripheral()];
+            line(&mut text, &format!("wall {i} {j} {class}"), &[&planar[..], &after].concat());
+        }
+    }
+    Ok(text)
+}
+
+/// The lines of collisions, each simulated on a solid sphere with radius and density of the reduced one.
+fn pairs() -> Result<String, InputError> {
+    let c = f32::constant;
+    let method = Collocation::<7, f32>::new(1e-6)?;
+    let mut text = String::new();
+    for (index, Collision(radii, densities, normal, motions)) in PAIRS.into_iter().enumerate() {
+        let [first, second] = [0, 1].map(|i| Sphere::solid(radii[i], densities[i]));
+        let pair = Pair::new(first?, second?);
+        let [first, second] = motions.map(|[velocity, spin]| SpatialMotion::new(velocity, spin));
+        let before = pair.incidence(normal, [&first?, &second?])?;
+        let (radius, density) = (pair.reduced().radius(), pair.reduced().density());
+        let scene = Contact::hertz(Sphere::solid(radius, density)?, Stiffness::new(c(STIFFNESS_PA))?)
+            .with_damping(c(MATERIAL_DAMPING))?
+            .with_ring(c(RING_N_M), c(RING_DAMPING))?
+            .with_friction(c(FRICTION))?;
+        let impact = scene.solve(&before, &method)?;
+        let class = impact.class().map_or(u8::MAX, |class| class as u8);
+        let after = before.after(&impact).map_or([[f32::NAN; 6]; 2], |after| after.map(numbers));
+        let planar = [radius, density, before.normal().speed(), before.tangential()];
+        line(&mut text, &format!("pair {index} {class}"), &[&planar[..], &after.concat()].concat());
+    }
+    Ok(text)
+}
+
+/// Velocity and spin.
+fn numbers(motion: SpatialMotion<f32>) -> [f32; 6] {
+    let ([a, b, c], [x, y, z]) = (motion.velocity(), motion.spin());
+    [a, b, c, x, y, z]
 }
 
 fn line(text: &mut String, start: &str, numbers: &[f32]) {

@@ -135,6 +135,20 @@ mod sanitized {
                 assert!(printed.lines().any(said), "{table} {verdict}");
             }
         }
+        // Rebound and capture on walls and of pairs.
+        assert_eq!(lines("wall"), c_results::WALLS.len() * c_results::IN_SPACE.len());
+        assert_eq!(lines("pair"), c_results::PAIRS.len());
+        for (kind, column) in [("wall", 3), ("pair", 2)] {
+            let classes: Vec<_> = printed
+                .lines()
+                .filter(|line| line.starts_with(kind))
+                .filter_map(|line| line.split(' ').nth(column))
+                .collect();
+            for class in ["0", "1"] {
+                assert!(classes.contains(&class), "{kind}: {classes:?}");
+            }
+            assert!(classes.iter().any(|class| ["2", "3", "4"].contains(class)), "{kind}: {classes:?}");
+        }
         for surface_motion in ["0 1", "0 2"] {
             let said = |line: &str| {
                 line.starts_with("restitution")

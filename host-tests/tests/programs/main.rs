@@ -13,6 +13,7 @@ mod methods;
 mod mistakes;
 mod report;
 mod report_cost;
+mod space;
 mod tables;
 mod without;
 

@@ -7,6 +7,7 @@ use microimpact::rigid::{
     AdhesionCoefficient, Departure, ElasticPlasticRestitution, PowerRestitution, SpeedAdhesion, TabulatedRestitution,
     WorkOfAdhesion, image_charge_energy, infer, infer_with_spins,
 };
+use microimpact::space::{SpatialMotion, Wall};
 use microimpact::table::{BoundaryTable, RestitutionTable, Single, TableRebound};
 use microimpact::{
     AdhesionRegime, ConstantRestitution, Coulomb, CriticalSpeed, Fault, Hertz, ImpactError, InFixedPoint, InputError,
@@ -61,6 +62,8 @@ fn supply<T: Single + NormalDistribution + Into<f64>>(parameter: Parameter, valu
             let oblique = NormalMotion::new(c(1.0)).unwrap().with_tangential(c(1.0)).unwrap();
             oblique.with_spin(&sphere, value).map(drop)
         }
+        Parameter::VelocityComponent => SpatialMotion::new([value, c(0.0), c(0.0)], [c(0.0); 3]).map(drop),
+        Parameter::NormalLength => Wall::new([c(0.0), value, c(0.0)]).map(drop),
         Parameter::PeripheralVelocity => {
             let oblique = NormalMotion::new(c(1.0)).unwrap().with_tangential(c(1.0)).unwrap();
             oblique.with_peripheral_velocity(value).map(drop)

@@ -21,6 +21,7 @@ mod pressing;
 mod simulation_exact;
 mod simulation_reference;
 mod solver_direct;
+mod space;
 mod tables;
 mod trajectory;
 mod trials;

@@ -6,7 +6,7 @@ use crate::contact::law::{ContactLaw, Units};
 use crate::contact::solve::path::{End, NormalPath};
 use crate::rolling::rolling;
 use crate::terms::ElasticForce;
-use crate::{Coulomb, InputError, Oblique, Parameter, Real, Sphere};
+use crate::{Coulomb, InputError, Parameter, Planar, Real, Sphere};
 
 /// Coulomb's friction and the peeling moment g = -lambda c_A a theta' against the spin (B10).
 ///
@@ -46,7 +46,7 @@ impl<T: Real> Peeling<T> {
 }
 
 #[diagnostic::do_not_recommend]
-impl<T: Real, B: Oblique<T>> Surface<T, B> for Peeling<T> {
+impl<T: Real, B: Planar<T>> Surface<T, B> for Peeling<T> {
     type Start = SlipStart<T, ElasticForce, true>;
     type Observer = TangentialMotion<T, ElasticForce, true>;
     type After = TangentialVelocities<T>;

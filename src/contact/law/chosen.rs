@@ -379,6 +379,7 @@ impl<T: Real> ContactLaw<T> for AnyLaw<T> {
         start() -> T;
         end() -> T;
         release_speed(s: T) -> Option<T>;
+        external_force() -> T;
         may_have_barrier() -> bool;
         admits_compliance() -> bool;
         energy_power() -> f64;

@@ -436,6 +436,11 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> ContactLaw<T> f
     }
 
     #[inline]
+    fn external_force(&self) -> T {
+        self.force.force(T::ZERO)
+    }
+
+    #[inline]
     fn may_have_barrier(&self) -> bool {
         self.force.moves_peak()
     }

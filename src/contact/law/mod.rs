@@ -207,6 +207,12 @@ pub trait ContactLaw<T: Real>: Copy {
         None
     }
 
+    /// External force, N. Called on the law in SI units: two bodies that meet are refused if one acts, which it does on one of them.
+    #[inline]
+    fn external_force(&self) -> T {
+        T::ZERO
+    }
+
     /// Whether a maximum of the potential may lie between the end of contact and the peak, as under a force out of the
     /// surface. A law that returns `false` saves the search for it.
     #[inline]

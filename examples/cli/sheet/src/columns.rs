@@ -24,6 +24,11 @@ impl Input {
         Self { columns, default: Some(default) }
     }
 
+    /// What only some tables have: nothing is said where it is absent.
+    pub const fn further(columns: &'static [&'static str]) -> Self {
+        Self { columns, default: Some("") }
+    }
+
     pub(crate) fn columns(&self) -> &'static [&'static str] {
         self.columns
     }
@@ -34,6 +39,19 @@ impl Input {
 
     fn in_words(&self) -> String {
         self.columns.join(" or ")
+    }
+}
+
+/// The names of the columns of a table.
+#[derive(Clone, Copy)]
+pub struct Header<'a> {
+    pub(crate) names: &'a [String],
+}
+
+impl Header<'_> {
+    /// Whether the table has a column.
+    pub fn has(&self, column: &str) -> bool {
+        self.names.iter().any(|name| name == column)
     }
 }
 
@@ -135,7 +153,7 @@ fn is_read(name: &str, inputs: &[Input]) -> bool {
 pub(crate) fn in_words(header: &[String], inputs: &[Input], computed: &[String]) -> String {
     let used = header.iter().filter(|name| is_read(name, inputs)).cloned();
     let defaulted = inputs.iter().filter(|input| !input.is_in(header)).filter_map(|input| {
-        let default = input.default?;
+        let default = input.default.filter(|default| !default.is_empty())?;
         Some(format!("{} ({default})", input.in_words()))
     });
     let absent = || {

@@ -16,7 +16,7 @@ use std::str::FromStr;
 use csv::ByteRecord;
 use microimpact::Real;
 
-pub use columns::{Input, LABEL};
+pub use columns::{Header, Input, LABEL};
 pub use decimal::Decimal;
 use decimal::{Cell, Convention, JUDGED_ROWS, Judge};
 
@@ -155,6 +155,11 @@ impl<R: Read> Sheet<R> {
         Ok(cells.map(|cells| Row { names, inputs, convention, cells, number: *given }))
     }
 
+    /// The names of the columns.
+    pub fn header(&self) -> Header<'_> {
+        Header { names: &self.names }
+    }
+
     /// Which columns are used, which are absent and what is used instead, and which are not read, in one to three lines.
     /// `computed` are the names of columns that will be added.
     pub fn columns_in_words(&self, computed: &[String]) -> String {
@@ -209,6 +214,11 @@ impl Row<'_> {
         let index = self.names.iter().position(|name| name == column)?;
         let text = text(&self.cells, index);
         (!text.is_empty()).then_some(text)
+    }
+
+    /// The names of the columns.
+    pub fn header(&self) -> Header<'_> {
+        Header { names: self.names }
     }
 
     /// The number of this row; that below the header is 1.

@@ -14,6 +14,8 @@ fn columns(parameter: Parameter) -> &'static [&'static str] {
         Parameter::ApproachSpeed => &["speed_normal_m_s"],
         Parameter::TangentialVelocity => &["speed_tangential_m_s", "speed_tangential_out_m_s"],
         Parameter::Spin | Parameter::PeripheralVelocity => &["spin_rad_s", "spin_out_rad_s"],
+        Parameter::VelocityComponent => &["velocity_x_m_s", "velocity_y_m_s", "velocity_z_m_s"],
+        Parameter::NormalLength => &["normal_x", "normal_y", "normal_z"],
         Parameter::ReboundSpeed => &["rebound_speed_m_s"],
         Parameter::VelocityError => &["velocity_error_m_s"],
         Parameter::Restitution => &["restitution"],

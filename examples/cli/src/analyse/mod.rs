@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use microimpact::Real;
-use sheet::{Input, Row};
+use sheet::{Header, Input, Row};
 
 use crate::Streams;
 use crate::command::{BadRow, BadRows, Number, TABLE_HELP, TableCommand, TableOptions, Work};
@@ -102,7 +102,7 @@ impl<T: Number> Work for Analysis<T> {
         INPUTS.into()
     }
 
-    fn columns(&self) -> Vec<String> {
+    fn columns(&self, _header: &Header<'_>) -> Vec<String> {
         [
             "outcome",
             "motion",

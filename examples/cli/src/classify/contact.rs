@@ -1,19 +1,26 @@
 //! Rows by the contact simulation.
 
 use microimpact::contact::{
-    Contact, ContactImpulses, ContactTimes, ContactWorks, Groups, NormalContact, SlipHistory, Status,
-    TangentialVelocities,
+    AnyScene, Contact, ContactImpulses, ContactTimes, ContactWorks, Groups, NormalContact, SlipHistory, Status,
 };
-use microimpact::rigid::EnergyLedger;
-use microimpact::{Approach, Class, Hertz, Outcome, SurfaceMotion};
-use sheet::{Input, Row};
+use microimpact::rigid::{Departure, EnergyLedger};
+use microimpact::space::Departing;
+use microimpact::{Approach, Class, Hertz, Outcome, PlanarMotion, SurfaceMotion};
+use sheet::{Header, Input, Row};
 
-use super::method::Simulator;
-use super::{SCENE_INPUTS, sphere_and_motion};
+use super::FRICTION_INPUT;
+use super::arrival::{self, Arrival};
+use super::method::{Outputs, Simulator};
 use crate::command::{BadRow, Number, Work};
 use crate::contact_law::{LAW_INPUTS, LawName, RowLaw};
 use crate::inputs::{PEELING_INPUT, YIELD_INPUT};
 use crate::words::{motion_name, name_of, outcome_name};
+
+/// The stiffness of the contact along the surface over that along the normal.
+const STIFFNESS_RATIO: &str = "stiffness_ratio";
+
+/// A solved impact and its outputs.
+type Solved<T> = (NormalContact<T>, Along<T>, Outputs<T>);
 
 /// The simulation by a method, in numbers of type `T`.
 pub struct SimulationModel<T> {
@@ -27,8 +34,7 @@ pub struct Simulated<T> {
     normal: NormalContact<T>,
     /// Whether the method follows a captured sphere to its first turning point.
     follows_captures: bool,
-    /// Velocities after a rebound, or of a captured sphere when its slip has ended.
-    tangential: TangentialVelocities<T>,
+    tangential: Along<T>,
     times: ContactTimes<T>,
     impulses: ContactImpulses<T>,
     works: ContactWorks<T>,
@@ -38,6 +44,25 @@ pub struct Simulated<T> {
     groups: Option<Groups<T>>,
     pub law: LawName,
     speed_over_yield: Option<T>,
+    arrival: Arrival<T>,
+}
+
+/// What happened along the surface.
+#[derive(Clone, Copy)]
+pub struct Along<T> {
+    motion: SurfaceMotion,
+    /// After a rebound, or of a captured sphere when its slip has ended.
+    pub velocity: T,
+    pub spin: T,
+    /// Impulse ratio and number of phases, with compliance.
+    compliant: Option<(T, u32)>,
+}
+
+impl<T: Number> Departing<T> for Simulated<T> {
+    fn departure(&self, _tangential: T) -> Option<Departure<T>> {
+        let velocities = Departure { normal: self.normal.rebound_speed(), tangential: self.tangential.velocity };
+        (self.outcome != Outcome::Undecided).then_some(velocities)
+    }
 }
 
 impl<T: Number> Simulated<T> {
@@ -48,7 +73,7 @@ impl<T: Number> Simulated<T> {
 
     /// Velocities along the surface after a rebound, or of a captured sphere when its slip has ended; `None` where the motion
     /// was not followed so far.
-    pub fn along(&self) -> Option<&TangentialVelocities<T>> {
+    pub fn along(&self) -> Option<&Along<T>> {
         self.followed().then_some(&self.tangential)
     }
 
@@ -73,13 +98,20 @@ impl<T: Number> Simulated<T> {
         let (followed, to_end) = (self.followed(), self.followed_to_end());
         let optional = |value: Option<T>| value.map(|value| row.cell(value)).unwrap_or_default();
         let at_end = |value: T| optional(to_end.then_some(value));
-        let motion = (*outcome != Outcome::Undecided).then(|| self.tangential.motion());
+        let motion = (*outcome != Outcome::Undecided).then(|| self.motion());
         // The slip of a captured sphere may end after it was followed; then the time is not known.
         let slip_ends = match (slip.rolls_from, motion) {
             (None, Some(SurfaceMotion::Sliding)) => Some(-T::ONE),
             (time, _) => time,
         };
-        vec![
+        let in_space = self.arrival.cells(row, followed.then_some(self));
+        let compliant = self.tangential.compliant.filter(|_| followed);
+        let compliance = [
+            optional(compliant.map(|(ratio, _)| ratio)),
+            compliant.map_or_else(String::new, |(_, phases)| phases.to_string()),
+        ];
+        let compliance = if row.header().has(STIFFNESS_RATIO) { &compliance[..] } else { &[] };
+        let in_plane = vec![
             outcome_name(*outcome).into(),
             motion.map_or_else(String::new, |motion| motion_name(motion).into()),
             optional(self.restitution()),
@@ -102,7 +134,13 @@ impl<T: Number> Simulated<T> {
             optional(groups.map(|groups| groups.adhesion_damping)),
             name_of(law),
             optional(*speed_over_yield),
-        ]
+        ];
+        [&in_plane, compliance, &in_space].concat()
+    }
+
+    /// How the contact point moves after the impact.
+    fn motion(&self) -> SurfaceMotion {
+        self.arrival.motion_after(self.tangential.motion)
     }
 
     /// The line of the summary.
@@ -118,11 +156,11 @@ impl<T: Number> Simulated<T> {
             name_of(law),
             optional(restitution.map(|e| format!("{e:.4}"))),
             optional(restitution.map(|_| format!("{:.3}", normal.rebound_speed()))),
-            optional(self.along().map(|along| format!("{:.3}", along.velocity() + T::ZERO))),
-            optional(self.along().map(|along| format!("{:.2e}", along.spin() + T::ZERO))),
+            optional(self.along().map(|along| format!("{:.3}", along.velocity + T::ZERO))),
+            optional(self.along().map(|along| format!("{:.2e}", along.spin + T::ZERO))),
             nano(normal.peak_indentation()),
             nano(times.contact.filter(|_| followed)),
-            match (outcome, self.tangential.motion()) {
+            match (outcome, self.motion()) {
                 (Outcome::Rebound, SurfaceMotion::Sliding) => "always".into(),
                 _ => nano(slip.rolls_from.filter(|_| followed)),
             },
@@ -134,23 +172,23 @@ impl<T: Number> Simulated<T> {
 impl<T: Number> SimulationModel<T> {
     /// Builds the scene of a row and simulates its impact.
     pub fn compute(&self, row: &Row<'_>) -> Result<Simulated<T>, String> {
-        let (sphere, before) = sphere_and_motion(row)?;
+        let arrival = Arrival::read(row)?;
+        arrival.refuse(row, &["peeling_n_m"], &["external_force_n"])?;
+        let (sphere, before) = (arrival.sphere, arrival.motion);
         let row_law = RowLaw::read(row)?;
         let law = row_law.law().map_err(|error| row.reason(error))?;
-        let (friction, peeling) = (row.or_zero("friction")?, row.or_zero("peeling_n_m")?);
-        // Without a moment this is the same motion; so the solver is compiled for one scene only.
-        let scene = Contact::new(sphere, law).with_friction(friction).and_then(|scene| scene.with_peeling(peeling));
+        let scene = Contact::new(sphere, law).with_friction(row.or_zero("friction")?);
         let scene = scene.map_err(|error| row.reason(error))?;
         let yield_pressure = row.number("yield_pressure_pa")?;
         let yield_speed = yield_pressure.map(|pressure| Hertz::yield_speed(&sphere, row_law.stiffness, pressure));
         let yield_speed = yield_speed.transpose().map_err(|error| row.reason(error))?;
         let groups = row_law.groups(sphere, &before).map_err(|error| row.reason(error))?;
-        let (impact, ((times, impulses, works), (slip, energy))) =
-            (self.simulator.simulate)(&scene, &before).map_err(|error| row.reason(error))?;
-        let (normal, tangential, status) = (impact.normal, impact.tangential, impact.run.status);
-        let (Status::Solved, Some(outcome), Some(class)) = (status, normal.outcome(), impact.class()) else {
-            return Err(self.simulator.refusal(status, &scene, &before));
+        let (normal, tangential, ((times, impulses, works), (slip, energy))) = match row.number(STIFFNESS_RATIO)? {
+            Some(ratio) => self.solve_compliant(row, &scene, &before, ratio)?,
+            None => self.solve(row, &scene, &before)?,
         };
+        let outcome = normal.outcome().ok_or("the simulation has no outcome")?;
+        let class = Class::of(outcome, arrival.motion_after(tangential.motion));
         let follows_captures = self.simulator.follows_captures;
         Ok(Simulated {
             outcome,
@@ -166,17 +204,57 @@ impl<T: Number> SimulationModel<T> {
             groups,
             law: row_law.name,
             speed_over_yield: yield_speed.map(|speed| before.normal().speed() / speed),
+            arrival,
         })
+    }
+
+    fn solve(&self, row: &Row<'_>, scene: &AnyScene<T>, before: &PlanarMotion<T>) -> Result<Solved<T>, String> {
+        // Without a moment this is the same motion; so the solver is compiled for one scene only.
+        let scene = scene.with_peeling(row.or_zero("peeling_n_m")?).map_err(|error| row.reason(error))?;
+        let (impact, outputs) = (self.simulator.simulate)(&scene, before).map_err(|error| row.reason(error))?;
+        if impact.run.status != Status::Solved {
+            return Err(self.simulator.refusal(impact.run.status, &scene, before));
+        }
+        let along = impact.tangential;
+        let (motion, velocity, spin) = (along.motion(), along.velocity(), along.spin());
+        Ok((impact.normal, Along { motion, velocity, spin, compliant: None }, outputs))
+    }
+
+    fn solve_compliant(
+        &self,
+        row: &Row<'_>,
+        scene: &AnyScene<T>,
+        before: &PlanarMotion<T>,
+        ratio: T,
+    ) -> Result<Solved<T>, String> {
+        if row.or_zero::<T>("peeling_n_m")? != T::ZERO {
+            return Err("peeling_n_m: it is not known with a stiffness_ratio; leave one of them empty".into());
+        }
+        let Some(simulate) = &self.simulator.simulate_compliant else {
+            return Err(format!(
+                "{STIFFNESS_RATIO}: only --method adaptive is offered with it; leave the cell empty or use that"
+            ));
+        };
+        let scene = scene.with_compliance(ratio).map_err(|error| row.reason(error))?;
+        let (impact, outputs) = simulate(&scene, before).map_err(|error| row.reason(error))?;
+        if impact.run.status != Status::Solved {
+            return Err("the simulation did not converge; use a larger --tolerance".into());
+        }
+        let along = impact.tangential;
+        let compliant = Some((along.impulse_ratio(), along.phases()));
+        let (motion, velocity, spin) = (along.motion(), along.velocity(), along.spin());
+        Ok((impact.normal, Along { motion, velocity, spin, compliant }, outputs))
     }
 }
 
 impl<T: Number> Work for SimulationModel<T> {
     fn inputs(&self) -> Vec<Input> {
-        [&SCENE_INPUTS[..], &LAW_INPUTS, &[PEELING_INPUT, YIELD_INPUT]].concat()
+        let compliance = Input::further(&[STIFFNESS_RATIO]);
+        [&arrival::INPUTS[..], &[FRICTION_INPUT], &LAW_INPUTS, &[PEELING_INPUT, YIELD_INPUT, compliance]].concat()
     }
 
-    fn columns(&self) -> Vec<String> {
-        [
+    fn columns(&self, header: &Header<'_>) -> Vec<String> {
+        let in_plane = [
             "outcome",
             "motion",
             "restitution",
@@ -199,9 +277,10 @@ impl<T: Number> Work for SimulationModel<T> {
             "group_g",
             "law",
             "speed_over_yield",
-        ]
-        .map(String::from)
-        .into()
+        ];
+        let compliance: &[&str] = if header.has(STIFFNESS_RATIO) { &["impulse_ratio_out", "phases"] } else { &[] };
+        let in_plane = in_plane.iter().chain(compliance).map(|name| name.to_string());
+        in_plane.chain(arrival::columns(header)).collect()
     }
 
     fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
@@ -262,12 +341,12 @@ radius_m,density_kg_m3,stiffness_pa,adhesion_n_m,zeta_h,zeta_a,friction,speed_no
         let rebound = model.compute(&row).unwrap();
         let filled = |simulated: &Simulated<f64>| {
             let cells = simulated.cells(&row);
-            let named = model.columns().into_iter().zip(cells).filter(|(_, cell)| !cell.is_empty());
+            let named = model.columns(&row.header()).into_iter().zip(cells).filter(|(_, cell)| !cell.is_empty());
             named.map(|(column, _)| column).collect::<Vec<_>>()
         };
         assert_eq!(
             filled(&rebound).len(),
-            model.columns().len() - 2,
+            model.columns(&row.header()).len() - 2,
             "all but the turning point of a capture and the yield"
         );
 

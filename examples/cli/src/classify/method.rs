@@ -2,9 +2,9 @@
 
 use clap::{Args, ValueEnum};
 use microimpact::contact::{
-    AnyLaw, Collocation, Contact, ContactImpulses, ContactTimes, ContactWorks, Energy, FixedCost, Impulses, Method,
-    Nodes, Peeling, PhaseSamples, RungeKuttaGill, SimulatedImpact, Slip, SlipHistory, Status, TangentialVelocities,
-    Times, Works,
+    AnyLaw, Collocation, Compliance, CompliantVelocities, Contact, ContactImpulses, ContactTimes, ContactWorks, Energy,
+    FixedCost, Impulses, Method, Nodes, Peeling, PhaseSamples, RungeKuttaGill, SimulatedImpact, Slip, SlipHistory,
+    Status, TangentialVelocities, Times, Works,
 };
 use microimpact::rigid::EnergyLedger;
 use microimpact::{InputError, Parameter, PlanarMotion};
@@ -59,18 +59,28 @@ const STEPS: u32 = 2000;
 /// A scene of any law of contact, with any friction and peeling moment.
 pub type AnyContact<T> = Contact<T, AnyLaw<T>, Peeling<T>>;
 
-/// An impact and its outputs.
-pub type Solution<T> = (
-    SimulatedImpact<T, TangentialVelocities<T>>,
-    ((ContactTimes<T>, ContactImpulses<T>, ContactWorks<T>), (SlipHistory<T>, Option<EnergyLedger<T>>)),
-);
+/// A scene of any law of contact that is compliant along the surface.
+pub type CompliantContact<T> = Contact<T, AnyLaw<T>, Compliance<T>>;
+
+/// An impact with velocities `V` along the surface, and its outputs.
+pub type Solution<T, V = TangentialVelocities<T>> = (SimulatedImpact<T, V>, Outputs<T>);
+
+/// What a simulation tells of an impact.
+pub type Outputs<T> =
+    ((ContactTimes<T>, ContactImpulses<T>, ContactWorks<T>), (SlipHistory<T>, Option<EnergyLedger<T>>));
 
 /// Simulates an impact by a method.
 type Simulate<T> = Box<dyn Fn(&AnyContact<T>, &PlanarMotion<T>) -> Result<Solution<T>, InputError>>;
 
+/// Simulates an impact with compliance along the surface.
+type SimulateCompliant<T> =
+    Box<dyn Fn(&CompliantContact<T>, &PlanarMotion<T>) -> Result<Solution<T, CompliantVelocities<T>>, InputError>>;
+
 /// A method of the simulation, in numbers of type `T`.
 pub struct Simulator<T> {
     pub simulate: Simulate<T>,
+    /// The same with compliance along the surface, where the method is offered for it.
+    pub simulate_compliant: Option<SimulateCompliant<T>>,
     /// Whether it follows a captured sphere to its first turning point.
     pub follows_captures: bool,
     /// What to do where it did not converge.
@@ -149,8 +159,13 @@ impl MethodOptions {
             MethodName::FixedCost if iterations < most => Some(fixed_cost(fixed_cost_nodes, most)?),
             _ => None,
         };
+        let simulate_compliant = match name {
+            MethodName::Adaptive => Some(compliant_by(self.simulation.method().map_err(reason)?)),
+            _ => None,
+        };
         Ok(Simulator {
             simulate,
+            simulate_compliant,
             with_most_iterations,
             follows_captures: matches!(name, MethodName::Adaptive | MethodName::Collocation),
             advice: match name {
@@ -163,6 +178,11 @@ impl MethodOptions {
 
 /// Simulates by a method.
 fn by<T: Number>(method: impl Method<T> + 'static) -> Simulate<T> {
+    Box::new(move |scene, before| scene.solve_for(before, &method, ((Times, Impulses, Works), (Slip, Energy))))
+}
+
+/// Simulates by a method, with compliance along the surface.
+fn compliant_by<T: Number>(method: impl Method<T> + 'static) -> SimulateCompliant<T> {
     Box::new(move |scene, before| scene.solve_for(before, &method, ((Times, Impulses, Works), (Slip, Energy))))
 }
 

@@ -3,18 +3,16 @@
 //! `cargo microimpact classify` shows impacts of the paper;
 //! `cargo microimpact classify FILE.csv --format csv` adds the result to each row of a table.
 
+mod arrival;
 mod contact;
 mod method;
 mod rigid_body;
 
 use clap::{Args, ValueEnum};
-use microimpact::contact::TangentialVelocities;
-use microimpact::{NormalMotion, PlanarMotion, Sphere};
-use sheet::{Input, Row, Scalar};
+use sheet::{Header, Input, Row};
 
 use crate::Streams;
 use crate::command::{BadRow, BadRows, Number, TableCommand, TableOptions, Work, simulation_help};
-use crate::inputs::{DENSITY_INPUT, GYRATION_INPUT, MOTION_INPUTS};
 use crate::words::name_of;
 use method::MethodOptions;
 pub use method::OfferedNodes;
@@ -26,6 +24,13 @@ pub use method::OfferedNodes;
 ///   radius_m, density_kg_m3, speed_normal_m_s (approach speed, a positive number),
 ///   gyration_ratio (k^2/r^2) [0.4, a solid sphere], speed_tangential_m_s [0], spin_rad_s [0],
 ///   friction (Coulomb's coefficient f) [0].
+/// In space instead of these speeds and the spin
+///   velocity_x_m_s, velocity_y_m_s, velocity_z_m_s and spin_x_rad_s, spin_y_rad_s, spin_z_rad_s [0],
+///   normal_x, normal_y, normal_z (of unit length, from the wall to the sphere) [0, 0, 1],
+///   wall_velocity_x_m_s, wall_velocity_y_m_s, wall_velocity_z_m_s (of the wall at the contact) [0].
+/// Two spheres, in space or in a plane, the normal from the second to the first:
+///   radius_2_m, density_2_kg_m3 [as the first], gyration_ratio_2 [0.4],
+///   velocity_2_x_m_s .. _z_ and spin_2_x_rad_s .. _z_ [0].
 /// The rigid-body model also reads
 ///   restitution (R), or restitution_speed_m_s and restitution_power (k and p of R = k^p/(k^p + v^p)) [p = 1],
 ///   or yield_speed_m_s (elastic-plastic, Thornton 1997),
@@ -35,6 +40,7 @@ pub use method::OfferedNodes;
 /// The simulation also reads
 ///   stiffness_pa (K), adhesion_n_m (f0) [0], zeta_h [0], zeta_a [0], peeling_n_m (lambda) [0],
 ///   external_force_n (positive out of the surface) [0],
+///   stiffness_ratio (tangential over normal stiffness of the contact, chi) [the contact does not give sideways],
 ///   law, work_of_adhesion_j_m2, damping, damping_value, end_rule (below),
 ///   yield_pressure_pa (contact yield pressure) [not known].
 ///
@@ -48,6 +54,10 @@ pub use method::OfferedNodes;
 /// then empty. A row that a method cannot solve has its reason in the column error, and no outcome. The column law holds the
 /// law of contact: hertz, ring, dmt or jkr. Above 1, speed_over_yield marks impacts that leave a dent, which the simulation
 /// does not know; it is empty without a yield_pressure_pa. With both models, columns of the rigid body begin with rigid_body_.
+/// With a stiffness_ratio, impulse_ratio_out is P_t/P_n, negative for a positive slip, and phases is the number of times that the
+/// contact sticks or slips. Motions in space give velocity_out_x_m_s .. _z_, spin_out_x_rad_s .. _z_ and energy_out_j, and of the second sphere
+/// velocity_2_out_x_m_s and so on; the other columns are those of the plane of the normal and the slip, and of two spheres
+/// those of their relative motion.
 #[derive(Args)]
 #[command(verbatim_doc_comment, after_long_help = simulation_help())]
 pub struct Options {
@@ -108,10 +118,10 @@ impl<T: Number> Work for Both<T> {
         inputs
     }
 
-    fn columns(&self) -> Vec<String> {
-        let rigid_body = self.rigid_body.columns();
+    fn columns(&self, header: &Header<'_>) -> Vec<String> {
+        let rigid_body = self.rigid_body.columns(header);
         let named = rigid_body.iter().map(|column| format!("rigid_body_{column}"));
-        self.simulation.columns().into_iter().chain(named).collect()
+        self.simulation.columns(header).into_iter().chain(named).collect()
     }
 
     fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
@@ -121,7 +131,7 @@ impl<T: Number> Work for Both<T> {
         };
         let (mut cells, simulation) = failed(self.simulation.cells(row));
         let (rigid_body_cells, rigid_body) = failed(self.rigid_body.cells(row));
-        cells.resize(self.simulation.columns().len(), String::new());
+        cells.resize(self.simulation.columns(&row.header()).len(), String::new());
         cells.extend(rigid_body_cells);
         let reason = match (simulation, rigid_body) {
             (None, None) => return Ok(cells),
@@ -159,35 +169,17 @@ impl<T: Number> Work for Both<T> {
         Ok(vec![
             name,
             simulated.class.to_string(),
-            body.classification.class().to_string(),
+            body.class().to_string(),
             name_of(&simulated.law),
             optional(simulated.restitution()),
             format!("{:.4}", body.impact.normal.overall_restitution()),
-            optional(along.map(TangentialVelocities::velocity)),
+            optional(along.map(|along| along.velocity)),
             format!("{:.4}", body.impact.tangential.velocity() + T::ZERO),
-            along.map_or("-".into(), |along| format!("{:.2e}", along.spin() + T::ZERO)),
+            along.map_or("-".into(), |along| format!("{:.2e}", along.spin + T::ZERO)),
             format!("{:.2e}", body.impact.tangential.spin(&body.sphere) + T::ZERO),
         ])
     }
 }
 
-/// The numbers that both models read.
-const SCENE_INPUTS: [Input; 7] = {
-    let [speed, tangential, spin] = MOTION_INPUTS;
-    let friction = Input::optional(&["friction"], "0");
-    [Input::required(&["radius_m"]), DENSITY_INPUT, GYRATION_INPUT, speed, tangential, spin, friction]
-};
-
-/// The sphere of a row and its motion before the impact.
-fn sphere_and_motion<T: Scalar>(row: &Row<'_>) -> Result<(Sphere<T>, PlanarMotion<T>), String> {
-    let gyration_ratio = row.number("gyration_ratio")?.unwrap_or(T::constant(0.4));
-    let sphere = Sphere::new(row.required("radius_m")?, row.required("density_kg_m3")?, gyration_ratio);
-    let sphere = sphere.map_err(|error| row.reason(error))?;
-    let (speed, tangential) = (row.required("speed_normal_m_s")?, row.or_zero("speed_tangential_m_s")?);
-    let spin = row.or_zero("spin_rad_s")?;
-    let motion = NormalMotion::new(speed)
-        .and_then(|motion| motion.with_tangential(tangential))
-        .and_then(|motion| motion.with_spin(&sphere, spin))
-        .map_err(|error| row.reason(error))?;
-    Ok((sphere, motion))
-}
+/// Coulomb's friction, which both models have.
+const FRICTION_INPUT: Input = Input::optional(&["friction"], "0");

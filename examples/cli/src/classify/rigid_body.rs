@@ -3,10 +3,11 @@
 use std::marker::PhantomData;
 
 use microimpact::rigid::ReboundAdhesion;
-use microimpact::{Classification, ContactClass, Impact, PlanarMotion, RigidBody, Sphere, TangentialImpact};
-use sheet::{Input, Row, Scalar};
+use microimpact::{Class, Classification, ContactClass, Impact, RigidBody, Sphere, SurfaceMotion, TangentialImpact};
+use sheet::{Header, Input, Row, Scalar};
 
-use super::{SCENE_INPUTS, sphere_and_motion};
+use super::FRICTION_INPUT;
+use super::arrival::{self, Arrival};
 use crate::command::{BadRow, Work};
 use crate::inputs::{AnyRestitution, POWER_INPUT, RESTITUTION_INPUT, restitution_law};
 use crate::words::{motion_name, outcome_name};
@@ -31,6 +32,18 @@ pub struct Classified<T> {
     pub sphere: Sphere<T>,
     pub impact: Impact<T, TangentialImpact<T>>,
     pub classification: Classification<T, ContactClass<T>>,
+    arrival: Arrival<T>,
+}
+
+impl<T: Scalar> Classified<T> {
+    /// How the contact point moves after the impact.
+    fn motion(&self) -> SurfaceMotion {
+        self.arrival.motion_after(self.classification.contact.motion)
+    }
+
+    pub fn class(&self) -> Class {
+        Class::of(self.classification.outcome, self.motion())
+    }
 }
 
 impl<T: Scalar> RigidBodyModel<T> {
@@ -40,8 +53,9 @@ impl<T: Scalar> RigidBodyModel<T> {
 
     /// Builds the scene of a row and classifies its impact.
     pub fn compute(&self, row: &Row<'_>) -> Result<Classified<T>, String> {
-        let (sphere, before) = sphere_and_motion(row)?;
-        let scene = RigidBody::new(sphere, restitution_law(row, |number: T| number)?);
+        let arrival = Arrival::read(row)?;
+        arrival.refuse(row, &["rolling_arm_m"], &[])?;
+        let scene = RigidBody::new(arrival.sphere, restitution_law(row, |number: T| number)?);
         let power = row.number("adhesion_power")?;
         let given =
             [row.number("adhesion_coefficient")?, row.number("work_of_adhesion_j")?, row.number("adhesion_speed_m_s")?];
@@ -49,16 +63,16 @@ impl<T: Scalar> RigidBodyModel<T> {
             return Err("adhesion_power: adhesion_speed_m_s is missing; give it too or leave the cell empty".into());
         }
         match given {
-            [None, None, None] => with_adhesion(row, &before, scene),
+            [None, None, None] => with_adhesion(row, arrival, scene),
             [Some(rho), None, None] => {
-                with_adhesion(row, &before, scene.with_adhesion_coefficient(rho).map_err(|error| row.reason(error))?)
+                with_adhesion(row, arrival, scene.with_adhesion_coefficient(rho).map_err(|error| row.reason(error))?)
             }
             [None, Some(work), None] => {
-                with_adhesion(row, &before, scene.with_work_of_adhesion(work).map_err(|error| row.reason(error))?)
+                with_adhesion(row, arrival, scene.with_work_of_adhesion(work).map_err(|error| row.reason(error))?)
             }
             [None, None, Some(speed)] => {
                 let scene = scene.with_adhesion_at_speed(speed, power.unwrap_or(T::ONE));
-                with_adhesion(row, &before, scene.map_err(|error| row.reason(error))?)
+                with_adhesion(row, arrival, scene.map_err(|error| row.reason(error))?)
             }
             _ => {
                 let columns = "adhesion_coefficient, work_of_adhesion_j and adhesion_speed_m_s";
@@ -71,10 +85,10 @@ impl<T: Scalar> RigidBodyModel<T> {
 /// Chooses the tangential process that the row gives, and computes.
 fn with_adhesion<T: Scalar>(
     row: &Row<'_>,
-    before: &PlanarMotion<T>,
+    arrival: Arrival<T>,
     scene: RigidBody<T, AnyRestitution<T>, impl ReboundAdhesion<T> + Copy>,
 ) -> Result<Classified<T>, String> {
-    let friction = row.or_zero("friction")?;
+    let (before, friction) = (&arrival.motion, row.or_zero("friction")?);
     let impact = match (row.number("impulse_ratio")?, row.number("rolling_arm_m")?) {
         (Some(mu), None) => scene.impact_with_ratio(before, mu).map_err(|error| row.reason(error))?,
         (None, None) => scene.with_friction(friction).map_err(|error| row.reason(error))?.impact(before),
@@ -86,16 +100,17 @@ fn with_adhesion<T: Scalar>(
             return Err("rolling_arm_m: impulse_ratio is given too and includes it; leave one of them empty".into());
         }
     };
-    Ok(Classified { sphere: *scene.sphere(), classification: scene.classify_impact(&impact), impact })
+    let classification = scene.classify_impact(&impact);
+    Ok(Classified { sphere: arrival.sphere, classification, impact, arrival })
 }
 
 impl<T: Scalar> Work for RigidBodyModel<T> {
     fn inputs(&self) -> Vec<Input> {
-        [&SCENE_INPUTS[..], &INPUTS].concat()
+        [&arrival::INPUTS[..], &[FRICTION_INPUT], &INPUTS].concat()
     }
 
-    fn columns(&self) -> Vec<String> {
-        [
+    fn columns(&self, header: &Header<'_>) -> Vec<String> {
+        let in_plane = [
             "outcome",
             "motion",
             "overall_restitution",
@@ -111,23 +126,23 @@ impl<T: Scalar> Work for RigidBodyModel<T> {
             "work_adhesion_j",
             "work_friction_j",
             "work_rolling_j",
-        ]
-        .map(String::from)
-        .into()
+        ];
+        in_plane.map(String::from).into_iter().chain(arrival::columns(header)).collect()
     }
 
     fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
-        let Classified { sphere, impact, classification } = self.compute(row)?;
-        let Impact { normal, tangential } = &impact;
-        let ledger = impact.energy(&sphere);
+        let classified = self.compute(row)?;
+        let Classified { sphere, impact, classification, .. } = &classified;
+        let Impact { normal, tangential } = impact;
+        let ledger = impact.energy(sphere);
         let optional = |value: Option<T>| value.map(|value| row.cell(value)).unwrap_or_default();
-        Ok(vec![
+        let in_plane = vec![
             outcome_name(classification.outcome).into(),
-            motion_name(classification.contact.motion).into(),
+            motion_name(classified.motion()).into(),
             row.cell(normal.overall_restitution()),
             row.cell(normal.rebound_speed()),
             row.cell(tangential.velocity()),
-            row.cell(tangential.spin(&sphere)),
+            row.cell(tangential.spin(sphere)),
             row.cell(tangential.impulse_ratio()),
             row.cell(tangential.rolling_ratio()),
             optional(classification.speed_over_critical),
@@ -137,7 +152,8 @@ impl<T: Scalar> Work for RigidBodyModel<T> {
             row.cell(ledger.adhesion),
             row.cell(ledger.friction),
             row.cell(ledger.rolling),
-        ])
+        ];
+        Ok([in_plane, classified.arrival.cells(row, Some(impact))].concat())
     }
 
     fn heads(&self) -> Vec<&'static str> {
@@ -157,17 +173,18 @@ impl<T: Scalar> Work for RigidBodyModel<T> {
     }
 
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
-        let Classified { sphere, impact, classification } = self.compute(row)?;
-        let Impact { normal, tangential } = &impact;
-        let ledger = impact.energy(&sphere);
+        let classified = self.compute(row)?;
+        let Classified { sphere, impact, classification, .. } = &classified;
+        let Impact { normal, tangential } = impact;
+        let ledger = impact.energy(sphere);
         let optional = |value: Option<T>| value.map_or("-".into(), |value| format!("{value:.3}"));
         Ok(vec![
             name,
-            classification.class().to_string(),
+            classified.class().to_string(),
             format!("{:.3}", normal.overall_restitution()),
             format!("{:.3}", normal.rebound_speed()),
             format!("{:.3}", tangential.velocity() + T::ZERO),
-            format!("{:.2e}", tangential.spin(&sphere) + T::ZERO),
+            format!("{:.2e}", tangential.spin(sphere) + T::ZERO),
             format!("{:.4}", tangential.impulse_ratio()),
             format!("{:.4}", tangential.rolling_ratio()),
             optional(classification.speed_over_critical),

@@ -10,7 +10,7 @@ use microimpact::contact::{
     Damping, Dmt, Energy, ErrorControl, FixedCost, Groups, HertzLaw, HystereticDamping, Impulses, JkrEnd, JkrLaw,
     Nodes, NormalContact, Output, Peeling, PhaseSamples, ProportionalDamping, Recording, RestCriterion, Ring,
     RunReport, RungeKuttaGill, SimulatedImpact, Slip, SlipHistory, Surface, TangentialVelocities, Times, Trajectory,
-    ViscoelasticDamping, Works,
+    Unloading, ViscoelasticDamping, Works,
 };
 use microimpact::{Approach, Classification, ContactClass, Coulomb, InputError, PlanarMotion, Real, Sphere, Stiffness};
 
@@ -57,6 +57,7 @@ pub(super) fn call_all<T: AnyNodes>() -> Result<(), InputError> {
     at_fixed_cost::<8, 16, T>(&scene)?;
     outputs(&scene)?;
     other_laws(&scene)?;
+    compliant(&scene)?;
     chosen_at_run_time::<T>()?;
     with_damping(scene)?;
     with_damping(scene.with_damping(any())?)
@@ -189,6 +190,20 @@ fn other_laws<T: AnyNodes>(elastic: &Elastic<T>) -> Result<(), InputError> {
     let (normal, oblique, _) = motions(&sphere)?;
     keep(scene.force(&normal)?.at(any(), any()));
     solve(&scene.with_friction(any())?, &oblique)
+}
+
+/// A contact that gives sideways.
+fn compliant<T: AnyNodes>(elastic: &Elastic<T>) -> Result<(), InputError> {
+    let scene = elastic.with_damping(any())?.with_friction(any())?.with_compliance(any())?;
+    let scene = scene.with_unloading(black_box(Unloading::Incremental));
+    let (_, _, planar) = motions(elastic.sphere())?;
+    let (impact, outputs) =
+        scene.solve_for(&planar, &Collocation::<7, T>::new(any())?, (Times, (Impulses, Works), Slip, Energy))?;
+    keep((impact.class(), outputs));
+    let along = impact.tangential;
+    keep((along.motion(), along.velocity(), along.spin(), along.slip(), along.impulse_ratio(), along.phases()));
+    keep(scene.solve(&planar, &FixedCost::<5>::new(black_box(3))?.with_outputs::<9>())?.class());
+    Ok(())
 }
 
 /// What all scenes with friction have in common.
