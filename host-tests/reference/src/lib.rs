@@ -4,6 +4,7 @@
 pub mod c_results;
 pub mod grids;
 pub mod laws;
+pub mod published;
 pub mod scenes;
 
 use microimpact::contact::{Contact, PaperScene};

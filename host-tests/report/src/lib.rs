@@ -17,6 +17,7 @@ mod page;
 mod paper;
 mod plot;
 mod price;
+mod published;
 mod stability;
 
 pub use cost::is_counted;
@@ -50,11 +51,12 @@ pub struct Options {
 type Write = fn(&Run) -> Result<Section, String>;
 
 /// The sections in the order of the page.
-const SECTIONS: [(&str, Write); 5] = [
+const SECTIONS: [(&str, Write); 6] = [
     ("cost", cost::section),
     ("stability", stability::section),
     ("price", price::section),
     ("laws", laws::section),
+    ("published", published::section),
     ("paper", paper::section),
 ];
 

@@ -18,6 +18,7 @@ mod ledger;
 mod micromath;
 mod paper_method;
 mod pressing;
+mod published;
 mod simulation_exact;
 mod simulation_reference;
 mod solver_direct;
