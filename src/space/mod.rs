@@ -6,6 +6,30 @@
 //!
 //! So a [`Wall`] or a [`Pair`] turns a [`SpatialMotion`] into an incidence, which is a planar motion and goes wherever one goes; the
 //! incidence turns the result back into motions in space.
+//!
+//! ```
+//! use microimpact::contact::{Adaptive, Contact};
+//! use microimpact::space::{Pair, SpatialMotion};
+//! use microimpact::{Material, Sphere, Stiffness};
+//!
+//! // Two glass beads with damping, friction, and a contact that gives sideways.
+//! let glass = Material::new(7e10, 0.22)?;
+//! let beads = [Sphere::solid(1e-3, 2500.0)?, Sphere::solid(2e-3, 2500.0)?];
+//! let pair = Pair::new(beads[0], beads[1]);
+//! let scene = Contact::hertz(pair.reduced(), Stiffness::between(&glass, &glass)?)
+//!     .with_damping(5.0)?
+//!     .with_friction(0.2)?
+//!     .with_compliance(Stiffness::tangential_ratio_between(&glass, &glass))?;
+//! let motions = [
+//!     SpatialMotion::new([0.5, 0.2, -1.0], [0.0, 100.0, 0.0])?,
+//!     SpatialMotion::new([0.0, 0.0, 0.5], [50.0, 0.0, 0.0])?,
+//! ];
+//! let before = pair.incidence([0.0, 0.0, 1.0], [&motions[0], &motions[1]])?;
+//! let after = before.after(&scene.solve(&before, &Adaptive::new(1e-9)?)?).ok_or("undecided")?;
+//! let energy = |motions: &[SpatialMotion<f64>; 2]| motions[0].energy(&beads[0]) + motions[1].energy(&beads[1]);
+//! assert!(energy(&after) < energy(&motions) && after[0].velocity()[2] > 0.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod motion;
 mod pair;
