@@ -385,7 +385,10 @@ impl fmt::Display for InputError {
                 "only be given with Hertz's contact without adhesion and external force, with hysteretic damping or none",
             ),
             Fault::OtherLaw => f.write_str("be zero with this law or end of contact; choose another"),
-            Fault::Receding => f.write_str("be positive; let the normal point to the particle that approaches"),
+            Fault::Receding => f.write_str(
+                "be positive, so that the bodies approach; the normal points from the wall to the sphere, or from the second sphere to the \
+                 first",
+            ),
             Fault::TwoBodies => f.write_str("be zero where two spheres meet; it acts on one of them"),
             Fault::OutOfOrder if parameter == Parameter::ReboundSpeed => {
                 f.write_str("not be below that of the point before; R v never falls with the speed v")

@@ -102,7 +102,8 @@ fn with_tangential<T: Real, V>(impact: &SimulatedImpact<T, V>, tangential: T) ->
 #[inline]
 fn approach<T: Real>(speed: T) -> Result<NormalMotion<T>, InputError> {
     if speed <= T::ZERO {
-        let value = speed.to_f64() as f32;
+        // Without the sign of a zero.
+        let value = (speed + T::ZERO).to_f64() as f32;
         return Err(InputError { parameter: Parameter::ApproachSpeed, fault: Fault::Receding, value });
     }
     NormalMotion::new(speed)

@@ -1,7 +1,7 @@
 //! Two spheres that collide.
 
 use super::plane::{Plane, unit};
-use super::vector::{add, cross, dot, scaled};
+use super::vector::{add, cross, dot, length, scaled};
 use super::{Departing, SpatialMotion, approach};
 use crate::{Approach, InputError, NormalMotion, Oblique, ObliqueMotion, Real, Sphere};
 
@@ -64,8 +64,8 @@ impl<T: Real> Pair<T> {
         Self { spheres: [first, second], reduced, shares }
     }
 
-    /// The sphere whose impact on a wall theirs is. Scenes are built on it: "against a wall" means "against each other" there, and
-    /// energies, works and forces are those of the relative motion.
+    /// The sphere whose impact on a wall theirs is. Scenes are built on it, and results are those of its impact: forces, works, times and
+    /// the restitution are those of both spheres; kinetic energies are those of the reduced sphere with the closing speed and the slip.
     ///
     /// ```
     /// use microimpact::{Sphere, space::Pair};
@@ -103,11 +103,12 @@ impl<T: Real> Pair<T> {
     ) -> Result<PairIncidence<T>, InputError> {
         let normal = unit(normal)?;
         let relative = add(first.velocity(), -T::ONE, second.velocity());
-        let mut at_contact = relative;
+        let (mut at_contact, mut largest) = (relative, length(relative));
         for (sphere, motion) in self.spheres.iter().zip([first, second]) {
             at_contact = add(at_contact, -sphere.radius(), cross(motion.spin(), normal));
+            largest = largest + sphere.radius() * length(motion.spin());
         }
-        let plane = Plane::of(normal, at_contact, relative);
+        let plane = Plane::of(normal, at_contact, relative, largest);
         let slip = approach(-dot(relative, normal))?.with_tangential(dot(at_contact, plane.tangent))?;
         Ok(PairIncidence { pair: *self, slip, plane, before: [*first, *second] })
     }
@@ -117,7 +118,7 @@ impl<T: Real> Pair<T> {
 /// and it does not spin.
 ///
 /// It goes wherever an oblique motion goes, but for a peeling moment, rolling dissipation, and external forces and impulses: these act
-/// on one body.
+/// on one body. The contact is short: the normal keeps its direction while it lasts.
 ///
 /// ```
 /// use microimpact::space::{Pair, SpatialMotion};
@@ -142,7 +143,8 @@ pub struct PairIncidence<T> {
 }
 
 impl<T: Real> PairIncidence<T> {
-    /// The motions of both spheres after an impact; `None` where the method found no solution. Captured, they go on together.
+    /// The motions of both spheres after an impact; `None` where the method found no solution. Captured, they have the same velocity
+    /// along the normal; along the surface they slide or roll on each other.
     ///
     /// ```
     /// use microimpact::space::{Pair, SpatialMotion};

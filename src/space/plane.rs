@@ -17,6 +17,9 @@ pub(super) struct Plane<T> {
 /// Largest deviation from unit length with which a normal is taken for one that was rounded.
 const LENGTH_TOLERANCE: f64 = 1e-3;
 
+/// Roundings of a velocity within which its tangential part is none: so much may be left of its normal part.
+const ROUNDINGS: f64 = 16.0;
+
 /// A direction of unit length.
 pub(super) fn unit<T: Real>(direction: Vector<T>) -> Result<Vector<T>, InputError> {
     let (length, unit) = match direction.iter().find(|component| !component.is_finite()) {
@@ -39,18 +42,19 @@ pub(super) fn unit<T: Real>(direction: Vector<T>) -> Result<Vector<T>, InputErro
 
 impl<T: Real> Plane<T> {
     /// The plane of a normal in which a velocity of the contact point lies; where that has no tangential part, in which a velocity of
-    /// the centre lies.
-    pub(super) fn of(normal: Vector<T>, contact_point: Vector<T>, centre: Vector<T>) -> Self {
-        let tangent = Self::along(normal, contact_point).or_else(|| Self::along(normal, centre));
+    /// the centre lies. Parts are none that are no larger than the rounding of the `largest` velocity.
+    pub(super) fn of(normal: Vector<T>, contact_point: Vector<T>, centre: Vector<T>, largest: T) -> Self {
+        let least = T::constant(ROUNDINGS) * T::EPSILON * largest;
+        let tangent = Self::along(normal, contact_point, least).or_else(|| Self::along(normal, centre, least));
         let tangent = tangent.unwrap_or_else(|| across(normal));
         Self { normal, tangent, axis: cross(normal, tangent) }
     }
 
-    /// Direction of the tangential part of a velocity.
-    fn along(normal: Vector<T>, velocity: Vector<T>) -> Option<Vector<T>> {
+    /// Direction of the tangential part of a velocity, if that is larger than `least`.
+    fn along(normal: Vector<T>, velocity: Vector<T>, least: T) -> Option<Vector<T>> {
         let tangential = add(velocity, -dot(velocity, normal), normal);
-        let (_, direction) = polar(tangential)?;
-        // What rounding has left along the normal.
+        let (_, direction) = polar(tangential).filter(|(length, _)| *length > least)?;
+        // What rounding has left along the normal, which is not much of it.
         polar(add(direction, -dot(direction, normal), normal)).map(|(_, direction)| direction)
     }
 

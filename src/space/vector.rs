@@ -43,6 +43,11 @@ pub(super) fn polar<T: Real>(vector: Vector<T>) -> Option<(T, Vector<T>)> {
     Some((size * length, near_one.map(|x| x / length)))
 }
 
+#[inline]
+pub(super) fn length<T: Real>(vector: Vector<T>) -> T {
+    polar(vector).map_or(T::ZERO, |(length, _)| length)
+}
+
 /// A direction across another.
 #[inline]
 pub(super) fn across<T: Real>(direction: Vector<T>) -> Vector<T> {

@@ -1,7 +1,7 @@
 //! A sphere against a wall of any direction, which may move.
 
 use super::plane::{Plane, unit};
-use super::vector::{Vector, add, cross, dot};
+use super::vector::{Vector, add, cross, dot, length};
 use super::{Departing, SpatialMotion, approach};
 use crate::{Approach, InputError, NormalMotion, Oblique, Parameter, PlanarMotion, Real, Sphere};
 
@@ -84,7 +84,8 @@ impl<T: Real> Wall<T> {
     pub fn incidence(&self, sphere: &Sphere<T>, motion: &SpatialMotion<T>) -> Result<WallIncidence<T>, InputError> {
         let relative = add(motion.velocity(), -T::ONE, self.velocity);
         let at_contact = add(relative, -sphere.radius(), cross(motion.spin(), self.normal));
-        let plane = Plane::of(self.normal, at_contact, relative);
+        let largest = length(relative) + sphere.radius() * length(motion.spin());
+        let plane = Plane::of(self.normal, at_contact, relative, largest);
         let planar = approach(-dot(relative, self.normal))?
             .with_tangential(dot(relative, plane.tangent))?
             .with_spin(sphere, dot(motion.spin(), plane.axis))?;

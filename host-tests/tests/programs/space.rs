@@ -129,7 +129,7 @@ fn what_does_not_go_together_is_refused() {
         (
             "velocity_z_m_s,radius_2_m,external_force_n",
             "-1,1e-6,1e-9",
-            "external_force_n: it acts on one of the two spheres",
+            "external_force_n: it is not known for two spheres",
         ),
         (
             "velocity_z_m_s,radius_2_m,wall_velocity_x_m_s",

@@ -374,3 +374,25 @@ fn directions_are_of_unit_length() {
     let before = rounded.incidence(&sphere, &motion).unwrap();
     assert!((microimpact::Approach::normal(&before).speed() - 3.0_f64.sqrt()).abs() < 1e-15);
 }
+
+/// A head-on impact on a wall of any direction does not slip, in single precision either: what rounding leaves of the normal velocity has
+/// no direction.
+#[test]
+fn a_head_on_impact_does_not_slip() {
+    let mut random = StdRng::seed_from_u64(7);
+    let (sphere, mut worst) = (Sphere::solid(1e-3_f32, 2500.0).unwrap(), 0.0_f32);
+    let check = |normal: [f32; 3], speed: f32| {
+        let velocity = normal.map(|component| -speed * component);
+        let motion = SpatialMotion::new(velocity, [0.0; 3]).unwrap();
+        let before = Wall::new(normal).unwrap().incidence(&sphere, &motion).unwrap();
+        let still = SpatialMotion::new([0.0; 3], [0.0; 3]).unwrap();
+        let pair = Pair::new(sphere, sphere).incidence(normal, [&motion, &still]).unwrap();
+        (before.slip().abs().max(pair.slip().abs())) / speed
+    };
+    worst = worst.max(check([0.99999976, -0.00039215418, -0.0005141923], 9.340285));
+    for _ in 0..repetitions(2_000_000, 100_000) {
+        let normal = direction(&mut random).map(|component| component as f32);
+        worst = worst.max(check(normal, random.random_range(0.1..10.0)));
+    }
+    assert!(worst < 4e-6, "{worst:e}");
+}

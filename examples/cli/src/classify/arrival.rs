@@ -1,7 +1,7 @@
 //! What arrives at the impact of a row: a sphere in a plane, a sphere at a wall in space, or two spheres.
 
 use microimpact::space::{Departing, Pair, PairIncidence, SpatialMotion, Wall, WallIncidence};
-use microimpact::{NormalMotion, Oblique, PlanarMotion, Sphere, SurfaceMotion};
+use microimpact::{InputError, NormalMotion, Oblique, PlanarMotion, Sphere, SurfaceMotion};
 use sheet::{Header, Input, Row, Scalar};
 
 use crate::inputs::{DENSITY_INPUT, GYRATION_INPUT, MOTION_INPUTS};
@@ -87,10 +87,20 @@ fn vector<T: Scalar>(row: &Row<'_>, columns: Columns) -> Result<Option<[T; 3]>, 
 }
 
 /// A motion in space from the columns of its velocity and spin.
-fn motion<T: Scalar>(row: &Row<'_>, velocity: Columns, spin: Columns) -> Result<SpatialMotion<T>, String> {
+fn motion<T: Scalar>(
+    row: &Row<'_>,
+    velocity: Columns,
+    spin: Columns,
+    reason: impl Fn(InputError) -> String,
+) -> Result<SpatialMotion<T>, String> {
     let zero = [T::ZERO; 3];
     let (velocity, spin) = (vector(row, velocity)?.unwrap_or(zero), vector(row, spin)?.unwrap_or(zero));
-    SpatialMotion::new(velocity, spin).map_err(|error| row.reason(error))
+    SpatialMotion::new(velocity, spin).map_err(reason)
+}
+
+/// What is wrong with the second sphere, whose columns have names of their own.
+fn of_second(error: InputError) -> String {
+    format!("second sphere: {error}")
 }
 
 /// The same planar motion as a motion of that type.
@@ -130,7 +140,7 @@ impl<T: Scalar> Arrival<T> {
         };
         refuse(row, &WALL_VELOCITY, "two spheres meet without a wall; give velocity_2_x_m_s, _y_ and _z_ instead,")?;
         let second = Sphere::new(radius, row.number(DENSITY_2)?.unwrap_or(density), gyration(GYRATION_2)?);
-        Self::of_pair(row, [sphere, second.map_err(|error| row.reason(error))?], in_space)
+        Self::of_pair(row, [sphere, second.map_err(of_second)?], in_space)
     }
 
     fn in_plane(row: &Row<'_>, sphere: Sphere<T>) -> Result<Self, String> {
@@ -145,21 +155,22 @@ impl<T: Scalar> Arrival<T> {
     fn at_wall(row: &Row<'_>, sphere: Sphere<T>) -> Result<Self, String> {
         let wall_velocity = vector(row, WALL_VELOCITY)?.unwrap_or([T::ZERO; 3]);
         let wall = Wall::moving(normal(row)?, wall_velocity).map_err(|error| row.reason(error))?;
-        let incidence = wall.incidence(&sphere, &motion(row, VELOCITY, SPIN)?).map_err(|error| row.reason(error))?;
+        let motion = motion(row, VELOCITY, SPIN, |error| row.reason(error))?;
+        let incidence = wall.incidence(&sphere, &motion).map_err(|error| row.reason(error))?;
         Ok(Self { sphere, motion: planar(row, &incidence)?, place: Place::Wall(sphere, incidence) })
     }
 
     /// In a plane the speeds are those of the first sphere, and the second moves only as its own columns say.
     fn of_pair(row: &Row<'_>, spheres: [Sphere<T>; 2], in_space: bool) -> Result<Self, String> {
         let first = if in_space {
-            motion(row, VELOCITY, SPIN)?
+            motion(row, VELOCITY, SPIN, |error| row.reason(error))?
         } else {
             let (normal, tangential) = (row.required::<T>("speed_normal_m_s")?, row.or_zero("speed_tangential_m_s")?);
             let (zero, spin) = (T::ZERO, row.or_zero("spin_rad_s")?);
             let motion = SpatialMotion::new([tangential, zero, -normal], [zero, spin, zero]);
             motion.map_err(|error| row.reason(error))?
         };
-        let (pair, second) = (Pair::new(spheres[0], spheres[1]), motion(row, VELOCITY_2, SPIN_2)?);
+        let (pair, second) = (Pair::new(spheres[0], spheres[1]), motion(row, VELOCITY_2, SPIN_2, of_second)?);
         let incidence = pair.incidence(normal(row)?, [&first, &second]).map_err(|error| row.reason(error))?;
         Ok(Self { sphere: pair.reduced(), motion: planar(row, &incidence)?, place: Place::Pair(spheres, incidence) })
     }
@@ -171,15 +182,17 @@ impl<T: Scalar> Arrival<T> {
         about_one_axis: &[&'static str],
         on_one_body: &[&'static str],
     ) -> Result<(), String> {
-        if !matches!(self.place, Place::Plane) {
-            refuse(
-                row,
-                about_one_axis,
-                "it acts against a spin about one axis, and its effect in space is not known; give speed_normal_m_s",
-            )?;
-        }
-        if matches!(self.place, Place::Pair(..)) {
-            refuse(row, on_one_body, "it acts on one of the two spheres; remove radius_2_m")?;
+        let (columns, reason) = match self.place {
+            Place::Plane => return Ok(()),
+            Place::Wall(..) => {
+                (about_one_axis, "it acts against a spin about one axis, and its effect in space is not known")
+            }
+            Place::Pair(..) => (&[about_one_axis, on_one_body].concat()[..], "it is not known for two spheres"),
+        };
+        for column in columns {
+            if row.or_zero::<T>(column)? != T::ZERO {
+                return Err(format!("{column}: {reason}; leave the cell empty"));
+            }
         }
         Ok(())
     }

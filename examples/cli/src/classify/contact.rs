@@ -101,6 +101,8 @@ impl<T: Number> Simulated<T> {
         let motion = (*outcome != Outcome::Undecided).then(|| self.motion());
         // The slip of a captured sphere may end after it was followed; then the time is not known.
         let slip_ends = match (slip.rolls_from, motion) {
+            // It slips and sticks several times.
+            _ if self.tangential.compliant.is_some() => None,
             (None, Some(SurfaceMotion::Sliding)) => Some(-T::ONE),
             (time, _) => time,
         };
@@ -161,6 +163,7 @@ impl<T: Number> Simulated<T> {
             nano(normal.peak_indentation()),
             nano(times.contact.filter(|_| followed)),
             match (outcome, self.motion()) {
+                _ if self.tangential.compliant.is_some() => "-".into(),
                 (Outcome::Rebound, SurfaceMotion::Sliding) => "always".into(),
                 _ => nano(slip.rolls_from.filter(|_| followed)),
             },

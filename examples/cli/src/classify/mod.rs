@@ -25,12 +25,13 @@ pub use method::OfferedNodes;
 ///   gyration_ratio (k^2/r^2) [0.4, a solid sphere], speed_tangential_m_s [0], spin_rad_s [0],
 ///   friction (Coulomb's coefficient f) [0].
 /// In space instead of these speeds and the spin
-///   velocity_x_m_s, velocity_y_m_s, velocity_z_m_s and spin_x_rad_s, spin_y_rad_s, spin_z_rad_s [0],
+///   velocity_x_m_s, velocity_y_m_s, velocity_z_m_s and spin_x_rad_s, spin_y_rad_s, spin_z_rad_s [each 0],
 ///   normal_x, normal_y, normal_z (of unit length, from the wall to the sphere) [0, 0, 1],
 ///   wall_velocity_x_m_s, wall_velocity_y_m_s, wall_velocity_z_m_s (of the wall at the contact) [0].
 /// Two spheres, in space or in a plane, the normal from the second to the first:
 ///   radius_2_m, density_2_kg_m3 [as the first], gyration_ratio_2 [0.4],
-///   velocity_2_x_m_s .. _z_ and spin_2_x_rad_s .. _z_ [0].
+///   velocity_2_x_m_s .. _z_ and spin_2_x_rad_s .. _z_ [each 0]. In a plane the speeds and the spin are those of the first
+///   sphere: x is tangential, z normal, and y the axis of the spin.
 /// The rigid-body model also reads
 ///   restitution (R), or restitution_speed_m_s and restitution_power (k and p of R = k^p/(k^p + v^p)) [p = 1],
 ///   or yield_speed_m_s (elastic-plastic, Thornton 1997),
@@ -40,7 +41,7 @@ pub use method::OfferedNodes;
 /// The simulation also reads
 ///   stiffness_pa (K), adhesion_n_m (f0) [0], zeta_h [0], zeta_a [0], peeling_n_m (lambda) [0],
 ///   external_force_n (positive out of the surface) [0],
-///   stiffness_ratio (tangential over normal stiffness of the contact, chi) [the contact does not give sideways],
+///   stiffness_ratio (tangential over normal stiffness of the contact, chi; method adaptive only) [the contact does not give sideways],
 ///   law, work_of_adhesion_j_m2, damping, damping_value, end_rule (below),
 ///   yield_pressure_pa (contact yield pressure) [not known].
 ///
@@ -55,9 +56,9 @@ pub use method::OfferedNodes;
 /// law of contact: hertz, ring, dmt or jkr. Above 1, speed_over_yield marks impacts that leave a dent, which the simulation
 /// does not know; it is empty without a yield_pressure_pa. With both models, columns of the rigid body begin with rigid_body_.
 /// With a stiffness_ratio, impulse_ratio_out is P_t/P_n, negative for a positive slip, and phases is the number of times that the
-/// contact sticks or slips. Motions in space give velocity_out_x_m_s .. _z_, spin_out_x_rad_s .. _z_ and energy_out_j, and of the second sphere
+/// contact sticks or slips; time_roll_s is empty. Motions in space give velocity_out_x_m_s .. _z_, spin_out_x_rad_s .. _z_ and energy_out_j, and of the second sphere
 /// velocity_2_out_x_m_s and so on; the other columns are those of the plane of the normal and the slip, and of two spheres
-/// those of their relative motion.
+/// those of one sphere with their reduced mass, their closing speed and their slip.
 #[derive(Args)]
 #[command(verbatim_doc_comment, after_long_help = simulation_help())]
 pub struct Options {
