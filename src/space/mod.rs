@@ -59,6 +59,17 @@ use crate::{Fault, InputError, NormalMotion, Outcome, Parameter, Real};
 pub trait Departing<T> {
     /// Velocities after the impact of a sphere with a tangential velocity, which it keeps without friction. A captured sphere has no
     /// normal velocity. `None` where the outcome is not known.
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact};
+    /// use microimpact::space::Departing;
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_friction(0.1)?;
+    /// let impact = scene.solve(&NormalMotion::new(1.0)?.with_tangential(5.0)?, &Adaptive::new(1e-9)?)?;
+    /// assert!((impact.departure(5.0).unwrap().tangential - 4.8_f64).abs() < 1e-8);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
     fn departure(&self, tangential: T) -> Option<Departure<T>>;
 }
 

@@ -192,7 +192,7 @@ fn critical_speeds_keep_their_tolerance_under_any_damping() {
         match (found(1e-10), found(1e-6), single) {
             (CriticalSpeed::At(exact), CriticalSpeed::At(found), CriticalSpeed::At(single)) => {
                 let (error, single) = ((found / exact - 1.0).abs(), (f64::from(single) / exact - 1.0).abs());
-                assert!(error <= 1e-5 && single <= 0.1, "{scene:?}: {exact} {error:e} {single:e}");
+                assert!(error <= 1e-5 && single <= 0.3, "{scene:?}: {exact} {error:e} {single:e}");
                 tried += 1;
                 inexact += usize::from(error > 1e-6) + usize::from(single > 1e-3);
             }
