@@ -561,8 +561,8 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
     pub const MOST_TRIALS: u32 = critical::MOST_TRIALS;
 
     /// The approach speed, m/s, that separates capture from rebound (B6), to the relative tolerance of `method`. In single
-    /// precision rounding leaves an error of up to 1e-3 where damping is so strong that little depends on the speed, and of some
-    /// tens of percent where it takes all but a millionth of the energy; a well that an external force has flattened to a millionth may not be
+    /// precision rounding leaves an error of up to 1e-3 where damping is so strong that little depends on the speed, and of tens of
+    /// percent, rarely of a factor, where it takes all but a millionth of the energy; a well that an external force has flattened to a millionth may not be
     /// seen.
     ///
     /// A sphere that just separates arrived with exactly the energy that damping dissipates. That energy grows with the
