@@ -208,7 +208,7 @@ pub unsafe extern "C" fn microimpact_pair_incidence(
 /// and from the overall restitution (0 to 1) and the tangential velocity (m/s) that microimpact_classify or microimpact_simulate
 /// returned for its planar motion. There is room for two motions, those of the first and of the second sphere.
 ///
-/// With a restitution of zero, the spheres go on together. An impact of MICROIMPACT_CLASS_UNDECIDED has that restitution, too, but
+/// With a restitution of zero, the spheres stay in contact. An impact of MICROIMPACT_CLASS_UNDECIDED has that restitution, too, but
 /// the motions after it are not known: do not call this function for it.
 ///
 /// The motions after the impact may be in the memory of those of the pair. Where this fails, nothing is written but the error,
