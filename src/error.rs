@@ -415,7 +415,8 @@ impl InputError {
             {
                 write!(f, "; enter {value}{unit} as {}", Number(-self.value))
             }
-            Parameter::NormalLength => f.write_str("; divide the normal by its length"),
+            Parameter::NormalLength if self.value > 0.0 => write!(f, "; divide each component by {value}"),
+            Parameter::NormalLength => f.write_str("; give the direction of the normal"),
             Parameter::AdhesionRatio => f.write_str("; the approach speed is too small for this adhesion"),
             Parameter::ForceRatio => f.write_str("; the approach speed is too small for this external force"),
             Parameter::Radius | Parameter::Thickness
@@ -496,8 +497,8 @@ impl fmt::Display for ImpactError {
                  speeds and the restitution law"
             }
             Self::ImpulseRatioOutsideBounds => {
-                "impulse ratio is outside its bounds, 0 to mu_0; check the tangential velocities and the spin, or enter a \
-                 larger velocity error"
+                "impulse ratio is outside its bounds, 0 to mu_0; check the tangential velocities and the spin, and the velocity \
+                 error of a measured impact"
             }
             Self::EnergyGained => {
                 "kinetic energy after the impact exceeds that before it, but their ratio must be at most 1; check the \

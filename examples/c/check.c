@@ -578,6 +578,106 @@ static void pair_values(void)
     free(pair);
 }
 
+/* A contact that gives sideways, of a sphere on a wall and of two spheres. */
+static void compliance(void)
+{
+    const float r = BODY.radius;
+    const MicroimpactCompliantScene elastic = {
+        .contact = {.radius = r, .density = BODY.density, .stiffness = 7.5e10f, .friction = 0.5f, .tolerance = 1e-6f},
+        .stiffness_ratio = 6.0f / 7.0f};
+    MicroimpactCompliantScene *p = copy(&elastic, sizeof elastic), *scene = malloc(sizeof *scene), zeros = {0};
+    MicroimpactMotion motions[] = {{1.0f, 0.1f, 0.0f}, {1.0f, 1.0f, 0.0f}, {1.0f, 5.0f, 0.0f}};
+    enum { MOTIONS = sizeof motions / sizeof motions[0] };
+    MicroimpactCompliantContact *results = malloc(MOTIONS * sizeof *results);
+    MicroimpactError error;
+    size_t written;
+
+    /* Sticking, then slip; slip, sticking and slip back; slip throughout, which takes f (1 + e) of the approach speed. */
+    p->contact.tolerance = 0.0f;
+    assert(microimpact_compliant_init(p, scene, &error) == MICROIMPACT_STATUS_OK && memcmp(scene, &elastic, sizeof elastic) == 0);
+    assert(microimpact_simulate_compliant(scene, motions, MOTIONS, results, MOTIONS, &written, &error) == MICROIMPACT_STATUS_OK);
+    assert(written == 3 && results[0].phases == 2 && results[1].phases == 3 && results[2].phases == 1);
+    assert(close_to(results[2].tangential, 4.0f, 5.0f) && close_to(results[2].impulse_ratio, -0.5f, 1.0f));
+    for (size_t i = 0; i < MOTIONS; i++) {
+        const MicroimpactCompliantContact *c = &results[i];
+        assert(c->impact_class == MICROIMPACT_CLASS_REBOUND_SLIDING && close_to(c->restitution, 1.0f, 1.0f));
+        assert(close_to(c->slip, c->tangential - r * c->spin, 5.0f));
+    }
+    assert(results[1].slip < 0.0f);
+    /* The other rule of unloading. */
+    MicroimpactCompliantContact other;
+    p->incremental_unloading = 0xffffffffu;
+    assert(microimpact_compliant_init(p, p, NULL) == MICROIMPACT_STATUS_OK);
+    assert(microimpact_simulate_compliant(p, &motions[0], 1, &other, 1, &written, NULL) == MICROIMPACT_STATUS_OK);
+    assert(fabsf(other.slip - results[0].slip) > 1e-3f && other.restitution == results[0].restitution);
+    assert(microimpact_simulate_compliant(p, motions, MOTIONS, results, 2, &written, NULL) == MICROIMPACT_STATUS_CAPACITY && written == 2);
+
+    /* Two spheres: momentum is kept. */
+    const MicroimpactPair pair = {{r, 2.0f * r}, {BODY.density, BODY.density}, {0.0f, 0.0f, 1.0f},
+                                  {{{0.3f, 0.0f, -1.0f}, {0.0f, 1e4f, 0.0f}}, {{0.0f, 0.2f, 0.5f}, {0}}}};
+    MicroimpactSpatialMotion after[2];
+    MicroimpactMotion planar;
+    *p = elastic;
+    assert(microimpact_pair_incidence(&pair, &p->contact.radius, &p->contact.density, &planar, &error) == MICROIMPACT_STATUS_OK);
+    assert(microimpact_compliant_init(p, scene, &error) == MICROIMPACT_STATUS_OK);
+    assert(microimpact_simulate_compliant(scene, &planar, 1, &other, 1, &written, &error) == MICROIMPACT_STATUS_OK);
+    assert(microimpact_pair_after(&pair, other.restitution, other.tangential, after, &error) == MICROIMPACT_STATUS_OK);
+    for (size_t i = 0; i < 3; i++) {
+        const float *u = pair.motion[0].velocity, *v = pair.motion[1].velocity;
+        assert(close_to(after[0].velocity[i] - u[i], -8.0f * (after[1].velocity[i] - v[i]), 8.0f));
+    }
+    assert(close_to(after[0].velocity[2] - after[1].velocity[2], 1.5f, 1.5f) && after[0].velocity[0] != 0.3f);
+
+    /* What it does not go with, bad values and bad pointers. */
+    static const float BAD[] = {NAN, INFINITY, 0.0f, -1.0f, 1001.0f};
+    *p = elastic;
+    for (size_t i = 0; i < sizeof BAD / sizeof BAD[0]; i++) {
+        p->stiffness_ratio = BAD[i];
+        refused(microimpact_compliant_init(p, scene, &error), &error, "stiffness ratio");
+        assert(memcmp(scene, &zeros, sizeof zeros) == 0);
+        refused(microimpact_simulate_compliant(p, motions, 1, &other, 1, &written, &error), &error, "stiffness ratio");
+    }
+    *p = elastic, p->contact.adhesion_strength = 250.0f;
+    refused(microimpact_compliant_init(p, scene, &error), &error, "stiffness ratio");
+    assert(error.fault == MICROIMPACT_FAULT_OTHER_LAW);
+    *p = elastic, p->contact.friction = -1.0f;
+    refused(microimpact_compliant_init(p, scene, &error), &error, "friction coefficient");
+    *p = elastic, motions[0].tangential = NAN;
+    refused(microimpact_simulate_compliant(p, motions, 1, &other, 1, &written, &error), &error, "tangential velocity");
+    const MicroimpactStatus null = MICROIMPACT_STATUS_POINTER;
+    assert(microimpact_compliant_init(NULL, scene, &error) == null && microimpact_compliant_init(p, NULL, NULL) == null);
+    assert(microimpact_simulate_compliant(NULL, motions, 1, &other, 1, &written, &error) == null);
+    assert(microimpact_simulate_compliant(p, NULL, 1, &other, 1, &written, &error) == null);
+    assert(microimpact_simulate_compliant(p, &motions[1], 1, NULL, 1, &written, &error) == null);
+    assert(microimpact_simulate_compliant(p, motions, 1, &other, 1, NULL, &error) == null);
+
+    free(p), free(scene), free(results);
+}
+
+/* A captured sphere whose plane shows it at rest rolls sideways. */
+static void rolls_sideways(void)
+{
+    const MicroimpactWall floor = {{0.0f, 0.0f, 1.0f}, {0.0f, 0.5f, 0.0f}};
+    const MicroimpactRigidScene sticky = {.radius = 1.0f, .density = 1000.0f, .restitution_speed = 1.0f, .work_of_adhesion = 1e6f, .friction = 1e3f};
+    /* It slips along x, where its spin is just what stops it, and rolls along y with 1 m/s on a floor that moves. */
+    const MicroimpactSpatialMotion motion = {{1.0f, 1.5f, -1.0f}, {-1.0f, -2.5f, 0.0f}};
+    MicroimpactMotion planar;
+    MicroimpactClassification result;
+    MicroimpactError error;
+    float sideways;
+
+    assert(microimpact_wall_incidence(&floor, 1.0f, &motion, &planar, &error) == MICROIMPACT_STATUS_OK);
+    assert(microimpact_classify(&sticky, &planar, &result, &error) == MICROIMPACT_STATUS_OK);
+    assert(result.impact_class == MICROIMPACT_CLASS_CAPTURED_RESTING);
+    assert(microimpact_wall_sideways(&floor, 1.0f, &motion, &sideways, &error) == MICROIMPACT_STATUS_OK);
+    assert(close_to(fabsf(sideways), 1.0f, 1.0f));
+
+    assert(microimpact_wall_sideways(NULL, 1.0f, &motion, &sideways, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_wall_sideways(&floor, 1.0f, NULL, &sideways, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_wall_sideways(&floor, 1.0f, &motion, NULL, &error) == MICROIMPACT_STATUS_POINTER);
+    refused(microimpact_wall_sideways(&floor, NAN, &motion, &sideways, &error), &error, "radius");
+}
+
 static void wall_misuse(void)
 {
     const MicroimpactStatus null = MICROIMPACT_STATUS_POINTER;
@@ -732,6 +832,8 @@ int main(int count, char **arguments)
     restitution();
     wall_values();
     pair_values();
+    compliance();
+    rolls_sideways();
     wall_misuse();
     pair_misuse();
     parameter_names();

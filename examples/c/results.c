@@ -26,6 +26,14 @@ static const MicroimpactContactScene LAWS[] = {
     {.radius = 5.06e-6f, .density = 2600.0f, .stiffness = 7.5e10f, .relaxation_time = 1e-10f, .ends_by_force = 1, .friction = 0.1f},
 };
 
+/* Contacts that give sideways, by both rules of unloading. */
+static const MicroimpactCompliantScene COMPLIANT[] = {
+    {.contact = {.radius = 5.06e-6f, .density = 2600.0f, .stiffness = 7.5e10f, .material_damping = 10.5f, .friction = 0.1f},
+     .stiffness_ratio = 0.85f},
+    {.contact = {.radius = 5.06e-6f, .density = 2600.0f, .stiffness = 7.5e10f, .friction = 0.3f},
+     .stiffness_ratio = 10.0f, .incremental_unloading = 1},
+};
+
 static MicroimpactRigidScene body;
 static MicroimpactContactScene contact, elastic;
 
@@ -144,6 +152,26 @@ static int simulations(const char *name, const MicroimpactContactScene *scene)
     return 1;
 }
 
+static int compliant(void)
+{
+    static MicroimpactCompliantContact contacts[COUNT(MOTIONS)];
+    MicroimpactCompliantScene scene;
+    size_t written;
+    for (size_t i = 0; i < COUNT(COMPLIANT); i++) {
+        if (microimpact_compliant_init(&COMPLIANT[i], &scene, NULL) != MICROIMPACT_STATUS_OK
+            || microimpact_simulate_compliant(&scene, MOTIONS, COUNT(MOTIONS), contacts, COUNT(contacts), &written, NULL)
+                   != MICROIMPACT_STATUS_OK)
+            return 0;
+        for (size_t j = 0; j < written; j++) {
+            const MicroimpactCompliantContact *c = &contacts[j];
+            printf("compliant %lu %lu %d %lu %08lx %08lx %08lx %08lx %08lx %08lx\n", (unsigned long)i, (unsigned long)j,
+                   (int)c->impact_class, (unsigned long)c->phases, bits(c->restitution), bits(c->peak_indentation), bits(c->tangential),
+                   bits(c->spin), bits(c->slip), bits(c->impulse_ratio));
+        }
+    }
+    return 1;
+}
+
 static void print_motion(const MicroimpactSpatialMotion *motion)
 {
     printf(" %08lx %08lx %08lx %08lx %08lx %08lx", bits(motion->velocity[0]), bits(motion->velocity[1]), bits(motion->velocity[2]),
@@ -155,16 +183,18 @@ static int walls(void)
     MicroimpactMotion planar;
     MicroimpactContact c;
     MicroimpactSpatialMotion after;
+    float sideways;
     size_t written;
     for (size_t i = 0; i < COUNT(WALLS); i++) {
         for (size_t j = 0; j < COUNT(IN_SPACE); j++) {
             if (microimpact_wall_incidence(&WALLS[i], contact.radius, &IN_SPACE[j], &planar, NULL) != MICROIMPACT_STATUS_OK
+                || microimpact_wall_sideways(&WALLS[i], contact.radius, &IN_SPACE[j], &sideways, NULL) != MICROIMPACT_STATUS_OK
                 || microimpact_simulate(&contact, &planar, 1, &c, 1, &written, NULL) != MICROIMPACT_STATUS_OK
                 || microimpact_wall_after(&WALLS[i], contact.radius, &IN_SPACE[j], c.restitution, c.tangential, &after, NULL)
                        != MICROIMPACT_STATUS_OK)
                 return 0;
-            printf("wall %lu %lu %d %08lx %08lx %08lx", (unsigned long)i, (unsigned long)j, (int)c.impact_class, bits(planar.approach),
-                   bits(planar.tangential), bits(planar.peripheral));
+            printf("wall %lu %lu %d %08lx %08lx %08lx %08lx", (unsigned long)i, (unsigned long)j, (int)c.impact_class,
+                   bits(planar.approach), bits(planar.tangential), bits(planar.peripheral), bits(sideways));
             print_motion(&after);
             printf("\n");
         }
@@ -222,5 +252,7 @@ int main(void)
         return 6;
     if (!walls() || !pairs())
         return 8;
+    if (!compliant())
+        return 9;
     return 0;
 }

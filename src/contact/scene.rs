@@ -82,7 +82,8 @@ impl<T: Real> Contact<T, HertzLaw<T>> {
 }
 
 impl<T: Real, D, A, X, S> Contact<T, HertzLaw<T, D, A, X>, S> {
-    /// The same scene with hysteretic damping of strength zeta_H >= 0 in the materials.
+    /// The same scene with hysteretic damping of strength zeta_H >= 0 in the materials. [`HystereticDamping`] says how zeta_H
+    /// relates to a damping constant in s/m.
     ///
     /// # Errors
     /// A strength outside its range.

@@ -10,6 +10,10 @@ use crate::{Approach, InputError, NormalMotion, Oblique, ObliqueMotion, Real, Sp
 /// The [reduced sphere](Self::reduced) has the radius r1 r2/(r1 + r2), the mass m1 m2/(m1 + m2), and a gyration ratio that makes its
 /// contact point as hard to move as theirs. A wall is the limit of a second sphere that is large and heavy.
 ///
+/// The lever arms of friction are the radii of both spheres, as at first contact, and do not shorten with the indentation. So momentum
+/// and angular momentum are kept exactly, and spins differ from those of a program with shorter arms by about the indentation over
+/// the radius.
+///
 /// ```
 /// use microimpact::contact::{Adaptive, Contact};
 /// use microimpact::space::{Pair, SpatialMotion};

@@ -202,7 +202,8 @@ typedef struct MicroimpactContactScene {
   float density;
   // Hertz stiffness, Pa.
   float stiffness;
-  // Strength of hysteretic damping in the materials; may be zero.
+  // Strength zeta_H of hysteretic damping in the materials; may be zero. A damping constant c in s/m of the elastic force times
+  // 1 + c v is zeta_H (m/(r^3 K sqrt(v)))^(2/5), with mass m, radius r, stiffness K and approach speed v.
   float material_damping;
   // Strength of the ring of adhesion, N/m; may be zero.
   float adhesion_strength;
@@ -303,6 +304,40 @@ typedef struct MicroimpactTableReading {
   float peripheral;
 } MicroimpactTableReading;
 
+// A contact that gives sideways before it slips: one elastic element between sphere and surface sticks until friction is exhausted
+// (Mindlin 1949; Thornton, Cummins and Cleary 2011).
+typedef struct MicroimpactCompliantScene {
+  // The contact: Hertz's force with material_damping and friction, any of which may be zero. All that belongs to another law,
+  // adhesion, other damping and ends_by_force, must be zero.
+  struct MicroimpactContactScene contact;
+  // Stiffness ratio chi, 0.001 to 1000: the stiffness along the surface over (3/2) K a, with the Hertz stiffness K and the contact
+  // radius a. It is 2 (1 - nu)/(2 - nu) for two materials with the same Poisson's ratio nu.
+  float stiffness_ratio;
+  // How the force along the surface changes while the contact shrinks. Zero: it falls with the stiffness, so that no energy is
+  // created. Anything else: it does not, as in many programs for granular flow; this rule creates energy.
+  uint32_t incremental_unloading;
+} MicroimpactCompliantScene;
+
+// A simulated impact with compliance along the surface.
+typedef struct MicroimpactCompliantContact {
+  // What became of the sphere. Where friction acts, the contact slips in the end.
+  MicroimpactClass impact_class;
+  // Overall restitution.
+  float restitution;
+  // Peak indentation, m.
+  float peak_indentation;
+  // Tangential velocity after the contact, m/s.
+  float tangential;
+  // Spin after the contact, rad/s.
+  float spin;
+  // Velocity of the contact point after the contact, m/s.
+  float slip;
+  // Tangential over normal impulse, negative against a positive slip.
+  float impulse_ratio;
+  // Number of phases: longest intervals of sticking, or of slip in one direction.
+  uint32_t phases;
+} MicroimpactCompliantContact;
+
 // A moment of a simulated impact.
 typedef struct MicroimpactSample {
   // Time from first touch, s.
@@ -368,7 +403,7 @@ MicroimpactStatus microimpact_simulate(const struct MicroimpactContactScene *sce
 // microimpact_simulate take it, with a scene of the same radius.
 //
 // The plane contains the normal and the velocity with which the contact point slips on the wall. The sphere keeps its velocity
-// across that plane, so that a class such as rolling or resting describes the motion in the plane.
+// across that plane (microimpact_wall_sideways), so that a class such as rolling or resting describes the motion in the plane.
 //
 // It is an error with the fault MICROIMPACT_FAULT_RECEDING if the sphere does not approach the wall. Where this fails, nothing
 // is written but the error, which may be null.
@@ -381,9 +416,21 @@ MicroimpactStatus microimpact_wall_incidence(const struct MicroimpactWall *wall,
                                              struct MicroimpactMotion *planar,
                                              struct MicroimpactError *error);
 
+// Computes the velocity of a solid sphere across the plane of its impact on a wall (m/s), seen from the wall: from what
+// microimpact_wall_incidence takes. The sphere keeps it. So a sphere of MICROIMPACT_CLASS_CAPTURED_RESTING rests only if this
+// velocity is zero, and else rolls sideways with it. Where this fails, nothing is written but the error, which may be null.
+//
+// # Safety
+// Each pointer is null or points to what its type says, and nobody else uses it during the call.
+MicroimpactStatus microimpact_wall_sideways(const struct MicroimpactWall *wall,
+                                            float radius,
+                                            const struct MicroimpactSpatialMotion *motion,
+                                            float *sideways,
+                                            struct MicroimpactError *error);
+
 // Computes the motion in space of a solid sphere after its impact on a wall: from the wall, the radius (m) and the motion that
 // microimpact_wall_incidence took, and from the overall restitution (0 to 1) and the tangential velocity (m/s) that
-// microimpact_classify or microimpact_simulate returned for its planar motion.
+// microimpact_classify, microimpact_simulate or microimpact_simulate_compliant returned for its planar motion.
 //
 // With a restitution of zero, the sphere stays on the wall. An impact of MICROIMPACT_CLASS_UNDECIDED has that restitution, too,
 // but the motion after it is not known: do not call this function for it.
@@ -402,7 +449,7 @@ MicroimpactStatus microimpact_wall_after(const struct MicroimpactWall *wall,
 
 // Computes the reduced sphere of two solid spheres that collide, whose impact on a wall is equivalent to the collision: its
 // radius (m), its density (kg/m^3) and its planar motion. Initialise a scene with this radius and this density;
-// microimpact_classify and microimpact_simulate then take the planar motion. All other parameters of the scene are those of the
+// microimpact_classify, microimpact_simulate and microimpact_simulate_compliant then take the planar motion. All other parameters of the scene are those of the
 // contact of the two spheres, and a work of adhesion in joules is that of the relative motion.
 //
 // The tangential velocity is that with which the spheres slip on each other, and the peripheral velocity is zero.
@@ -419,8 +466,8 @@ MicroimpactStatus microimpact_pair_incidence(const struct MicroimpactPair *pair,
                                              struct MicroimpactError *error);
 
 // Computes the motions in space of two solid spheres after their collision: from the pair that microimpact_pair_incidence took,
-// and from the overall restitution (0 to 1) and the tangential velocity (m/s) that microimpact_classify or microimpact_simulate
-// returned for its planar motion. There is room for two motions, those of the first and of the second sphere.
+// and from the overall restitution (0 to 1) and the tangential velocity (m/s) that microimpact_classify, microimpact_simulate or
+// microimpact_simulate_compliant returned for its planar motion. There is room for two motions, those of the first and of the second sphere.
 //
 // With a restitution of zero, the spheres stay in contact. An impact of MICROIMPACT_CLASS_UNDECIDED has that restitution, too, but
 // the motions after it are not known: do not call this function for it.
@@ -498,6 +545,30 @@ MicroimpactStatus microimpact_restitution_read(const struct MicroimpactRestituti
                                                const struct MicroimpactMotion *motion,
                                                struct MicroimpactTableReading *reading,
                                                struct MicroimpactError *error);
+
+// Initialises a scene as microimpact_contact_init does, with the tolerance of its contact. If another law of contact is asked for, the
+// error names the stiffness ratio with the fault MICROIMPACT_FAULT_OTHER_LAW.
+//
+// # Safety
+// Each pointer is null or points to what its type says, and nobody else uses it during the call.
+MicroimpactStatus microimpact_compliant_init(const struct MicroimpactCompliantScene *parameters,
+                                             struct MicroimpactCompliantScene *scene,
+                                             struct MicroimpactError *error);
+
+// Simulates impacts with compliance along the surface, as microimpact_simulate does without. microimpact_wall_after and
+// microimpact_pair_after take the restitution and the tangential velocity of the results. For microimpact_pair_incidence, initialise
+// the contact of the scene with the radius and the density of the reduced sphere.
+//
+// # Safety
+// Each pointer is null or points to what its type says, the motions to `count` of them and the results to room for
+// `capacity`, and nobody else uses them during the call.
+MicroimpactStatus microimpact_simulate_compliant(const struct MicroimpactCompliantScene *scene,
+                                                 const struct MicroimpactMotion *motions,
+                                                 size_t count,
+                                                 struct MicroimpactCompliantContact *results,
+                                                 size_t capacity,
+                                                 size_t *written,
+                                                 struct MicroimpactError *error);
 
 // Simulates one impact, and writes its trajectory into a buffer with room for `capacity` samples, in the order of time, and how
 // many there are: at most as many as there is room for, and never more than MICROIMPACT_LARGEST_TRAJECTORY. In less room,

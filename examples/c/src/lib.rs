@@ -12,13 +12,14 @@ mod simulation;
 mod space;
 mod status;
 mod tables;
+mod tangential;
 mod trajectory;
 
 pub use rigid::{Classification, RigidScene, microimpact_classify, microimpact_rigid_init};
 pub use simulation::{Contact, ContactScene, microimpact_contact_init, microimpact_simulate};
 pub use space::{
     Pair, SpatialMotion, Wall, microimpact_pair_after, microimpact_pair_incidence, microimpact_wall_after,
-    microimpact_wall_incidence,
+    microimpact_wall_incidence, microimpact_wall_sideways,
 };
 pub use status::{Class, Error, Fault, Motion, Status, microimpact_parameter_name};
 pub use tables::{
@@ -26,6 +27,7 @@ pub use tables::{
     microimpact_boundary_classify, microimpact_boundary_make, microimpact_restitution_make,
     microimpact_restitution_read,
 };
+pub use tangential::{CompliantContact, CompliantScene, microimpact_compliant_init, microimpact_simulate_compliant};
 pub use trajectory::{LARGEST_TRAJECTORY, SMALLEST_TRAJECTORY, Sample, microimpact_simulate_trajectory};
 
 use panic_halt as _;

@@ -4,7 +4,7 @@ use microimpact::rigid::WorkOfAdhesion;
 use microimpact::{Coulomb, InputError, RigidBody, SpeedRestitution, Sphere};
 
 use crate::memory;
-use crate::status::{Class, Error, Failure, Motion, Status, finish, followed};
+use crate::status::{Class, Error, Failure, Motion, Status, finish, followed, initialise};
 
 /// A rigid body with R = k/(k + v), a work of adhesion and friction. Zero leaves a term out.
 #[repr(C)]
@@ -44,17 +44,8 @@ pub unsafe extern "C" fn microimpact_rigid_init(
     scene: *mut RigidScene,
     error: *mut Error,
 ) -> Status {
-    // SAFETY: the contract of this function is that of the functions in `memory`.
-    unsafe {
-        let initialised = || -> Result<(), Failure> {
-            let parameters = memory::read(parameters);
-            followed(memory::write(scene, RigidScene::default()))?;
-            let parameters = followed(parameters)?;
-            parameters.check()?;
-            followed(memory::write(scene, parameters))
-        };
-        finish(initialised(), error)
-    }
+    // SAFETY: the contract of this function.
+    unsafe { initialise(parameters, scene, error, |parameters| parameters.check().map(|_| parameters)) }
 }
 
 /// The class of an impact, and what goes with it. A margin that does not exist is negative.

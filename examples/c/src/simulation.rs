@@ -1,10 +1,10 @@
 //! The contact simulation.
 
 use microimpact::contact::{self, AnyLaw, AnyScene, Collocation, JkrEnd, SimulatedImpact, TangentialVelocities};
-use microimpact::{CriticalSpeed, Fault, InputError, Parameter, Sphere, Stiffness};
+use microimpact::{CriticalSpeed, Fault, InputError, Parameter, PlanarMotion, Sphere, Stiffness};
 
 use crate::memory;
-use crate::status::{Class, Error, Failure, Motion, Status, finish, followed};
+use crate::status::{Class, Error, Failure, Motion, Status, finish, followed, initialise};
 
 /// A contact with Hertz's force, adhesion of one kind, damping of one kind, and friction. Zero leaves a term out.
 #[repr(C)]
@@ -16,7 +16,8 @@ pub struct ContactScene {
     pub density: f32,
     /// Hertz stiffness, Pa.
     pub stiffness: f32,
-    /// Strength of hysteretic damping in the materials; may be zero.
+    /// Strength zeta_H of hysteretic damping in the materials; may be zero. A damping constant c in s/m of the elastic force times
+    /// 1 + c v is zeta_H (m/(r^3 K sqrt(v)))^(2/5), with mass m, radius r, stiffness K and approach speed v.
     pub material_damping: f32,
     /// Strength of the ring of adhesion, N/m; may be zero.
     pub adhesion_strength: f32,
@@ -41,7 +42,7 @@ pub struct ContactScene {
 
 /// Its law of contact is chosen at run time, so that there is one solver for all scenes.
 type Scene = AnyScene<f32>;
-type Method = Collocation<7, f32>;
+pub(crate) type Method = Collocation<7, f32>;
 
 /// What suits single precision.
 const TOLERANCE: f32 = 1e-6;
@@ -56,6 +57,14 @@ impl ContactScene {
         let sphere = Sphere::solid(self.radius, self.density)?;
         let scene = contact::Contact::new(sphere, self.law()?).with_friction(self.friction)?;
         Ok((scene, Collocation::new(self.tolerance)?))
+    }
+
+    /// The same scene with a tolerance, if every number of it is valid.
+    pub(crate) fn filled(self) -> Result<Self, InputError> {
+        let tolerance = if self.tolerance == 0.0 { TOLERANCE } else { self.tolerance };
+        let filled = Self { tolerance, ..self };
+        filled.check()?;
+        Ok(filled)
     }
 
     fn law(self) -> Result<AnyLaw<f32>, InputError> {
@@ -103,20 +112,8 @@ pub unsafe extern "C" fn microimpact_contact_init(
     scene: *mut ContactScene,
     error: *mut Error,
 ) -> Status {
-    // SAFETY: the contract of this function is that of the functions in `memory`.
-    unsafe {
-        let initialised = || -> Result<(), Failure> {
-            let parameters = memory::read(parameters);
-            followed(memory::write(scene, ContactScene::default()))?;
-            let mut parameters = followed(parameters)?;
-            if parameters.tolerance == 0.0 {
-                parameters.tolerance = TOLERANCE;
-            }
-            parameters.check()?;
-            followed(memory::write(scene, parameters))
-        };
-        finish(initialised(), error)
-    }
+    // SAFETY: the contract of this function.
+    unsafe { initialise(parameters, scene, error, ContactScene::filled) }
 }
 
 /// A simulated impact. An indentation that does not exist is negative.
@@ -151,19 +148,40 @@ pub unsafe extern "C" fn microimpact_simulate(
     written: *mut usize,
     error: *mut Error,
 ) -> Status {
+    // SAFETY: the contract of this function.
+    unsafe {
+        simulate_each(motions, count, results, capacity, written, error, || {
+            let (scene, method) = followed(memory::read(scene))?.check()?;
+            Ok(move |motion: &PlanarMotion<f32>| Contact::of(&scene.solve(motion, &method)?))
+        })
+    }
+}
+
+/// Simulates impacts by the solver that `solver` makes, as microimpact_simulate says.
+///
+/// # Safety
+/// As for [`microimpact_simulate`].
+pub(crate) unsafe fn simulate_each<R: Copy, S: Fn(&PlanarMotion<f32>) -> Result<R, Failure>>(
+    motions: *const Motion,
+    count: usize,
+    results: *mut R,
+    capacity: usize,
+    written: *mut usize,
+    error: *mut Error,
+    solver: impl FnOnce() -> Result<S, Failure>,
+) -> Status {
     // SAFETY: the contract of this function is that of the functions in `memory`; indices stay below count and capacity.
     unsafe {
         let mut done = 0;
-        let mut simulated = || -> Result<(), Failure> {
+        let simulated = || -> Result<(), Failure> {
             followed(memory::write(written, 0))?;
-            let (scene, method) = followed(memory::read(scene))?.check()?;
+            let solve = solver()?;
             while done < count {
                 if done >= capacity {
                     return Err(Failure::Status(Status::Capacity));
                 }
                 let motion = followed(memory::read(memory::element(motions, done)))?;
-                let impact = scene.solve(&motion.check()?, &method)?;
-                followed(memory::write(memory::element_mut(results, done), Contact::of(&impact)?))?;
+                followed(memory::write(memory::element_mut(results, done), solve(&motion.check()?)?))?;
                 done += 1;
             }
             Ok(())

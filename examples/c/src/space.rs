@@ -40,6 +40,20 @@ pub struct Wall {
 }
 
 impl Wall {
+    /// The incidence of a sphere on a wall that C gives.
+    ///
+    /// # Safety
+    /// As for [`memory::read`].
+    unsafe fn read(
+        wall: *const Self,
+        radius: f32,
+        motion: *const SpatialMotion,
+    ) -> Result<WallIncidence<f32>, Failure> {
+        // SAFETY: the contract of this function.
+        let (wall, motion) = unsafe { (followed(memory::read(wall))?, followed(memory::read(motion))?) };
+        Ok(wall.incidence(radius, motion)?)
+    }
+
     fn incidence(self, radius: f32, motion: SpatialMotion) -> Result<WallIncidence<f32>, InputError> {
         let wall = space::Wall::moving(self.normal, self.velocity)?;
         // The density has no part in the motion.
@@ -102,11 +116,33 @@ impl Departing<f32> for Planar {
     }
 }
 
+/// Writes what an incidence makes of the planar result of its impact.
+///
+/// # Safety
+/// As for [`memory::write`].
+unsafe fn write_after<I: Oblique<f32>, M: Copy>(
+    incidence: impl FnOnce() -> Result<I, Failure>,
+    (restitution, tangential): (f32, f32),
+    after: *mut M,
+    error: *mut Error,
+    motions: impl FnOnce(&I, &Planar) -> Option<M>,
+) -> Status {
+    let computed = || -> Result<(), Failure> {
+        let incidence = incidence()?;
+        let impact = Planar::new(&incidence, restitution, tangential)?;
+        let motions = motions(&incidence, &impact).ok_or(Failure::Status(Status::Unsolved))?;
+        // SAFETY: the contract of this function.
+        followed(unsafe { memory::write(after, motions) })
+    };
+    // SAFETY: the contract of this function.
+    unsafe { finish(computed(), error) }
+}
+
 /// Computes the planar motion of a solid sphere of the given radius (m) that hits a wall. microimpact_classify and
 /// microimpact_simulate take it, with a scene of the same radius.
 ///
 /// The plane contains the normal and the velocity with which the contact point slips on the wall. The sphere keeps its velocity
-/// across that plane, so that a class such as rolling or resting describes the motion in the plane.
+/// across that plane (microimpact_wall_sideways), so that a class such as rolling or resting describes the motion in the plane.
 ///
 /// It is an error with the fault MICROIMPACT_FAULT_RECEDING if the sphere does not approach the wall. Where this fails, nothing
 /// is written but the error, which may be null.
@@ -124,18 +160,36 @@ pub unsafe extern "C" fn microimpact_wall_incidence(
     // SAFETY: the contract of this function is that of the functions in `memory`.
     unsafe {
         let computed = || -> Result<(), Failure> {
-            let wall = followed(memory::read(wall))?;
-            let motion = followed(memory::read(motion))?;
-            let incidence = wall.incidence(radius, motion)?;
-            followed(memory::write(planar, Motion::of(&incidence)))
+            followed(memory::write(planar, Motion::of(&Wall::read(wall, radius, motion)?)))
         };
+        finish(computed(), error)
+    }
+}
+
+/// Computes the velocity of a solid sphere across the plane of its impact on a wall (m/s), seen from the wall: from what
+/// microimpact_wall_incidence takes. The sphere keeps it. So a sphere of MICROIMPACT_CLASS_CAPTURED_RESTING rests only if this
+/// velocity is zero, and else rolls sideways with it. Where this fails, nothing is written but the error, which may be null.
+///
+/// # Safety
+/// Each pointer is null or points to what its type says, and nobody else uses it during the call.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn microimpact_wall_sideways(
+    wall: *const Wall,
+    radius: f32,
+    motion: *const SpatialMotion,
+    sideways: *mut f32,
+    error: *mut Error,
+) -> Status {
+    // SAFETY: the contract of this function is that of the functions in `memory`.
+    unsafe {
+        let computed = || followed(memory::write(sideways, Wall::read(wall, radius, motion)?.sideways()));
         finish(computed(), error)
     }
 }
 
 /// Computes the motion in space of a solid sphere after its impact on a wall: from the wall, the radius (m) and the motion that
 /// microimpact_wall_incidence took, and from the overall restitution (0 to 1) and the tangential velocity (m/s) that
-/// microimpact_classify or microimpact_simulate returned for its planar motion.
+/// microimpact_classify, microimpact_simulate or microimpact_simulate_compliant returned for its planar motion.
 ///
 /// With a restitution of zero, the sphere stays on the wall. An impact of MICROIMPACT_CLASS_UNDECIDED has that restitution, too,
 /// but the motion after it is not known: do not call this function for it.
@@ -154,23 +208,18 @@ pub unsafe extern "C" fn microimpact_wall_after(
     after: *mut SpatialMotion,
     error: *mut Error,
 ) -> Status {
-    // SAFETY: the contract of this function is that of the functions in `memory`.
+    // SAFETY: the contract of this function.
     unsafe {
-        let computed = || -> Result<(), Failure> {
-            let wall = followed(memory::read(wall))?;
-            let motion = followed(memory::read(motion))?;
-            let incidence = wall.incidence(radius, motion)?;
-            let impact = Planar::new(&incidence, restitution, tangential)?;
-            let motion = incidence.after(&impact).ok_or(Failure::Status(Status::Unsolved))?;
-            followed(memory::write(after, motion.into()))
-        };
-        finish(computed(), error)
+        let incidence = || Wall::read(wall, radius, motion);
+        write_after(incidence, (restitution, tangential), after, error, |incidence, impact| {
+            incidence.after(impact).map(SpatialMotion::from)
+        })
     }
 }
 
 /// Computes the reduced sphere of two solid spheres that collide, whose impact on a wall is equivalent to the collision: its
 /// radius (m), its density (kg/m^3) and its planar motion. Initialise a scene with this radius and this density;
-/// microimpact_classify and microimpact_simulate then take the planar motion. All other parameters of the scene are those of the
+/// microimpact_classify, microimpact_simulate and microimpact_simulate_compliant then take the planar motion. All other parameters of the scene are those of the
 /// contact of the two spheres, and a work of adhesion in joules is that of the relative motion.
 ///
 /// The tangential velocity is that with which the spheres slip on each other, and the peripheral velocity is zero.
@@ -205,8 +254,8 @@ pub unsafe extern "C" fn microimpact_pair_incidence(
 }
 
 /// Computes the motions in space of two solid spheres after their collision: from the pair that microimpact_pair_incidence took,
-/// and from the overall restitution (0 to 1) and the tangential velocity (m/s) that microimpact_classify or microimpact_simulate
-/// returned for its planar motion. There is room for two motions, those of the first and of the second sphere.
+/// and from the overall restitution (0 to 1) and the tangential velocity (m/s) that microimpact_classify, microimpact_simulate or
+/// microimpact_simulate_compliant returned for its planar motion. There is room for two motions, those of the first and of the second sphere.
 ///
 /// With a restitution of zero, the spheres stay in contact. An impact of MICROIMPACT_CLASS_UNDECIDED has that restitution, too, but
 /// the motions after it are not known: do not call this function for it.
@@ -225,15 +274,11 @@ pub unsafe extern "C" fn microimpact_pair_after(
     after: *mut SpatialMotion,
     error: *mut Error,
 ) -> Status {
-    // SAFETY: the contract of this function is that of the functions in `memory`.
+    // SAFETY: the contract of this function.
     unsafe {
-        let computed = || -> Result<(), Failure> {
-            let pair = followed(memory::read(pair))?;
-            let (_, incidence) = pair.incidence()?;
-            let impact = Planar::new(&incidence, restitution, tangential)?;
-            let motions = incidence.after(&impact).ok_or(Failure::Status(Status::Unsolved))?;
-            followed(memory::write(after.cast(), motions.map(SpatialMotion::from)))
-        };
-        finish(computed(), error)
+        let incidence = || Ok(followed(memory::read(pair))?.incidence()?.1);
+        write_after(incidence, (restitution, tangential), after.cast(), error, |incidence, impact| {
+            incidence.after(impact).map(|motions| motions.map(SpatialMotion::from))
+        })
     }
 }

@@ -95,6 +95,28 @@ pub(crate) unsafe fn finish(result: Result<(), Failure>, error: *mut Error) -> S
     status
 }
 
+/// Initialises a scene: writes what `filled` makes of the parameters or, if it refuses them, zeros.
+///
+/// # Safety
+/// As for [`memory::read`] of the parameters and [`memory::write`] of the others, but that the parameters and the scene may be the
+/// same memory.
+pub(crate) unsafe fn initialise<S: Copy + Default>(
+    parameters: *const S,
+    scene: *mut S,
+    error: *mut Error,
+    filled: impl FnOnce(S) -> Result<S, InputError>,
+) -> Status {
+    // SAFETY: the contract of this function is that of the functions in `memory`.
+    unsafe {
+        let initialised = || -> Result<(), Failure> {
+            let parameters = memory::read(parameters);
+            followed(memory::write(scene, S::default()))?;
+            followed(memory::write(scene, filled(followed(parameters)?)?))
+        };
+        finish(initialised(), error)
+    }
+}
+
 /// Why a function has no results.
 pub(crate) enum Failure {
     Input(InputError),

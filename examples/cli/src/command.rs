@@ -165,7 +165,7 @@ pub trait Work {
     fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow>;
 
     /// Column heads of the summary.
-    fn heads(&self) -> Vec<&'static str>;
+    fn heads(&self, header: &Header<'_>) -> Vec<&'static str>;
 
     /// How many columns of the summary, from the left, hold words: two unless given.
     fn words(&self) -> usize {
@@ -263,7 +263,7 @@ fn write_csv(mut sheet: Sheet<Box<dyn BufRead + '_>>, sink: impl Write, work: &i
 fn write_table(mut sheet: Sheet<Box<dyn BufRead + '_>>, mut sink: impl Write, work: &impl Work) -> BadRows {
     let mut table = Table::new();
     table.load_preset(presets::UTF8_FULL_CONDENSED).set_content_arrangement(ContentArrangement::Dynamic);
-    table.set_header(work.heads());
+    table.set_header(work.heads(&sheet.header()));
     for column in table.column_iter_mut().skip(work.words()) {
         column.set_cell_alignment(CellAlignment::Right);
     }

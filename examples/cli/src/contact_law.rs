@@ -14,7 +14,7 @@ pub const LAW_INPUTS: [Input; 10] = [
     Input::optional(&["zeta_h"], "0"),
     Input::optional(&["zeta_a"], "0"),
     Input::optional(&["external_force_n"], "0 N"),
-    Input::optional(&["law"], "ring if adhesion_n_m is given, otherwise hertz"),
+    Input::optional(&["law"], "ring if adhesion_n_m is not 0, otherwise hertz"),
     Input::optional(&["work_of_adhesion_j_m2"], "none; dmt and jkr need it"),
     Input::optional(&["damping"], "hysteretic by zeta_h"),
     Input::optional(&["damping_value"], "none"),
@@ -24,8 +24,10 @@ pub const LAW_INPUTS: [Input; 10] = [
 /// What the help of a command says of the columns that choose a law.
 pub const LAW_HELP: &str = "\
 Columns that choose the law of contact of a row. Brackets give what an empty or absent cell means.
-  law: hertz, ring, dmt or jkr [ring if adhesion_n_m is given, otherwise hertz]
+  law: hertz, ring, dmt or jkr [ring if adhesion_n_m is not 0, otherwise hertz]
   work_of_adhesion_j_m2: work of adhesion per area G, J/m^2; dmt and jkr require it
+  zeta_h: c_H/C, for the damping constant c_H in s/m (the elastic force is multiplied by 1 + c_H v)
+    and C = (m/(r^3 K sqrt(v)))^(2/5), at the approach speed v
   damping: none, hysteretic, viscoelastic or constant, where zeta_h is empty [hysteretic by zeta_h]
   damping_value: zeta_h of hysteretic damping, relaxation time of viscoelastic damping in s, or
     nominal restitution of constant damping, 0.001 to 1
@@ -45,8 +47,8 @@ pub enum LawName {
 
 impl LawName {
     /// The law of a row.
-    fn of(row: &Row<'_>) -> Result<Self, String> {
-        let without_word = if row.text("adhesion_n_m").is_some() { Self::Ring } else { Self::Hertz };
+    fn of<T: Scalar>(row: &Row<'_>) -> Result<Self, String> {
+        let without_word = if row.or_zero::<T>("adhesion_n_m")? == T::ZERO { Self::Hertz } else { Self::Ring };
         Ok(word(row, "law", Self::value_variants())?.unwrap_or(without_word))
     }
 
@@ -121,7 +123,7 @@ impl<T: Scalar> RowLaw<T> {
     /// The law that a row states.
     pub fn read(row: &Row<'_>) -> Result<Self, String> {
         let stiffness = Stiffness::new(row.required("stiffness_pa")?).map_err(|error| row.reason(error))?;
-        let name = LawName::of(row)?;
+        let name = LawName::of::<T>(row)?;
         name.refuse_numbers_of_others::<T>(row)?;
         let rules = name.end_rules();
         let end_rule =

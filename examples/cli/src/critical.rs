@@ -92,7 +92,7 @@ impl<T: Number> Work for Critical<T> {
         Ok(vec![speed, in_words(&critical).into(), name_of(&law)])
     }
 
-    fn heads(&self) -> Vec<&'static str> {
+    fn heads(&self, _header: &Header<'_>) -> Vec<&'static str> {
         vec!["sphere", "law", "radius\nm", "critical speed\nm/s"]
     }
 

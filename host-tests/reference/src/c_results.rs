@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use microimpact::contact::{
-    Collocation, Contact, ContactLaw, JkrEnd, JkrLaw, PaperScene, Recording, RingScene, Sample, Slip, Trajectory,
+    Collocation, CompliantVelocities, Contact, ContactLaw, JkrEnd, JkrLaw, PaperScene, Recording, RingScene, Sample,
+    SimulatedImpact, Slip, Trajectory, Unloading,
 };
 use microimpact::space::{Pair, SpatialMotion, Wall};
 use microimpact::table::{BoundarySlice, BoundaryTable, Lookup, RestitutionTable, TableRebound};
@@ -75,7 +76,14 @@ pub const CONSTANT: [&str; 6] = ["--smallest-radius", "2e-6", "--cells", "8", "-
 /// # Errors
 /// None for the values here.
 pub fn expected() -> Result<String, InputError> {
-    Ok(impacts()? + &laws()? + &trajectories()? + &boundaries()? + &restitutions()? + &walls()? + &pairs()?)
+    Ok(impacts()?
+        + &laws()?
+        + &trajectories()?
+        + &boundaries()?
+        + &restitutions()?
+        + &walls()?
+        + &pairs()?
+        + &compliant()?)
 }
 
 /// The lines of both models.
@@ -267,7 +275,7 @@ fn walls() -> Result<String, InputError> {
             let impact = scene.solve(&before, &method)?;
             let class = impact.class().map_or(u8::MAX, |class| class as u8);
             let after = before.after(&impact).map_or([f32::NAN; 6], numbers);
-            let planar = [before.normal().speed(), before.tangential(), before.peripheral()];
+            let planar = [before.normal().speed(), before.tangential(), before.peripheral(), before.sideways()];
             line(&mut text, &format!("wall {i} {j} {class}"), &[&planar[..], &after].concat());
         }
     }
@@ -296,6 +304,36 @@ fn pairs() -> Result<String, InputError> {
         line(&mut text, &format!("pair {index} {class}"), &[&planar[..], &after.concat()].concat());
     }
     Ok(text)
+}
+
+/// The lines of contacts that give sideways, each by its type.
+fn compliant() -> Result<String, InputError> {
+    let c = f32::constant;
+    let method = Collocation::<7, f32>::new(1e-6)?;
+    let elastic = Contact::hertz(Sphere::solid(c(RADIUS_M), c(DENSITY_KG_M3))?, Stiffness::new(c(STIFFNESS_PA))?);
+    let damped = elastic.with_damping(c(MATERIAL_DAMPING))?.with_friction(c(FRICTION))?.with_compliance(0.85)?;
+    let stiff = elastic.with_friction(0.3)?.with_compliance(10.0)?.with_unloading(Unloading::Incremental);
+    let mut text = String::new();
+    for (j, before) in MOTIONS.into_iter().enumerate() {
+        compliant_line(&mut text, &format!("compliant 0 {j}"), &damped.solve(&motion(before)?, &method)?);
+    }
+    for (j, before) in MOTIONS.into_iter().enumerate() {
+        compliant_line(&mut text, &format!("compliant 1 {j}"), &stiff.solve(&motion(before)?, &method)?);
+    }
+    Ok(text)
+}
+
+fn compliant_line(text: &mut String, start: &str, impact: &SimulatedImpact<f32, CompliantVelocities<f32>>) {
+    let (class, along) = (impact.class().map_or(u8::MAX, |class| class as u8), &impact.tangential);
+    let numbers = [
+        impact.normal.overall_restitution(),
+        impact.normal.peak_indentation().unwrap_or(-1.0),
+        along.velocity(),
+        along.spin(),
+        along.slip(),
+        along.impulse_ratio(),
+    ];
+    line(text, &format!("{start} {class} {}", along.phases()), &numbers);
 }
 
 /// Velocity and spin.

@@ -18,11 +18,41 @@ const COMPUTED: &str = "Chung and Ooi 2011 test 4";
 /// The speed of the balls, m/s.
 const SPEED: f64 = 3.9;
 
-/// A quantity of a ball: name in the published values, label, its place in what [`at_angle`] gives, and the sign of the computed one.
-const QUANTITIES: [(&str, &str, usize, f64); 3] = [
-    ("tangential restitution", "tangential restitution e_t", 0, 1.0),
-    ("spin rad/s", "spin after, rad/s", 1, -1.0),
-    ("rebound angle of the contact point deg", "rebound angle of the contact point, degrees", 2, 1.0),
+/// A quantity of a ball.
+struct Quantity {
+    /// Name in the published values.
+    published: &'static str,
+    title: &'static str,
+    /// With symbol and unit.
+    label: &'static str,
+    /// Place in what [`at_angle`] gives.
+    place: usize,
+    /// Of the computed values.
+    sign: f64,
+}
+
+const QUANTITIES: [Quantity; 3] = [
+    Quantity {
+        published: "tangential restitution",
+        title: "Velocity of the centre along the surface",
+        label: "tangential restitution V_t/v_t",
+        place: 0,
+        sign: 1.0,
+    },
+    Quantity {
+        published: "spin rad/s",
+        title: "Spin after the impact",
+        label: "spin after W, rad/s",
+        place: 1,
+        sign: -1.0,
+    },
+    Quantity {
+        published: "rebound angle of the contact point deg",
+        title: "Direction in which the contact point rebounds",
+        label: "angle from the normal, degrees",
+        place: 2,
+        sign: 1.0,
+    },
 ];
 
 /// Ranges of the angle over which we say how far apart values are: sticking, and sliding.
@@ -38,8 +68,8 @@ pub(crate) fn section(run: &Run) -> Result<Section, String> {
              rule is that of other codes."
                 .to_owned(),
         )];
-        parts.push(Part::Heading("Balls of alumina, 5 mm, 3.9 m/s, e .98, f .092".to_owned()));
-        for quantity in QUANTITIES {
+        parts.push(Part::Heading("Balls of alumina: 5 mm, 3.9 m/s, restitution 0.98, friction 0.092".to_owned()));
+        for quantity in &QUANTITIES {
             parts.push(balls(&ball, quantity)?);
         }
         parts.push(differences(&ball)?);
@@ -58,7 +88,8 @@ fn at_angle(scene: &Scene, degrees: f64, along: Along) -> Result<[f64; 3], Box<d
     Ok([after.tangential / (SPEED * sine), after.peripheral / scene.contact.sphere().radius(), after.contact_angle()])
 }
 
-fn balls(ball: &Scene, (quantity, label, place, sign): (&str, &str, usize, f64)) -> Result<Part, Box<dyn Error>> {
+fn balls(ball: &Scene, quantity: &Quantity) -> Result<Part, Box<dyn Error>> {
+    let &Quantity { published, title, label, place, sign } = quantity;
     let row = |angle: f64| {
         let of = |(_, along): (&str, Along)| Ok::<_, Box<dyn Error>>(at_angle(ball, angle, along)?[place]);
         let [rescaled, incremental, rigid] = MODELS;
@@ -66,18 +97,18 @@ fn balls(ball: &Scene, (quantity, label, place, sign): (&str, &str, usize, f64))
     };
     let rows = (2..=88).map(|angle| row(f64::from(angle))).collect::<Result<Vec<_>, Box<dyn Error>>>()?;
     let computed =
-        values(COMPUTED, "al oxide", quantity).into_iter().map(|(angle, value)| (angle, sign * value)).collect();
+        values(COMPUTED, "al oxide", published).into_iter().map(|(angle, value)| (angle, sign * value)).collect();
     let lines = [
-        Line::new("measured", Mark::Points, values(MEASURED, "al oxide", quantity)).like(3),
+        Line::new("measured", Mark::Points, values(MEASURED, "al oxide", published)).like(3),
         Line::new("Chung and Ooi", Mark::Points, computed).like(4),
         Line::new(MODELS[0].0, Mark::Solid, column(&rows, 1)).like(0),
         Line::new(MODELS[1].0, Mark::Dashed, column(&rows, 2)).like(1),
         Line::new(MODELS[2].0, Mark::Solid, column(&rows, 3)).like(2),
     ];
     let x = Axis::linear(ANGLE).between(0.0, 90.0);
-    let name = format!("published-{}", quantity.split(' ').next().unwrap_or_default());
+    let name = format!("published-{}", published.split(' ').next().unwrap_or_default());
     Ok(figure(
-        plot::chart(label, &x, &Axis::linear(label), &lines)?,
+        plot::chart(title, &x, &Axis::linear(label), &lines)?,
         &name,
         "Measured by Kharaz, Gorham and Salman (2001), computed by Chung and Ooi (2011), and ours by three models of the contact along the \
          surface. Read from printed figures, published values are exact to about one percent of the axis.",
@@ -89,13 +120,16 @@ fn balls(ball: &Scene, (quantity, label, place, sign): (&str, &str, usize, f64))
 /// How far measured values are from ours.
 fn differences(ball: &Scene) -> Result<Part, Box<dyn Error>> {
     let mut rows = Vec::new();
-    for (quantity, label, place, _) in QUANTITIES {
+    for Quantity { published, title, label, place, .. } in QUANTITIES {
         for (from, to) in RANGES {
             let inside = || {
-                values(MEASURED, "al oxide", quantity).into_iter().filter(|(angle, _)| *angle >= from && *angle < to)
+                values(MEASURED, "al oxide", published).into_iter().filter(|(angle, _)| *angle >= from && *angle < to)
             };
-            let mut cells =
-                vec![Cell::from(label), Cell::Text(format!("{from} to {to}")), Cell::Count(inside().count() as u64)];
+            let mut cells = vec![
+                Cell::Text(format!("{title}: {label}")),
+                Cell::Text(format!("{from} to {to}")),
+                Cell::Count(inside().count() as u64),
+            ];
             for (_, along) in MODELS {
                 let errors = inside().map(|(angle, value)| Ok(at_angle(ball, angle, along)?[place] - value));
                 let errors = errors.collect::<Result<Vec<_>, Box<dyn Error>>>()?;
@@ -116,8 +150,8 @@ fn differences(ball: &Scene) -> Result<Part, Box<dyn Error>> {
 }
 
 fn spheres() -> Result<Part, Box<dyn Error>> {
-    const BEFORE: &str = "twice the slip before over f (1 + e) v_n";
-    const AFTER: &str = "twice the slip after over f (1 + e) v_n";
+    const BEFORE: &str = "slip before, 2 v_ct/(f (1 + e) v_n)";
+    const AFTER: &str = "slip after, 2 V_ct/(f (1 + e) v_n)";
     let mut lines = Vec::new();
     let mut curves = Vec::new();
     for (place, (series, restitution)) in [("e .90", 0.9), ("e .75", 0.75), ("e .50", 0.5)].into_iter().enumerate() {
@@ -134,9 +168,9 @@ fn spheres() -> Result<Part, Box<dyn Error>> {
     }
     let rows = (0..100).map(|row| [curves[0][row].0, curves[0][row].1, curves[1][row].1, curves[2][row].1]);
     Ok(figure(
-        plot::chart("Slip of the contact point", &Axis::linear(BEFORE), &Axis::linear(AFTER), &lines)?,
+        plot::chart("Velocity v_ct of the contact point", &Axis::linear(BEFORE), &Axis::linear(AFTER), &lines)?,
         "published-slip",
-        "Spheres of 25 mm radius at 5 m/s, f .1 (Thornton, Cummins and Cleary 2013). Their damping is not the hysteretic one, which \
+        "Spheres of 25 mm radius, friction f 0.1, v_n 5 m/s, restitution e (Thornton, Cummins and Cleary 2013). Their damping is not the hysteretic one, which \
          counts more where e is less. A sphere that slides throughout has seven less after than before.",
         [BEFORE, "ours, e .90", "ours, e .75", "ours, e .50"],
         rows,

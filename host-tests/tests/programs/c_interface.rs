@@ -113,6 +113,14 @@ mod sanitized {
         let lines = |kind: &str| printed.lines().filter(|line| line.starts_with(kind)).count();
         assert_eq!(lines("rigid") + lines("contact"), 2 * c_results::MOTIONS.len());
         assert_eq!(lines("law"), 4 * c_results::MOTIONS.len());
+        // Compliance by both rules of unloading: one phase, and several.
+        assert_eq!(lines("compliant"), 2 * c_results::MOTIONS.len());
+        let phases: Vec<_> = printed
+            .lines()
+            .filter(|line| line.starts_with("compliant"))
+            .filter_map(|line| line.split(' ').nth(4))
+            .collect();
+        assert!(phases.contains(&"1") && phases.contains(&"3"), "{phases:?}");
         // Every trajectory twice; in the least room it is four samples, or three of a sphere that does not begin to roll.
         assert_eq!(lines("trajectory"), 2 * c_results::MOTIONS.len());
         assert_eq!(lines("elastic"), 2 * c_results::MOTIONS.len());

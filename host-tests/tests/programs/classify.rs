@@ -113,7 +113,12 @@ fn all_ways_to_give_a_term() {
     assert_eq!(written.text(1, "outcome"), "capture");
     assert!(written.number(1, "speed_over_critical") < 1.0);
     assert!((written.number(2, "impulse_ratio_out") + 0.02).abs() < 1e-12);
-    assert!(written.text(3, "error").contains("impulse ratio is outside its bounds"));
+    // mu_0 = 2 eta/(7 (1 + e)) with eta = 1/-2.8 (eq. 1).
+    let refused =
+        written.text(3, "error").strip_prefix("impulse_ratio: \"0.02\" is refused: it must be 0 to mu_0, here ");
+    let bound: f64 = refused.and_then(|rest| rest.split_once(',')).unwrap().0.parse().unwrap();
+    assert!((bound + 2.0 / (7.0 * 1.9 * 2.8)).abs() < 1e-12, "{bound}");
+    assert!(!written.text(3, "error").contains("velocity error"));
     assert!(written.number(4, "work_rolling_j") > 0.0);
     for (row, word) in [(5, "restitution: given twice"), (6, "adhesion: given twice"), (7, "rolling_arm_m")] {
         assert!(written.text(row, "error").contains(word), "{}", written.text(row, "error"));
@@ -353,4 +358,31 @@ fn unusable_input_is_said_and_exits_with_2() {
         assert_eq!(output.status, 2);
         assert!(output.complaint().contains(word));
     }
+}
+
+/// The results of simulated impacts with compliance among the inputs of both models: an impulse ratio is one of the rigid body.
+#[test]
+fn a_result_that_the_other_model_takes_for_an_input() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/tangential.csv");
+    let output = run(&[path, "--format", "csv", "--model", "both"], b"");
+    let used = "impulse_ratio (the rigid body takes it instead of friction)";
+    assert!(output.complaint().lines().next().unwrap().contains(used), "{}", output.complaint());
+    let written = Written::read(&output.stdout, b',');
+    let mut refused = 0;
+    for row in 0..written.rows.len() {
+        let (given, computed) = (written.number(row, "impulse_ratio"), written.number(row, "impulse_ratio_out"));
+        assert!((given - computed).abs() < 1e-8, "{row}: {given} {computed}");
+        let error = written.text(row, "error");
+        match error.strip_prefix("rigid body: impulse_ratio: ") {
+            Some(reason) => {
+                assert!(reason.contains("neither increases nor reverses the slip; enter such a ratio"), "{reason}");
+                refused += 1;
+            }
+            None => {
+                assert_eq!(error, "");
+                assert!((written.number(row, "rigid_body_impulse_ratio_out") - given).abs() < 1e-15, "{row}");
+            }
+        }
+    }
+    assert!(refused > 0 && refused < written.rows.len(), "{refused}");
 }

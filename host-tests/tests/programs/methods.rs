@@ -199,8 +199,9 @@ fn options_that_do_not_apply_are_refused() {
         ("--method collocation --tolerance 0", "tolerance is 0"),
         (
             "--method collocation --nodes 5",
-            "tolerance is 1e-9, but must be at least 1e-3 with four nodes, 3e-4 with five",
+            "--tolerance is 1e-9, but must be at least 1e-3 with four nodes, 3e-4 with five",
         ),
+        ("--method collocation --nodes 5", "with nine; use more --nodes or --method adaptive\n"),
         ("--method runge-kutta-gill --steps 15", "15 is not in 16..=1000000"),
         ("--method runge-kutta-gill --steps 1000001", "1000001 is not in 16..=1000000"),
         ("--method euler", "[possible values: adaptive, collocation, fixed-cost, runge-kutta-gill]"),

@@ -137,14 +137,137 @@ fn what_does_not_go_together_is_refused() {
             "wall_velocity_x_m_s: two spheres meet without a wall",
         ),
         (
-            "velocity_z_m_s,normal_z",
-            "-1,0.9",
-            "normal_z: \"0.9\" is refused: length of the normal must be 0.999 to 1.001",
+            "velocity_z_m_s,normal_x,normal_y,normal_z",
+            "-1,2,-3,6",
+            "normal_x, normal_y, normal_z: length of the normal is 7, but must be 0.999 to 1.001; divide each component by 7",
         ),
-        ("velocity_z_m_s", "1", "approach speed is -1 m/s, but must be positive"),
+        (
+            "velocity_z_m_s,normal_x",
+            "-1,0",
+            "normal_x, normal_y, normal_z: length of the normal is 0, but must be 0.999 to 1.001; give the direction",
+        ),
+        ("velocity_z_m_s", "1", "velocity_z_m_s: approach speed is -1 m/s, but must be positive"),
+        ("velocity_x_m_s,velocity_z_m_s", "1,1", "velocity_x_m_s, velocity_z_m_s: approach speed is -1 m/s"),
+        (
+            "speed_normal_m_s,radius_2_m,velocity_2_z_m_s",
+            "1,1e-6,-2",
+            "speed_normal_m_s: approach speed is -1 m/s, but must be positive",
+        ),
         ("velocity_z_m_s,velocity_x_m_s", "-1,2e7", "velocity_x_m_s: \"2e7\" is refused: component of the velocity"),
     ] {
         let error = refused(&format!("{scene},{columns}\n1e-6,1000,1e10,{cells}\n"));
         assert!(error.starts_with(reason), "{columns}: {error}");
     }
+}
+
+/// What is absent from a vector counts as zero, and the command says so.
+#[test]
+fn absent_components_are_said() {
+    let absent = |columns: &str, cells: &str| {
+        let table = format!("radius_m,density_kg_m3,restitution,{columns}\n1e-6,1000,0.5,{cells}\n");
+        let complaint = run(&["-", "--format", "csv"], table.as_bytes()).complaint();
+        complaint.lines().find(|line| line.contains("columns absent")).unwrap().to_owned()
+    };
+    let wall = absent("velocity_x_m_s,velocity_z_m_s,normal_z,wall_velocity_x_m_s", "1,-1,1,0");
+    for words in [
+        "velocity_y_m_s (0 m/s)",
+        "spin_x_rad_s, spin_y_rad_s, spin_z_rad_s (0 rad/s)",
+        "normal_x (0), normal_y (0)",
+        "wall_velocity_y_m_s (0 m/s), wall_velocity_z_m_s (0 m/s)",
+    ] {
+        assert!(wall.contains(words), "{words}: {wall}");
+    }
+    for words in ["speed_tangential_m_s", "_2_", "velocity_x_m_s (", " spin_rad_s"] {
+        assert!(!wall.contains(words), "{words}: {wall}");
+    }
+    let pair = absent("velocity_z_m_s,radius_2_m,velocity_2_x_m_s,spin_2_y_rad_s", "-1,1e-6,0,0");
+    for words in [
+        "normal_x, normal_y, normal_z (0, 0, 1)",
+        "density_2_kg_m3 (that of the first sphere), gyration_ratio_2 (0.4, a solid sphere)",
+        "velocity_2_y_m_s (0 m/s), velocity_2_z_m_s (0 m/s), spin_2_x_rad_s (0 rad/s), spin_2_z_rad_s (0 rad/s)",
+    ] {
+        assert!(pair.contains(words), "{words}: {pair}");
+    }
+    assert!(!pair.contains("wall_velocity"), "{pair}");
+    // Nothing of this in a plane.
+    let plane = absent("speed_normal_m_s", "1");
+    assert!(
+        !plane.contains("velocity_") && plane.contains("speed_tangential_m_s (0 m/s), spin_rad_s (0 rad/s)"),
+        "{plane}"
+    );
+}
+
+/// The energies are those of the bodies, and what is lost between them is the sum of the works.
+#[test]
+fn energies_are_those_of_the_bodies() {
+    let table = "radius_m,density_kg_m3,restitution,friction,velocity_x_m_s,velocity_y_m_s,velocity_z_m_s,spin_x_rad_s,\
+                 spin_z_rad_s,radius_2_m,velocity_2_z_m_s,wall_velocity_x_m_s\n\
+                 2e-3,1000,0.9,0.3,3,1,-2,500,300,1e-3,1,\n\
+                 2e-3,1000,0.9,0.3,3,1,-2,500,300,,,\n\
+                 2e-3,1000,0.9,0.3,3,1,-2,500,300,,,0.5\n";
+    let written = classified(table, "rigid-body");
+    let number = |row: usize, columns: &[&str]| columns.iter().map(|column| written.number(row, column)).sum::<f64>();
+    let works = ["work_material_j", "work_adhesion_j", "work_friction_j", "work_rolling_j"];
+    let close = |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-12, "{found:e} {expected:e}");
+    let lost = |row: usize| -number(row, &works).abs();
+    let (before, after) = (["energy_in_j", "energy_2_in_j"], ["energy_out_j", "energy_2_out_j"]);
+    close(number(0, &before), number(0, &["energy_before_j"]));
+    close(number(0, &before) + lost(0), number(0, &after));
+    close(number(1, &["energy_in_j"]), number(1, &["energy_before_j"]));
+    close(number(1, &["energy_in_j"]) + lost(1), number(1, &["energy_out_j"]));
+    // A solid sphere of radius r and density rho: its mass is 4/3 pi r^3 rho, and 2/5 r^2 of that its moment of inertia.
+    let mass = 4.0 / 3.0 * std::f64::consts::PI * 8e-9 * 1000.0;
+    let energy = |along: f64| 0.5 * mass * (along * along + 5.0 + 0.4 * 4e-6 * (500.0 * 500.0 + 300.0 * 300.0));
+    close(number(2, &["energy_in_j"]), energy(3.0));
+    close(number(2, &["energy_before_j"]), energy(2.5));
+    assert_eq!(written.text(1, "energy_2_in_j"), "");
+}
+
+/// The summary shows both spheres, and no velocity of the reduced one.
+#[test]
+fn summary_of_two_spheres() {
+    let table = "radius_m,density_kg_m3,restitution,stiffness_pa,velocity_x_m_s,velocity_z_m_s,radius_2_m,velocity_2_z_m_s\n\
+                 1e-3,1000,1,1e10,0.25,-1,1e-3,1\n";
+    for model in ["rigid-body", "simulation"] {
+        let summary = String::from_utf8(run(&["-", "--model", model], table.as_bytes()).stdout).unwrap();
+        for words in [
+            "velocity after",
+            "energy before",
+            "(0.250, 0.000, 1.000)",
+            "(0.000, 0.000, -1.000)",
+            "2.225e-6",
+            "2.094e-6",
+        ] {
+            assert!(summary.contains(words), "{words}: {summary}");
+        }
+    }
+    let plane = "radius_m,density_kg_m3,restitution,speed_normal_m_s\n1e-3,1000,1,1\n";
+    assert!(!String::from_utf8(run(&["-"], plane.as_bytes()).stdout).unwrap().contains("velocity after"));
+}
+
+/// A column of zeros for adhesion is no adhesion; compliance needs no option, and says which method it needs.
+#[test]
+fn compliance() {
+    let scene = "radius_m,density_kg_m3,stiffness_pa,friction,speed_normal_m_s,speed_tangential_m_s,stiffness_ratio";
+    let run = |columns: &str, cells: &str, arguments: &[&str]| {
+        let table = format!("{scene},{columns}\n1e-3,1000,1e10,0.3,1,0.5,0.85,{cells}\n");
+        let output = run(&[&["-", "--format", "csv", "--model", "simulation"], arguments].concat(), table.as_bytes());
+        Written::read(&output.stdout, b',')
+    };
+    let without = run("zeta_h", "3", &[]);
+    assert_eq!((without.text(0, "error"), without.text(0, "law"), without.text(0, "phases")), ("", "hertz", "3"));
+    let zero = run("zeta_h,adhesion_n_m,zeta_a", "3,0,0", &[]);
+    for column in ["error", "law", "restitution", "impulse_ratio_out", "phases"] {
+        assert_eq!(zero.text(0, column), without.text(0, column), "{column}");
+    }
+    assert_eq!(
+        zero.text(0, "impulse_ratio_out"),
+        run("zeta_h", "3", &["--method", "adaptive"]).text(0, "impulse_ratio_out")
+    );
+    let error = run("zeta_h", "3", &["--method", "collocation"]).text(0, "error").to_owned();
+    assert_eq!(
+        error,
+        "stiffness_ratio: --method collocation is not offered with it; use --method adaptive, or leave the cell empty"
+    );
+    assert!(run("adhesion_n_m", "250", &[]).text(0, "error").contains("only be given with Hertz's contact"));
 }

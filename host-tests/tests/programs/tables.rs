@@ -327,14 +327,18 @@ fn absent_required_columns_are_one_error() {
 #[test]
 fn help_names_all_columns() {
     let required = "radius_m,density_kg_m3,stiffness_pa,restitution,speed_normal_m_s,rebound_speed_m_s,speed_tangential_out_m_s\n1\n";
-    for (command, arguments) in [
-        ("classify", &["--model", "both"][..]),
-        ("classify", &["--model", "simulation"]),
-        ("critical", &[]),
-        ("analyse", &[]),
+    let in_space = "radius_m,density_kg_m3,stiffness_pa,velocity_z_m_s,stiffness_ratio\n1\n";
+    let of_two = "radius_m,density_kg_m3,stiffness_pa,velocity_z_m_s,radius_2_m\n1\n";
+    for (command, arguments, table) in [
+        ("classify", &["--model", "both"][..], required),
+        ("classify", &["--model", "simulation"], required),
+        ("classify", &["--model", "simulation"], in_space),
+        ("classify", &["--model", "simulation"], of_two),
+        ("critical", &[], required),
+        ("analyse", &[], required),
     ] {
         let help = microimpact(command, &["--help"], b"").complaint();
-        let said = said(required, command, arguments);
+        let said = said(table, command, arguments);
         let mut count = 0;
         for line in said.lines().filter(|line| !line.contains("not read")) {
             let names = line.split_once(": ").unwrap().1.split([' ', ',', ':', '(', ')']);

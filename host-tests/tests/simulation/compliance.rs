@@ -282,6 +282,37 @@ fn ends_of_the_ranges() {
     }
 }
 
+/// Damping of any strength: up to a limit every impact is solved; beyond it some are given up, without an outcome. None is wrong.
+#[test]
+fn strong_damping_is_solved_or_given_up() {
+    const ALWAYS_SOLVED: f64 = 1e5;
+    let mut source = StdRng::seed_from_u64(9);
+    let (mut beyond, mut unsolved) = (0, 0);
+    for _ in 0..repetitions(3000, 100) {
+        let mut decades = |from: f64, to: f64| 10_f64.powf(source.random_range(from..to));
+        let (chi, damping, friction) = (decades(-3.0, 3.0), decades(-2.0, 9.0), decades(-3.0, 1.0));
+        let slip = friction * decades(-2.0, 2.0);
+        let impact = CompliantImpact { incremental: source.random(), ..impact(slip, friction, chi, damping) };
+        let strong = chi * damping > ALWAYS_SOLVED;
+        beyond += usize::from(strong);
+        for tolerance in [1e-6, 1e-9] {
+            let solved = solve(&impact, &Adaptive::new(tolerance).unwrap());
+            if solved.run.status == Status::BudgetSpent {
+                assert!(strong, "{impact:?}");
+                assert_eq!((solved.normal.outcome(), solved.class()), (None, None), "{impact:?}");
+                unsolved += 1;
+                continue;
+            }
+            assert!(solved.normal.overall_restitution() * damping < 1.01 || damping < 1e2, "{impact:?}");
+            let fine = solve(&impact, &Adaptive::new(1e-12).unwrap());
+            assert_eq!((solved.run.status, fine.run.status), (Status::Solved, Status::Solved), "{impact:?}");
+            let error = (solved.tangential.slip() - fine.tangential.slip()).abs() / slip.max(1.0);
+            assert!(error < 2.0 * tolerance, "{impact:?}: {error:e}, not {tolerance:e}");
+        }
+    }
+    assert!(unsolved > 0 && unsolved < 2 * beyond, "{unsolved} of {beyond}");
+}
+
 #[test]
 fn other_laws_are_refused() {
     let (sphere, stiffness) = (Sphere::solid(1e-6, 1000.0).unwrap(), Stiffness::new(1e10).unwrap());

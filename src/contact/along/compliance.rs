@@ -86,6 +86,11 @@ pub enum Unloading {
 /// The stiffness is given as chi = k_t/((3/2) K a). Two materials give it by
 /// [`tangential_ratio_between`](crate::Stiffness::tangential_ratio_between).
 ///
+/// A strongly damped sphere leaves the surface slowly, and the contact sticks and slips again and again meanwhile, of the order of
+/// sqrt(chi c_H v) times with the damping constant c_H ([`HystereticDamping`](crate::contact::HystereticDamping)). From chi c_H v of
+/// 1e5 on, where the restitution is below chi/1e5, this may be too often to be followed: then the status is
+/// [`BudgetSpent`](crate::contact::Status::BudgetSpent), and there is no outcome.
+///
 /// ```
 /// use microimpact::{Coulomb, contact::Compliance};
 ///

@@ -136,7 +136,8 @@ impl<T: Real> AnyLaw<T> {
         for_law!(self, variant, law => variant(law.damped(damping)))
     }
 
-    /// The same law with hysteretic damping of strength zeta_H >= 0 in the materials.
+    /// The same law with hysteretic damping of strength zeta_H >= 0 in the materials. [`HystereticDamping`] says how zeta_H
+    /// relates to a damping constant in s/m.
     ///
     /// # Errors
     /// A strength outside its range.

@@ -71,7 +71,27 @@ pub trait ProportionalDamping<T: Real>: Damping<T> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NoDamping;
 
-/// Damping of Hunt and Crossley: the elastic force times 1 + c_H delta' (B1), with c_H = zeta_H C (B4).
+/// Damping of Hunt and Crossley (1975): the elastic force times 1 + c_H delta' (B1), with c_H = zeta_H C and
+/// C = (m/(r^3 K sqrt(v)))^(2/5) (B4), for the mass m and radius r of the sphere, the stiffness K and the approach speed v.
+///
+/// The ratio zeta_H has no unit. C is a time over a length (s/m), and so is the damping constant c_H, which other programs take
+/// for the force K sqrt(r) delta^(3/2) (1 + c delta'). Divide such a constant by C: zeta_H = c/C. Since C depends on the speed,
+/// one zeta_H at all speeds is not one c at all speeds, but c ~ v^(-1/5). For two spheres m and r are those of the
+/// [reduced sphere](crate::space::Pair::reduced).
+///
+/// Without adhesion c_H v alone determines the restitution e: c_H v (1 + e) = ln((1 + c_H v)/(1 - e c_H v)).
+///
+/// ```
+/// use microimpact::contact::Contact;
+/// use microimpact::{NormalMotion, Sphere, Stiffness};
+///
+/// // A program for granular flow damps a bead by c = 0.05 s/m. At 2 m/s that is this zeta_H.
+/// let (bead, stiffness, speed, c) = (Sphere::solid(1e-3_f64, 2500.0)?, 5e10, 2.0_f64, 0.05);
+/// let unit = (bead.mass() / (bead.radius().powi(3) * stiffness * speed.sqrt())).powf(0.4);
+/// let scene = Contact::hertz(bead, Stiffness::new(stiffness)?).with_damping(c / unit)?;
+/// assert!((scene.groups(&NormalMotion::new(speed)?)?.material_damping - c * speed).abs() < 1e-12);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
 ///
 /// ```
 /// use microimpact::contact::HystereticDamping;

@@ -216,7 +216,8 @@ impl<T: Real, D, A, X> HertzLaw<T, D, A, X> {
         HertzLaw { stiffness, damping, adhesion, force }
     }
 
-    /// The same law with hysteretic damping of strength zeta_H >= 0 in the materials.
+    /// The same law with hysteretic damping of strength zeta_H >= 0 in the materials. [`HystereticDamping`] says how zeta_H
+    /// relates to a damping constant in s/m.
     ///
     /// # Errors
     /// A strength outside its range.

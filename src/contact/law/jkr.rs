@@ -107,7 +107,8 @@ impl<T: Real, D> JkrLaw<T, D> {
         JkrLaw { stiffness, adhesion, damping, end, first, last, offset }
     }
 
-    /// The same law with hysteretic damping of strength zeta_H >= 0 in the materials.
+    /// The same law with hysteretic damping of strength zeta_H >= 0 in the materials. [`HystereticDamping`] says how zeta_H
+    /// relates to a damping constant in s/m.
     ///
     /// # Errors
     /// A strength outside its range.

@@ -11,22 +11,50 @@ pub struct Input {
     columns: &'static [&'static str],
     /// What the command uses where no column gives it; `None` if it is required.
     default: Option<&'static str>,
+    /// What the command uses for each component that is absent from a vector, if the columns are those of a vector.
+    component: Option<&'static str>,
+    /// Columns of which a table must have one, if any are named here, and columns of which it must have none: else nothing is
+    /// said where this input is absent.
+    with: &'static [&'static str],
+    without: &'static [&'static str],
+    /// A column that this input replaces in a row that gives both, and what to say then.
+    replaces: Option<(&'static str, &'static str)>,
 }
 
 impl Input {
     /// What one of these columns must give.
     pub const fn required(columns: &'static [&'static str]) -> Self {
-        Self { columns, default: None }
+        Self { columns, default: None, component: None, with: &[], without: &[], replaces: None }
     }
 
     /// What has a default, which is given in words, and with its unit if it is a number.
     pub const fn optional(columns: &'static [&'static str], default: &'static str) -> Self {
-        Self { columns, default: Some(default) }
+        Self { default: Some(default), ..Self::required(columns) }
     }
 
     /// What only some tables have: nothing is said where it is absent.
     pub const fn further(columns: &'static [&'static str]) -> Self {
-        Self { columns, default: Some("") }
+        Self::optional(columns, "")
+    }
+
+    /// A vector: what is used for all of it where it is absent, and for each component that is absent where others are not.
+    pub const fn vector(columns: &'static [&'static str], default: &'static str, component: &'static str) -> Self {
+        Self { component: Some(component), ..Self::optional(columns, default) }
+    }
+
+    /// The same input, whose default is said only of tables with one of these columns.
+    pub const fn with(self, columns: &'static [&'static str]) -> Self {
+        Self { with: columns, ..self }
+    }
+
+    /// The same input, whose default is said only of tables with none of these columns.
+    pub const fn without(self, columns: &'static [&'static str]) -> Self {
+        Self { without: columns, ..self }
+    }
+
+    /// The same input, which replaces that of another column; the words say so of a table with both.
+    pub const fn replacing(self, column: &'static str, words: &'static str) -> Self {
+        Self { replaces: Some((column, words)), ..self }
     }
 
     pub(crate) fn columns(&self) -> &'static [&'static str] {
@@ -34,12 +62,31 @@ impl Input {
     }
 
     fn is_in(&self, header: &[String]) -> bool {
-        self.columns.iter().any(|column| header.iter().any(|name| name == column))
+        has_one(header, self.columns)
     }
 
     fn in_words(&self) -> String {
         self.columns.join(" or ")
     }
+
+    /// The columns that are absent, with what is used in their place; `None` if there are none, or nothing is said of them.
+    fn absent(&self, header: &[String]) -> Option<String> {
+        if self.is_in(header) {
+            let component = self.component?;
+            let absent = self.columns.iter().filter(|column| !has_one(header, &[column]));
+            let absent: Vec<_> = absent.map(|column| format!("{column} ({component})")).collect();
+            return (!absent.is_empty()).then(|| absent.join(", "));
+        }
+        let default = self.default.filter(|default| !default.is_empty())?;
+        let said = (self.with.is_empty() || has_one(header, self.with)) && !has_one(header, self.without);
+        let columns = if self.component.is_some() { self.columns.join(", ") } else { self.in_words() };
+        said.then(|| format!("{columns} ({default})"))
+    }
+}
+
+/// Whether a header has one of some columns.
+fn has_one(header: &[String], columns: &[&str]) -> bool {
+    columns.iter().any(|column| header.iter().any(|name| name == column))
 }
 
 /// The names of the columns of a table.
@@ -151,11 +198,14 @@ fn is_read(name: &str, inputs: &[Input]) -> bool {
 /// Which columns are used, which are absent and what is used instead, and which are not read. `computed` are names that a
 /// command gives to its own columns, which nobody writes by mistake for another.
 pub(crate) fn in_words(header: &[String], inputs: &[Input], computed: &[String]) -> String {
-    let used = header.iter().filter(|name| is_read(name, inputs)).cloned();
-    let defaulted = inputs.iter().filter(|input| !input.is_in(header)).filter_map(|input| {
-        let default = input.default.filter(|default| !default.is_empty())?;
-        Some(format!("{} ({default})", input.in_words()))
+    let used = header.iter().filter(|name| is_read(name, inputs)).map(|name| {
+        let input = inputs.iter().find(|input| has_one(std::slice::from_ref(name), input.columns));
+        match input.and_then(|input| input.replaces).filter(|(replaced, _)| has_one(header, &[replaced])) {
+            Some((_, words)) => format!("{name} ({words})"),
+            None => name.clone(),
+        }
     });
+    let defaulted = inputs.iter().filter_map(|input| input.absent(header));
     let absent = || {
         let columns = inputs.iter().flat_map(|input| input.columns).copied();
         columns.filter(|column| !header.iter().any(|name| name == column))

@@ -1,6 +1,6 @@
 //! What the library refuses, in terms of the table: the column, and the text of the cell.
 
-use microimpact::{ImpactError, Parameter};
+use microimpact::{Fault, ImpactError, Parameter};
 
 use crate::Row;
 
@@ -51,6 +51,16 @@ impl Row<'_> {
         let ImpactError::Input(input) = error else {
             return message;
         };
+        // Of a vector no component is wrong by itself.
+        if input.parameter == Parameter::NormalLength {
+            return format!("{}: {message}", columns(input.parameter).join(", "));
+        }
+        if input.fault == Fault::Receding {
+            let velocity = columns(Parameter::VelocityComponent).iter().copied();
+            let given: Vec<_> = velocity.filter(|column| self.text(column).is_some()).collect();
+            let given = if given.is_empty() { columns(input.parameter).to_vec() } else { given };
+            return format!("{}: {message}", given.join(", "));
+        }
         let read = |column: &&str| self.inputs.iter().any(|input| input.columns().contains(column));
         let given = columns(input.parameter).iter().copied().filter(read).filter_map(|column| {
             let number = self.number::<f64>(column).ok()??;

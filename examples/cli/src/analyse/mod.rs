@@ -148,7 +148,7 @@ impl<T: Number> Work for Analysis<T> {
         ])
     }
 
-    fn heads(&self) -> Vec<&'static str> {
+    fn heads(&self, _header: &Header<'_>) -> Vec<&'static str> {
         vec![
             "impact",
             "class",

@@ -22,42 +22,50 @@ const SPIN_2: Columns = ["spin_2_x_rad_s", "spin_2_y_rad_s", "spin_2_z_rad_s"];
 /// The columns of a motion in a plane.
 const PLANAR: Columns = ["speed_normal_m_s", "speed_tangential_m_s", "spin_rad_s"];
 
-/// The columns of the motion of a sphere after the impact, and of the second.
-const AFTER: [&str; 7] = [
+/// The columns of the motion of a sphere after the impact, and of its energies; and of the second.
+const AFTER: [&str; 8] = [
     "velocity_out_x_m_s",
     "velocity_out_y_m_s",
     "velocity_out_z_m_s",
     "spin_out_x_rad_s",
     "spin_out_y_rad_s",
     "spin_out_z_rad_s",
+    "energy_in_j",
     "energy_out_j",
 ];
-const AFTER_2: [&str; 7] = [
+const AFTER_2: [&str; 8] = [
     "velocity_2_out_x_m_s",
     "velocity_2_out_y_m_s",
     "velocity_2_out_z_m_s",
     "spin_2_out_x_rad_s",
     "spin_2_out_y_rad_s",
     "spin_2_out_z_rad_s",
+    "energy_2_in_j",
     "energy_2_out_j",
 ];
 
+/// The columns of the summary for motions in space, with a line for each sphere.
+const HEADS: [&str; 4] = ["velocity after\nm/s", "spin after\nrad/s", "energy before\nJ", "energy after\nJ"];
+
 /// The numbers of an arrival.
-pub const INPUTS: [Input; 12] = {
+pub const INPUTS: [Input; 15] = {
     let [_, tangential, spin] = MOTION_INPUTS;
     [
         Input::required(&["radius_m"]),
         DENSITY_INPUT,
         GYRATION_INPUT,
         Input::required(&["speed_normal_m_s", VELOCITY[0], VELOCITY[1], VELOCITY[2]]),
-        tangential,
-        spin,
-        Input::further(&SPIN),
-        Input::further(&NORMAL),
-        Input::further(&WALL_VELOCITY),
-        Input::further(&[RADIUS_2, DENSITY_2, GYRATION_2]),
-        Input::further(&VELOCITY_2),
-        Input::further(&SPIN_2),
+        tangential.without(&VELOCITY),
+        spin.without(&VELOCITY),
+        Input::vector(&VELOCITY, "", "0 m/s"),
+        Input::vector(&SPIN, "0 rad/s", "0 rad/s").with(&VELOCITY),
+        Input::vector(&NORMAL, "0, 0, 1", "0").with(&VELOCITY),
+        Input::vector(&WALL_VELOCITY, "0 m/s", "0 m/s").with(&VELOCITY).without(&[RADIUS_2]),
+        Input::further(&[RADIUS_2]),
+        Input::optional(&[DENSITY_2], "that of the first sphere").with(&[RADIUS_2]),
+        Input::optional(&[GYRATION_2], "0.4, a solid sphere").with(&[RADIUS_2]),
+        Input::vector(&VELOCITY_2, "0 m/s", "0 m/s").with(&[RADIUS_2]),
+        Input::vector(&SPIN_2, "0 rad/s", "0 rad/s").with(&[RADIUS_2]),
     ]
 };
 
@@ -69,12 +77,16 @@ pub struct Arrival<T> {
     pub sphere: Sphere<T>,
     pub motion: PlanarMotion<T>,
     place: Place<T>,
+    /// The spheres that move in space, before the impact.
+    bodies: Vec<(Sphere<T>, SpatialMotion<T>)>,
+    /// Their kinetic energy, seen from the wall if there is one.
+    energy: Option<T>,
 }
 
 enum Place<T> {
     Plane,
-    Wall(Sphere<T>, WallIncidence<T>),
-    Pair([Sphere<T>; 2], PairIncidence<T>),
+    Wall(WallIncidence<T>),
+    Pair(PairIncidence<T>),
 }
 
 /// A vector; `None` where all of its cells are empty, and else zero for an empty one.
@@ -149,7 +161,7 @@ impl<T: Scalar> Arrival<T> {
             .and_then(|motion| motion.with_tangential(tangential))
             .and_then(|motion| motion.with_spin(&sphere, spin))
             .map_err(|error| row.reason(error))?;
-        Ok(Self { sphere, motion, place: Place::Plane })
+        Ok(Self { sphere, motion, place: Place::Plane, bodies: Vec::new(), energy: None })
     }
 
     fn at_wall(row: &Row<'_>, sphere: Sphere<T>) -> Result<Self, String> {
@@ -157,7 +169,15 @@ impl<T: Scalar> Arrival<T> {
         let wall = Wall::moving(normal(row)?, wall_velocity).map_err(|error| row.reason(error))?;
         let motion = motion(row, VELOCITY, SPIN, |error| row.reason(error))?;
         let incidence = wall.incidence(&sphere, &motion).map_err(|error| row.reason(error))?;
-        Ok(Self { sphere, motion: planar(row, &incidence)?, place: Place::Wall(sphere, incidence) })
+        let [(x, u), (y, v), (z, w)] = [0, 1, 2].map(|axis| (motion.velocity()[axis], wall_velocity[axis]));
+        let seen = SpatialMotion::new([x - u, y - v, z - w], motion.spin()).map_err(|error| row.reason(error))?;
+        Ok(Self {
+            sphere,
+            motion: planar(row, &incidence)?,
+            place: Place::Wall(incidence),
+            bodies: vec![(sphere, motion)],
+            energy: Some(seen.energy(&sphere)),
+        })
     }
 
     /// In a plane the speeds are those of the first sphere, and the second moves only as its own columns say.
@@ -172,7 +192,13 @@ impl<T: Scalar> Arrival<T> {
         };
         let (pair, second) = (Pair::new(spheres[0], spheres[1]), motion(row, VELOCITY_2, SPIN_2, of_second)?);
         let incidence = pair.incidence(normal(row)?, [&first, &second]).map_err(|error| row.reason(error))?;
-        Ok(Self { sphere: pair.reduced(), motion: planar(row, &incidence)?, place: Place::Pair(spheres, incidence) })
+        Ok(Self {
+            sphere: pair.reduced(),
+            motion: planar(row, &incidence)?,
+            place: Place::Pair(incidence),
+            bodies: vec![(spheres[0], first), (spheres[1], second)],
+            energy: Some(first.energy(&spheres[0]) + second.energy(&spheres[1])),
+        })
     }
 
     /// Refuses terms of the scene that this arrival does not go with.
@@ -200,36 +226,76 @@ impl<T: Scalar> Arrival<T> {
     /// How the contact point moves after the impact: a sphere that the plane of the impact shows at rest may roll sideways.
     pub fn motion_after(&self, in_plane: SurfaceMotion) -> SurfaceMotion {
         match &self.place {
-            Place::Wall(_, incidence) if in_plane == SurfaceMotion::Resting && incidence.sideways() != T::ZERO => {
+            Place::Wall(incidence) if in_plane == SurfaceMotion::Resting && incidence.sideways() != T::ZERO => {
                 SurfaceMotion::Rolling
             }
             _ => in_plane,
         }
     }
 
+    /// Kinetic energy before the impact of what moves in space, seen from the wall if there is one; `None` in a plane.
+    pub fn energy_before(&self) -> Option<T> {
+        self.energy
+    }
+
+    /// A cell of the summary that describes the motion of one body in the plane; of two spheres it describes neither.
+    pub fn of_one_body(&self, cell: String) -> String {
+        if matches!(self.place, Place::Pair(_)) { "-".into() } else { cell }
+    }
+
+    /// The motions of the spheres in space after an impact; none where they are not known.
+    fn after(&self, impact: Option<&impl Departing<T>>) -> Vec<SpatialMotion<T>> {
+        let after = impact.and_then(|impact| match &self.place {
+            Place::Plane => None,
+            Place::Wall(incidence) => incidence.after(impact).map(|motion| vec![motion]),
+            Place::Pair(incidence) => incidence.after(impact).map(Vec::from),
+        });
+        after.unwrap_or_default()
+    }
+
     /// The cells of the motions after an impact, for the columns of a table; empty where they are not known.
     pub fn cells(&self, row: &Row<'_>, impact: Option<&impl Departing<T>>) -> Vec<String> {
-        let mut after = Vec::new();
-        if is_in_space(&row.header()) {
-            let moves = impact.and_then(|impact| match &self.place {
-                Place::Plane => None,
-                Place::Wall(sphere, incidence) => incidence.after(impact).map(|motion| (*sphere, motion)),
-                Place::Pair([first, _], incidence) => incidence.after(impact).map(|[motion, _]| (*first, motion)),
-            });
-            after.push(moves);
-        }
-        if is_of_two(&row.header()) {
-            after.push(impact.and_then(|impact| match &self.place {
-                Place::Pair([_, second], incidence) => incidence.after(impact).map(|[_, motion]| (*second, motion)),
-                _ => None,
-            }));
-        }
-        let cells = |(sphere, motion): (Sphere<T>, SpatialMotion<T>)| {
-            let numbers = [&motion.velocity()[..], &motion.spin(), &[motion.energy(&sphere)]].concat();
-            numbers.into_iter().map(|number| row.cell(number)).collect()
+        let after = self.after(impact);
+        let bodies = usize::from(is_in_space(&row.header())) + usize::from(is_of_two(&row.header()));
+        let cells = |body: usize| match (self.bodies.get(body), after.get(body)) {
+            (Some((sphere, before)), Some(after)) => {
+                let energies = [before.energy(sphere), after.energy(sphere)];
+                let numbers = [&after.velocity()[..], &after.spin(), &energies].concat();
+                numbers.into_iter().map(|number| row.cell(number)).collect()
+            }
+            _ => vec![String::new(); AFTER.len()],
         };
-        after.into_iter().flat_map(|moves| moves.map_or_else(|| vec![String::new(); AFTER.len()], cells)).collect()
+        (0..bodies).flat_map(cells).collect()
     }
+
+    /// The cells of the summary after those of the plane.
+    pub fn summary(&self, header: &Header<'_>, impact: Option<&impl Departing<T>>) -> Vec<String> {
+        if !is_in_space(header) {
+            return Vec::new();
+        }
+        let after = self.after(impact);
+        let vector = |[x, y, z]: [String; 3]| format!("({x}, {y}, {z})");
+        let lines = self.bodies.iter().zip(&after).map(|((sphere, before), after)| {
+            let energy = |motion: &SpatialMotion<T>| format!("{:.3e}", motion.energy(sphere));
+            [
+                vector(after.velocity().map(|component| format!("{:.3}", component + T::ZERO))),
+                vector(after.spin().map(|component| format!("{:.2e}", component + T::ZERO))),
+                energy(before),
+                energy(after),
+            ]
+        });
+        let lines: Vec<_> = lines.collect();
+        let cell = |column: usize| match &lines[..] {
+            [] => "-".into(),
+            lines => lines.iter().map(|line| line[column].as_str()).collect::<Vec<_>>().join("\n"),
+        };
+        (0..HEADS.len()).map(cell).collect()
+    }
+}
+
+/// The heads of these cells.
+pub fn heads(header: &Header<'_>) -> &'static [&'static str] {
+    if is_in_space(header) { &HEADS } else { &[] }
 }
 
 /// The normal of a row.

@@ -44,7 +44,7 @@ pub struct Simulated<T> {
     groups: Option<Groups<T>>,
     pub law: LawName,
     speed_over_yield: Option<T>,
-    arrival: Arrival<T>,
+    pub arrival: Arrival<T>,
 }
 
 /// What happened along the surface.
@@ -146,20 +146,21 @@ impl<T: Number> Simulated<T> {
     }
 
     /// The line of the summary.
-    fn line(&self, name: String) -> Vec<String> {
-        let Self { outcome, class, normal, times, slip, energy, law, .. } = self;
+    fn line(&self, header: &Header<'_>, name: String) -> Vec<String> {
+        let Self { outcome, class, normal, times, slip, energy, law, arrival, .. } = self;
         let nano = |value: Option<T>| value.map_or("-".into(), |value| format!("{:.2}", value * T::constant(1e9)));
         let (restitution, followed) = (self.restitution(), self.followed());
-        let lost = energy.filter(|_| followed).map(|ledger| T::constant(100.0) * ledger.lost() / ledger.before);
+        let before = |ledger: &EnergyLedger<T>| arrival.energy_before().unwrap_or(ledger.before);
+        let lost = energy.filter(|_| followed).map(|ledger| T::constant(100.0) * ledger.lost() / before(&ledger));
         let optional = |value: Option<String>| value.unwrap_or("-".into());
-        vec![
+        let in_plane = vec![
             name,
             class.to_string(),
             name_of(law),
             optional(restitution.map(|e| format!("{e:.4}"))),
             optional(restitution.map(|_| format!("{:.3}", normal.rebound_speed()))),
-            optional(self.along().map(|along| format!("{:.3}", along.velocity + T::ZERO))),
-            optional(self.along().map(|along| format!("{:.2e}", along.spin + T::ZERO))),
+            arrival.of_one_body(optional(self.along().map(|along| format!("{:.3}", along.velocity + T::ZERO)))),
+            arrival.of_one_body(optional(self.along().map(|along| format!("{:.2e}", along.spin + T::ZERO)))),
             nano(normal.peak_indentation()),
             nano(times.contact.filter(|_| followed)),
             match (outcome, self.motion()) {
@@ -168,7 +169,8 @@ impl<T: Number> Simulated<T> {
                 _ => nano(slip.rolls_from.filter(|_| followed)),
             },
             optional(lost.map(|lost| format!("{lost:.1}"))),
-        ]
+        ];
+        [in_plane, arrival.summary(header, followed.then_some(self))].concat()
     }
 }
 
@@ -235,13 +237,17 @@ impl<T: Number> SimulationModel<T> {
         }
         let Some(simulate) = &self.simulator.simulate_compliant else {
             return Err(format!(
-                "{STIFFNESS_RATIO}: only --method adaptive is offered with it; leave the cell empty or use that"
+                "{STIFFNESS_RATIO}: --method {} is not offered with it; use --method adaptive, or leave the cell empty",
+                self.simulator.method
             ));
         };
         let scene = scene.with_compliance(ratio).map_err(|error| row.reason(error))?;
         let (impact, outputs) = simulate(&scene, before).map_err(|error| row.reason(error))?;
         if impact.run.status != Status::Solved {
-            return Err("the simulation did not converge; use a larger --tolerance".into());
+            return Err(format!(
+                "{STIFFNESS_RATIO}: the contact sticks and slips too often to be followed, as it does where damping leaves hardly any \
+                 rebound; use less damping, or leave the cell empty for a contact that does not give sideways"
+            ));
         }
         let along = impact.tangential;
         let compliant = Some((along.impulse_ratio(), along.phases()));
@@ -290,8 +296,8 @@ impl<T: Number> Work for SimulationModel<T> {
         Ok(self.compute(row)?.cells(row))
     }
 
-    fn heads(&self) -> Vec<&'static str> {
-        vec![
+    fn heads(&self, header: &Header<'_>) -> Vec<&'static str> {
+        let in_plane = [
             "impact",
             "class",
             "law",
@@ -303,7 +309,8 @@ impl<T: Number> Work for SimulationModel<T> {
             "contact\nns",
             "slips for\nns",
             "energy\nlost %",
-        ]
+        ];
+        [&in_plane, arrival::heads(header)].concat()
     }
 
     fn words(&self) -> usize {
@@ -311,7 +318,7 @@ impl<T: Number> Work for SimulationModel<T> {
     }
 
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
-        Ok(self.compute(row)?.line(name))
+        Ok(self.compute(row)?.line(&row.header(), name))
     }
 }
 
@@ -359,7 +366,7 @@ radius_m,density_kg_m3,stiffness_pa,adhesion_n_m,zeta_h,zeta_a,friction,speed_no
             filled(&undecided),
             ["outcome", "max_indentation_m", "time_peak_s", "group_a", "group_b", "group_h", "group_g", "law"]
         );
-        let line = undecided.line("name".into());
+        let line = undecided.line(&row.header(), "name".into());
         assert_eq!(line[1], "undecided");
         assert_eq!(line.iter().filter(|cell| *cell == "-").count(), line.len() - 4, "{line:?}");
     }

@@ -78,6 +78,8 @@ type SimulateCompliant<T> =
 
 /// A method of the simulation, in numbers of type `T`.
 pub struct Simulator<T> {
+    /// Its name.
+    pub method: String,
     pub simulate: Simulate<T>,
     /// The same with compliance along the surface, where the method is offered for it.
     pub simulate_compliant: Option<SimulateCompliant<T>>,
@@ -147,7 +149,7 @@ impl MethodOptions {
         let (fixed_cost_nodes, iterations) =
             (self.nodes.unwrap_or(FIXED_COST_NODES), self.iterations.unwrap_or(ITERATIONS));
         let simulate = match name {
-            MethodName::Adaptive => by(self.simulation.method().map_err(reason)?),
+            MethodName::Adaptive => by(self.simulation.method().map_err(too_small)?),
             MethodName::Collocation => {
                 collocation(self.nodes.unwrap_or(COLLOCATION_NODES), self.simulation.tolerance())?
             }
@@ -160,10 +162,11 @@ impl MethodOptions {
             _ => None,
         };
         let simulate_compliant = match name {
-            MethodName::Adaptive => Some(compliant_by(self.simulation.method().map_err(reason)?)),
+            MethodName::Adaptive => Some(compliant_by(self.simulation.method().map_err(too_small)?)),
             _ => None,
         };
         Ok(Simulator {
+            method: name_of(&name),
             simulate,
             simulate_compliant,
             with_most_iterations,
@@ -186,6 +189,11 @@ fn compliant_by<T: Number>(method: impl Method<T> + 'static) -> SimulateComplian
     Box::new(move |scene, before| scene.solve_for(before, &method, ((Times, Impulses, Works), (Slip, Energy))))
 }
 
+/// What to say of a tolerance that a method refuses, with the options that help instead of the types of the library.
+fn too_small(error: InputError) -> String {
+    format!("--{}", reason(error).replace("more nodes or `Adaptive`", "more --nodes or --method adaptive"))
+}
+
 /// What to say of a number of nodes that is not offered.
 fn not_offered(nodes: u32, method: MethodName, offered: &[u32]) -> String {
     let offered: Vec<_> = offered.iter().map(u32::to_string).collect();
@@ -202,7 +210,7 @@ macro_rules! offer {
 
         fn collocation<T: Number>(nodes: u32, tolerance: T) -> Result<Simulate<T>, String> {
             match nodes {
-                $($nodes => Ok(by(Collocation::<$nodes, T>::new(tolerance).map_err(reason)?)),)*
+                $($nodes => Ok(by(Collocation::<$nodes, T>::new(tolerance).map_err(too_small)?)),)*
                 _ => Err(not_offered(nodes, MethodName::Collocation, &[$($nodes),*])),
             }
         }

@@ -30,8 +30,8 @@ pub use method::OfferedNodes;
 ///   wall_velocity_x_m_s, wall_velocity_y_m_s, wall_velocity_z_m_s (of the wall at the contact) [0].
 /// Two spheres, in space or in a plane, the normal from the second to the first:
 ///   radius_2_m, density_2_kg_m3 [as the first], gyration_ratio_2 [0.4],
-///   velocity_2_x_m_s .. _z_ and spin_2_x_rad_s .. _z_ [each 0]. In a plane the speeds and the spin are those of the first
-///   sphere: x is tangential, z normal, and y the axis of the spin.
+///   velocity_2_x_m_s, velocity_2_y_m_s, velocity_2_z_m_s, spin_2_x_rad_s, spin_2_y_rad_s, spin_2_z_rad_s [each 0].
+///   In a plane the speeds and the spin are those of the first sphere: x is tangential, z normal, and y the axis of the spin.
 /// The rigid-body model also reads
 ///   restitution (R), or restitution_speed_m_s and restitution_power (k and p of R = k^p/(k^p + v^p)) [p = 1],
 ///   or yield_speed_m_s (elastic-plastic, Thornton 1997),
@@ -41,7 +41,8 @@ pub use method::OfferedNodes;
 /// The simulation also reads
 ///   stiffness_pa (K), adhesion_n_m (f0) [0], zeta_h [0], zeta_a [0], peeling_n_m (lambda) [0],
 ///   external_force_n (positive out of the surface) [0],
-///   stiffness_ratio (tangential over normal stiffness of the contact, chi; method adaptive only) [the contact does not give sideways],
+///   stiffness_ratio (chi = k_t/((3/2) K a), 2 (1 - nu)/(2 - nu) for equal materials; only law hertz, damping none or
+///   hysteretic, and the default method adaptive) [the contact does not give sideways],
 ///   law, work_of_adhesion_j_m2, damping, damping_value, end_rule (below),
 ///   yield_pressure_pa (contact yield pressure) [not known].
 ///
@@ -56,9 +57,16 @@ pub use method::OfferedNodes;
 /// law of contact: hertz, ring, dmt or jkr. Above 1, speed_over_yield marks impacts that leave a dent, which the simulation
 /// does not know; it is empty without a yield_pressure_pa. With both models, columns of the rigid body begin with rigid_body_.
 /// With a stiffness_ratio, impulse_ratio_out is P_t/P_n, negative for a positive slip, and phases is the number of times that the
-/// contact sticks or slips; time_roll_s is empty. Motions in space give velocity_out_x_m_s .. _z_, spin_out_x_rad_s .. _z_ and energy_out_j, and of the second sphere
-/// velocity_2_out_x_m_s and so on; the other columns are those of the plane of the normal and the slip, and of two spheres
-/// those of one sphere with their reduced mass, their closing speed and their slip.
+/// contact sticks or slips; time_roll_s is empty.
+///
+/// In space, velocity_out_x_m_s .. _z_ and spin_out_x_rad_s .. _z_ are the motion after the impact, and energy_in_j and
+/// energy_out_j the kinetic energy of the sphere before and after it, seen as the velocities are given. Of two spheres these
+/// are those of the first; velocity_2_out_x_m_s, .. energy_2_in_j and energy_2_out_j are those of the second. energy_before_j
+/// is then the energy of both spheres, or of one as seen from the wall; less the works it is that energy after the impact. All
+/// other computed columns describe the plane of the normal and the slip; of two spheres they are those of one sphere with
+/// the reduced mass, which hits a wall with the closing speed and the slip, so that its speed_tangential_out_m_s and its
+/// spin_out_rad_s are those of neither sphere. In the summary V_n of two spheres is the speed with which they separate, and the
+/// energy lost is a part of that of both.
 #[derive(Args)]
 #[command(verbatim_doc_comment, after_long_help = simulation_help())]
 pub struct Options {
@@ -144,7 +152,7 @@ impl<T: Number> Work for Both<T> {
         Err(BadRow { reason, cells })
     }
 
-    fn heads(&self) -> Vec<&'static str> {
+    fn heads(&self, _header: &Header<'_>) -> Vec<&'static str> {
         vec![
             "impact",
             "simulation",
@@ -167,6 +175,7 @@ impl<T: Number> Work for Both<T> {
         let (simulated, body) = (self.simulation.compute(row)?, self.rigid_body.compute(row)?);
         let optional = |value: Option<T>| value.map_or("-".into(), |value| format!("{:.4}", value + T::ZERO));
         let along = simulated.along();
+        let of_one = |text| simulated.arrival.of_one_body(text);
         Ok(vec![
             name,
             simulated.class.to_string(),
@@ -174,10 +183,10 @@ impl<T: Number> Work for Both<T> {
             name_of(&simulated.law),
             optional(simulated.restitution()),
             format!("{:.4}", body.impact.normal.overall_restitution()),
-            optional(along.map(|along| along.velocity)),
-            format!("{:.4}", body.impact.tangential.velocity() + T::ZERO),
-            along.map_or("-".into(), |along| format!("{:.2e}", along.spin + T::ZERO)),
-            format!("{:.2e}", body.impact.tangential.spin(&body.sphere) + T::ZERO),
+            of_one(optional(along.map(|along| along.velocity))),
+            of_one(format!("{:.4}", body.impact.tangential.velocity() + T::ZERO)),
+            of_one(along.map_or("-".into(), |along| format!("{:.2e}", along.spin + T::ZERO))),
+            of_one(format!("{:.2e}", body.impact.tangential.spin(&body.sphere) + T::ZERO)),
         ])
     }
 }

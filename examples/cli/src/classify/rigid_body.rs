@@ -3,7 +3,9 @@
 use std::marker::PhantomData;
 
 use microimpact::rigid::ReboundAdhesion;
-use microimpact::{Class, Classification, ContactClass, Impact, RigidBody, Sphere, SurfaceMotion, TangentialImpact};
+use microimpact::{
+    Class, Classification, ContactClass, Impact, ImpactError, RigidBody, Sphere, SurfaceMotion, TangentialImpact,
+};
 use sheet::{Header, Input, Row, Scalar};
 
 use super::FRICTION_INPUT;
@@ -18,7 +20,8 @@ const INPUTS: [Input; 6] = [
     POWER_INPUT,
     Input::optional(&["adhesion_coefficient", "work_of_adhesion_j", "adhesion_speed_m_s"], "no adhesion"),
     Input::optional(&["adhesion_power"], "1"),
-    Input::optional(&["impulse_ratio"], "as friction gives it"),
+    Input::optional(&["impulse_ratio"], "as friction gives it")
+        .replacing("friction", "the rigid body takes it instead of friction"),
     Input::optional(&["rolling_arm_m"], "0 m"),
 ];
 
@@ -90,7 +93,13 @@ fn with_adhesion<T: Scalar>(
 ) -> Result<Classified<T>, String> {
     let (before, friction) = (&arrival.motion, row.or_zero("friction")?);
     let impact = match (row.number("impulse_ratio")?, row.number("rolling_arm_m")?) {
-        (Some(mu), None) => scene.impact_with_ratio(before, mu).map_err(|error| row.reason(error))?,
+        (Some(mu), None) => scene.impact_with_ratio(before, mu).map_err(|error| match error {
+            ImpactError::ImpulseRatioOutsideBounds => {
+                let without = scene.impact_with_ratio(before, T::ZERO);
+                out_of_bounds(row, without.map_or(T::ZERO, |impact| impact.tangential.rolling_ratio()))
+            }
+            error => row.reason(error),
+        })?,
         (None, None) => scene.with_friction(friction).map_err(|error| row.reason(error))?.impact(before),
         (None, Some(arm)) => {
             let scene = scene.with_friction(friction).and_then(|scene| scene.with_rolling_dissipation(arm));
@@ -102,6 +111,15 @@ fn with_adhesion<T: Scalar>(
     };
     let classification = scene.classify_impact(&impact);
     Ok(Classified { sphere: arrival.sphere, classification, impact, arrival })
+}
+
+/// Why the impulse ratio of a row is refused: no friction of a rigid body has it.
+fn out_of_bounds<T: Scalar>(row: &Row<'_>, rolling_ratio: T) -> String {
+    let (text, end) = (row.text("impulse_ratio").unwrap_or_default(), row.cell(rolling_ratio));
+    format!(
+        "impulse_ratio: \"{text}\" is refused: it must be 0 to mu_0, here {end}, at which the slip ends: the friction of a rigid body \
+         neither increases nor reverses the slip; enter such a ratio, or leave the cell empty and give friction"
+    )
 }
 
 impl<T: Scalar> Work for RigidBodyModel<T> {
@@ -147,7 +165,7 @@ impl<T: Scalar> Work for RigidBodyModel<T> {
             row.cell(tangential.rolling_ratio()),
             optional(classification.speed_over_critical),
             optional(classification.contact.friction_over_limit),
-            row.cell(ledger.before),
+            row.cell(classified.arrival.energy_before().unwrap_or(ledger.before)),
             row.cell(ledger.material),
             row.cell(ledger.adhesion),
             row.cell(ledger.friction),
@@ -156,8 +174,8 @@ impl<T: Scalar> Work for RigidBodyModel<T> {
         Ok([in_plane, classified.arrival.cells(row, Some(impact))].concat())
     }
 
-    fn heads(&self) -> Vec<&'static str> {
-        vec![
+    fn heads(&self, header: &Header<'_>) -> Vec<&'static str> {
+        let in_plane = [
             "impact",
             "class",
             "e",
@@ -169,27 +187,29 @@ impl<T: Scalar> Work for RigidBodyModel<T> {
             "speed over\ncritical",
             "friction\nover mu_0",
             "energy\nlost %",
-        ]
+        ];
+        [&in_plane, arrival::heads(header)].concat()
     }
 
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
         let classified = self.compute(row)?;
-        let Classified { sphere, impact, classification, .. } = &classified;
+        let Classified { sphere, impact, classification, arrival } = &classified;
         let Impact { normal, tangential } = impact;
         let ledger = impact.energy(sphere);
         let optional = |value: Option<T>| value.map_or("-".into(), |value| format!("{value:.3}"));
-        Ok(vec![
+        let in_plane = vec![
             name,
             classified.class().to_string(),
             format!("{:.3}", normal.overall_restitution()),
             format!("{:.3}", normal.rebound_speed()),
-            format!("{:.3}", tangential.velocity() + T::ZERO),
-            format!("{:.2e}", tangential.spin(sphere) + T::ZERO),
+            arrival.of_one_body(format!("{:.3}", tangential.velocity() + T::ZERO)),
+            arrival.of_one_body(format!("{:.2e}", tangential.spin(sphere) + T::ZERO)),
             format!("{:.4}", tangential.impulse_ratio()),
             format!("{:.4}", tangential.rolling_ratio()),
             optional(classification.speed_over_critical),
             optional(classification.contact.friction_over_limit),
-            format!("{:.1}", T::constant(100.0) * ledger.lost() / ledger.before),
-        ])
+            format!("{:.1}", T::constant(100.0) * ledger.lost() / arrival.energy_before().unwrap_or(ledger.before)),
+        ];
+        Ok([in_plane, arrival.summary(&row.header(), Some(impact))].concat())
     }
 }
