@@ -7,15 +7,21 @@ use sheet::{Input, Row, Scalar};
 
 use crate::words::{name_of, word};
 
+/// The strength of the ring.
+pub const RING_INPUT: Input = Input::optional(&["adhesion_n_m"], "0 N/m");
+
+/// The work of adhesion per area.
+pub const WORK_INPUT: Input = Input::optional(&["work_of_adhesion_j_m2"], "none; dmt and jkr need it");
+
 /// The columns of a law of contact.
 pub const LAW_INPUTS: [Input; 10] = [
     Input::required(&["stiffness_pa"]),
-    Input::optional(&["adhesion_n_m"], "0 N/m"),
+    RING_INPUT,
     Input::optional(&["zeta_h"], "0"),
     Input::optional(&["zeta_a"], "0"),
     Input::optional(&["external_force_n"], "0 N"),
     Input::optional(&["law"], "ring if adhesion_n_m is not 0, otherwise hertz"),
-    Input::optional(&["work_of_adhesion_j_m2"], "none; dmt and jkr need it"),
+    WORK_INPUT,
     Input::optional(&["damping"], "hysteretic by zeta_h"),
     Input::optional(&["damping_value"], "none"),
     Input::optional(&["end_rule"], "no-indentation; snap-off with jkr"),
@@ -106,6 +112,7 @@ enum EndRule {
 }
 
 /// The law of contact of a row, with its numbers.
+#[derive(Clone, Copy)]
 pub struct RowLaw<T> {
     pub name: LawName,
     end_rule: EndRule,
@@ -140,6 +147,21 @@ impl<T: Scalar> RowLaw<T> {
             damping: damping(row)?,
             external_force: row.or_zero("external_force_n")?,
         })
+    }
+
+    /// Whether its adhesion is the ring.
+    pub fn has_ring(&self) -> bool {
+        self.name == LawName::Ring
+    }
+
+    /// The same law with another strength of the ring (N/m) or work of adhesion per area (J/m^2), whichever it has.
+    pub fn with_adhesion(mut self, adhesion: T) -> Self {
+        match self.name {
+            LawName::Hertz => {}
+            LawName::Ring => self.ring.0 = adhesion,
+            LawName::Dmt | LawName::Jkr => self.work = adhesion,
+        }
+        self
     }
 
     /// The law of the library.

@@ -14,6 +14,9 @@ pub const YIELD_INPUT: Input = Input::optional(&["yield_pressure_pa"], "not know
 pub const RESTITUTION_INPUT: Input = Input::required(&["restitution", "restitution_speed_m_s", "yield_speed_m_s"]);
 pub const POWER_INPUT: Input = Input::optional(&["restitution_power"], "1");
 
+/// Coulomb's friction, which both models have.
+pub const FRICTION_INPUT: Input = Input::optional(&["friction"], "0");
+
 /// The density of a sphere.
 pub const DENSITY_INPUT: Input = Input::required(&["density_kg_m3"]);
 

@@ -13,10 +13,12 @@ mod critical;
 mod figure;
 pub mod fit;
 mod inputs;
+mod population;
 mod table;
 mod words;
 
-/// Impacts of microspheres: classes, critical speeds, analyses of measurements, tables for firmware, and fits.
+/// Impacts of microspheres: classes, critical speeds, analyses of measurements, tables for firmware, fits, and
+/// populations.
 #[derive(Parser)]
 #[command(name = "microimpact", version)]
 pub struct Arguments {
@@ -32,6 +34,7 @@ enum Command {
     #[command(alias = "boundary")]
     Table(table::Options),
     Fit(fit::Options),
+    Population(population::Options),
 }
 
 /// The streams that a command reads and writes.
@@ -53,6 +56,7 @@ impl Arguments {
             Command::Analyse(options) => options.run(streams),
             Command::Table(options) => options.run(streams),
             Command::Fit(options) => options.run(streams),
+            Command::Population(options) => options.run(streams),
         }
     }
 }

@@ -23,6 +23,10 @@ impl Written {
         Self { names, rows }
     }
 
+    pub fn has(&self, column: &str) -> bool {
+        self.names.iter().any(|name| name == column)
+    }
+
     pub fn text(&self, row: usize, column: &str) -> &str {
         let index = self.names.iter().position(|name| name == column).unwrap_or_else(|| panic!("no column {column}"));
         &self.rows[row][index]

@@ -11,10 +11,12 @@ mod formats;
 mod laws;
 mod methods;
 mod mistakes;
+mod population;
 mod report;
 mod report_cost;
 mod space;
 mod tables;
+mod uncertain;
 mod without;
 
 use clap::Parser;

@@ -150,9 +150,14 @@ fn has_words_of(column: &str, name: &str) -> bool {
 const ALIKE: [&str; 5] =
     ["work_of_adhesion_j", "work_of_adhesion_j_m2", "adhesion_n_m", "adhesion_speed_m_s", "adhesion_power"];
 
+/// Whether a name is that of a standard error, which no other quantity is taken for.
+fn is_error(name: &str) -> bool {
+    name.split('_').any(|word| strsim::jaro_winkler(word, "error") > NEAR)
+}
+
 /// How likely it is that a column is meant by a name, larger for a better guess; `None` if it is unlikely.
 fn likeness(name: &str, column: &str) -> Option<f64> {
-    if ALIKE.contains(&name) && ALIKE.contains(&column) {
+    if ALIKE.contains(&name) && ALIKE.contains(&column) || is_error(name) != is_error(column) {
         return None;
     }
     let similarity = strsim::jaro_winkler(name, column);

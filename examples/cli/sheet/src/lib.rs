@@ -152,7 +152,7 @@ impl<R: Read> Sheet<R> {
         };
         self.given += 1;
         let Self { names, inputs, convention, given, .. } = &*self;
-        Ok(cells.map(|cells| Row { names, inputs, convention, cells, number: *given }))
+        Ok(cells.map(|cells| Row { names, inputs, convention, cells, number: *given, replaced: Vec::new() }))
     }
 
     /// The names of the columns.
@@ -206,11 +206,36 @@ pub struct Row<'a> {
     convention: &'a Convention,
     cells: ByteRecord,
     number: usize,
+    /// Numbers that take the place of those in cells, with a decimal point.
+    replaced: Vec<(&'static str, String)>,
 }
 
-impl Row<'_> {
+impl<'a> Row<'a> {
+    /// The same row with another number in a column, which it need not have.
+    pub fn with<T: Scalar>(&self, column: &'static str, value: T) -> Row<'a> {
+        self.with_all([(column, value)])
+    }
+
+    /// The same row with other numbers in some columns, which it need not have.
+    pub fn with_all<T: Scalar>(&self, numbers: impl IntoIterator<Item = (&'static str, T)>) -> Row<'a> {
+        let mut row = Row { cells: self.cells.clone(), replaced: self.replaced.clone(), ..*self };
+        for (column, value) in numbers {
+            row.replaced.retain(|(other, _)| *other != column);
+            row.replaced.push((column, format!("{value:e}")));
+        }
+        row
+    }
+
+    /// The number that takes the place of that in a column.
+    fn replaced(&self, column: &str) -> Option<&str> {
+        self.replaced.iter().find(|(other, _)| *other == column).map(|(_, text)| text.as_str())
+    }
+
     /// The text of a cell without surrounding space; `None` if there is no such column or the cell is empty.
     pub fn text(&self, column: &str) -> Option<String> {
+        if let Some(text) = self.replaced(column) {
+            return Some(text.to_owned());
+        }
         let index = self.names.iter().position(|name| name == column)?;
         let text = text(&self.cells, index);
         (!text.is_empty()).then_some(text)
@@ -236,7 +261,10 @@ impl Row<'_> {
         let Some(text) = self.text(column) else {
             return Ok(None);
         };
-        let number = self.convention.with_point(&Cell { row: self.number, column, text: &text })?;
+        let number = match self.replaced(column) {
+            Some(number) => number.to_owned(),
+            None => self.convention.with_point(&Cell { row: self.number, column, text: &text })?,
+        };
         let value: T = number.parse().map_err(|_| format!("{column}: \"{text}\" is not a number"))?;
         let mantissa = number.split(['e', 'E']).next().unwrap_or_default();
         if value == T::ZERO && mantissa.contains(|c: char| matches!(c, '1'..='9')) {

@@ -1,19 +1,21 @@
 //! Rows by the contact simulation.
 
 use microimpact::contact::{
-    AnyScene, Contact, ContactImpulses, ContactTimes, ContactWorks, Groups, NormalContact, SlipHistory, Status,
+    Adaptive, AnyScene, Contact, ContactImpulses, ContactTimes, ContactWorks, Groups, NormalContact, SlipHistory,
+    Status,
 };
+use microimpact::measure::ClassProbabilities;
 use microimpact::rigid::{Departure, EnergyLedger};
 use microimpact::space::Departing;
-use microimpact::{Approach, Class, Hertz, Outcome, PlanarMotion, SurfaceMotion};
+use microimpact::{Approach, Class, Hertz, Oblique, Outcome, PlanarMotion, SurfaceMotion};
 use sheet::{Header, Input, Row};
 
-use super::FRICTION_INPUT;
 use super::arrival::{self, Arrival};
 use super::method::{Outputs, Simulator};
+use super::uncertain::{Deviations, Inputs, Kind, Probabilities, Reason, Values};
 use crate::command::{BadRow, Number, Work};
 use crate::contact_law::{LAW_INPUTS, LawName, RowLaw};
-use crate::inputs::{PEELING_INPUT, YIELD_INPUT};
+use crate::inputs::{FRICTION_INPUT, PEELING_INPUT, YIELD_INPUT};
 use crate::words::{motion_name, name_of, outcome_name};
 
 /// The stiffness of the contact along the surface over that along the normal.
@@ -25,6 +27,8 @@ type Solved<T> = (NormalContact<T>, Along<T>, Outputs<T>);
 /// The simulation by a method, in numbers of type `T`.
 pub struct SimulationModel<T> {
     pub simulator: Simulator<T>,
+    /// Least probability of a class that is named where numbers have standard errors.
+    pub level: f64,
 }
 
 /// A simulated impact.
@@ -44,6 +48,7 @@ pub struct Simulated<T> {
     groups: Option<Groups<T>>,
     pub law: LawName,
     speed_over_yield: Option<T>,
+    friction: T,
     pub arrival: Arrival<T>,
 }
 
@@ -69,6 +74,14 @@ impl<T: Number> Simulated<T> {
     /// Overall restitution; `None` where the outcome is undecided.
     pub fn restitution(&self) -> Option<T> {
         (self.outcome != Outcome::Undecided).then(|| self.normal.overall_restitution())
+    }
+
+    /// Friction over the least friction that stops the slip of a rebound: the impulse of friction is proportional to the elastic
+    /// impulse (B8), and the one that stops the slip is the contact's inertia times the slip (A27). `None` without slip.
+    pub fn friction_over_limit(&self) -> Option<T> {
+        let (sphere, slip) = (self.arrival.sphere, self.arrival.motion.slip().abs());
+        let stopped = self.friction * self.impulses.elastic / (sphere.mass() * sphere.contact_inertia());
+        (slip > T::ZERO).then(|| stopped / slip)
     }
 
     /// Velocities along the surface after a rebound, or of a captured sphere when its slip has ended; `None` where the motion
@@ -174,7 +187,55 @@ impl<T: Number> Simulated<T> {
     }
 }
 
+/// Random rows that are simulated for standard errors too large for an expansion.
+const DRAWS: u32 = 5_000;
+
+/// The probabilities by an expansion.
+fn expand<'a, T: Number>(
+    row: &Row<'_>,
+    inputs: &Inputs<T>,
+    row_of: &dyn Fn(Values<T>) -> Row<'a>,
+    method: &Adaptive<T>,
+) -> Result<ClassProbabilities<T>, String> {
+    let reason = Reason::new();
+    let scene = |row: &Row<'_>| {
+        let arrival = Arrival::read(row)?;
+        let (law, friction) = (RowLaw::read(row)?.law(), row.or_zero("friction")?);
+        let scene = law.and_then(|law| Contact::new(arrival.sphere, law).with_friction(friction));
+        Ok((scene.map_err(|error| row.reason(error))?, arrival.motion, method))
+    };
+    let found = ClassProbabilities::new(inputs, |values| reason.keep(scene(&row_of(values))));
+    found.map_err(|error| reason.of(row, error))
+}
+
 impl<T: Number> SimulationModel<T> {
+    /// The probabilities of the classes of a row; `None` if it has no standard errors.
+    pub fn probabilities(&self, row: &Row<'_>) -> Result<Option<Probabilities>, String> {
+        let Some(deviations) = Deviations::read::<T>(row, &Kind::Simulation)? else { return Ok(None) };
+        let is_empty = |column: &&str| row.text(column).is_none();
+        let is_known = deviations.are_small() && ["peeling_n_m", STIFFNESS_RATIO].iter().all(is_empty);
+        let probabilities = match self.simulator.control.as_ref().filter(|_| is_known) {
+            Some(method) => deviations.expanded(|inputs, row_of| expand(row, inputs, row_of, method)),
+            None => deviations.drawn::<T>(DRAWS, |row| Ok(self.compute(row)?.class)),
+        };
+        probabilities.map(Some)
+    }
+
+    /// The class of a row in words: with its probability if numbers have standard errors.
+    pub fn class_in_words(&self, row: &Row<'_>, class: Class) -> Result<String, String> {
+        let probabilities = self.probabilities(row)?;
+        Ok(probabilities.map_or_else(|| class.to_string(), |found| found.in_words(self.level)))
+    }
+
+    /// The computed cells of a row, from its impact.
+    pub fn cells_of(&self, row: &Row<'_>, simulated: &Simulated<T>) -> Result<Vec<String>, BadRow> {
+        let cells = simulated.cells(row);
+        match self.probabilities(row) {
+            Ok(found) => Ok([cells, found.map_or_else(Vec::new, |found| found.cells(row, self.level))].concat()),
+            Err(reason) => Err(BadRow { reason, cells }),
+        }
+    }
+
     /// Builds the scene of a row and simulates its impact.
     pub fn compute(&self, row: &Row<'_>) -> Result<Simulated<T>, String> {
         let arrival = Arrival::read(row)?;
@@ -182,7 +243,8 @@ impl<T: Number> SimulationModel<T> {
         let (sphere, before) = (arrival.sphere, arrival.motion);
         let row_law = RowLaw::read(row)?;
         let law = row_law.law().map_err(|error| row.reason(error))?;
-        let scene = Contact::new(sphere, law).with_friction(row.or_zero("friction")?);
+        let friction = row.or_zero("friction")?;
+        let scene = Contact::new(sphere, law).with_friction(friction);
         let scene = scene.map_err(|error| row.reason(error))?;
         let yield_pressure = row.number("yield_pressure_pa")?;
         let yield_speed = yield_pressure.map(|pressure| Hertz::yield_speed(&sphere, row_law.stiffness, pressure));
@@ -209,6 +271,7 @@ impl<T: Number> SimulationModel<T> {
             groups,
             law: row_law.name,
             speed_over_yield: yield_speed.map(|speed| before.normal().speed() / speed),
+            friction,
             arrival,
         })
     }
@@ -259,7 +322,8 @@ impl<T: Number> SimulationModel<T> {
 impl<T: Number> Work for SimulationModel<T> {
     fn inputs(&self) -> Vec<Input> {
         let compliance = Input::further(&[STIFFNESS_RATIO]);
-        [&arrival::INPUTS[..], &[FRICTION_INPUT], &LAW_INPUTS, &[PEELING_INPUT, YIELD_INPUT, compliance]].concat()
+        let own = [PEELING_INPUT, YIELD_INPUT, compliance];
+        [&arrival::INPUTS[..], &[FRICTION_INPUT], &LAW_INPUTS, &own, &Kind::Simulation.inputs()].concat()
     }
 
     fn columns(&self, header: &Header<'_>) -> Vec<String> {
@@ -289,11 +353,11 @@ impl<T: Number> Work for SimulationModel<T> {
         ];
         let compliance: &[&str] = if header.has(STIFFNESS_RATIO) { &["impulse_ratio_out", "phases"] } else { &[] };
         let in_plane = in_plane.iter().chain(compliance).map(|name| name.to_string());
-        in_plane.chain(arrival::columns(header)).collect()
+        in_plane.chain(arrival::columns(header)).chain(Kind::Simulation.columns(header)).collect()
     }
 
     fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
-        Ok(self.compute(row)?.cells(row))
+        self.cells_of(row, &self.compute(row)?)
     }
 
     fn heads(&self, header: &Header<'_>) -> Vec<&'static str> {
@@ -318,7 +382,10 @@ impl<T: Number> Work for SimulationModel<T> {
     }
 
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
-        Ok(self.compute(row)?.line(&row.header(), name))
+        let simulated = self.compute(row)?;
+        let mut line = simulated.line(&row.header(), name);
+        line[1] = self.class_in_words(row, simulated.class)?;
+        Ok(line)
     }
 }
 
@@ -345,7 +412,7 @@ radius_m,density_kg_m3,stiffness_pa,adhesion_n_m,zeta_h,zeta_a,friction,speed_no
     #[test]
     fn an_undecided_impact_has_no_values_of_its_end() {
         let options = Arguments::try_parse_from(["test"]).unwrap_or_else(|error| panic!("{error}"));
-        let model = SimulationModel::<f64> { simulator: options.method.simulator().unwrap() };
+        let model = SimulationModel::<f64> { simulator: options.method.simulator().unwrap(), level: 0.9 };
         let mut sheet = Sheet::open(TABLE.as_bytes(), &model.inputs(), None).unwrap();
         let row = sheet.next_row().unwrap().unwrap();
         let rebound = model.compute(&row).unwrap();

@@ -2,9 +2,9 @@
 
 use clap::{Args, ValueEnum};
 use microimpact::contact::{
-    AnyLaw, Collocation, Compliance, CompliantVelocities, Contact, ContactImpulses, ContactTimes, ContactWorks, Energy,
-    FixedCost, Impulses, Method, Nodes, Peeling, PhaseSamples, RungeKuttaGill, SimulatedImpact, Slip, SlipHistory,
-    Status, TangentialVelocities, Times, Works,
+    Adaptive, AnyLaw, Collocation, Compliance, CompliantVelocities, Contact, ContactImpulses, ContactTimes,
+    ContactWorks, Energy, FixedCost, Impulses, Method, Nodes, Peeling, PhaseSamples, RungeKuttaGill, SimulatedImpact,
+    Slip, SlipHistory, Status, TangentialVelocities, Times, Works,
 };
 use microimpact::rigid::EnergyLedger;
 use microimpact::{InputError, Parameter, PlanarMotion};
@@ -83,6 +83,8 @@ pub struct Simulator<T> {
     pub simulate: Simulate<T>,
     /// The same with compliance along the surface, where the method is offered for it.
     pub simulate_compliant: Option<SimulateCompliant<T>>,
+    /// The method for probabilities, where this one has a tolerance.
+    pub control: Option<Adaptive<T>>,
     /// Whether it follows a captured sphere to its first turning point.
     pub follows_captures: bool,
     /// What to do where it did not converge.
@@ -165,9 +167,14 @@ impl MethodOptions {
             MethodName::Adaptive => Some(compliant_by(self.simulation.method().map_err(too_small)?)),
             _ => None,
         };
+        let control = match name {
+            MethodName::Adaptive | MethodName::Collocation => Some(self.simulation.method().map_err(reason)?),
+            MethodName::FixedCost | MethodName::RungeKuttaGill => None,
+        };
         Ok(Simulator {
             method: name_of(&name),
             simulate,
+            control,
             simulate_compliant,
             with_most_iterations,
             follows_captures: matches!(name, MethodName::Adaptive | MethodName::Collocation),

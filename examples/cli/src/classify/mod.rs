@@ -3,10 +3,12 @@
 //! `cargo microimpact classify` shows impacts of the paper;
 //! `cargo microimpact classify FILE.csv --format csv` adds the result to each row of a table.
 
+mod agreement;
 mod arrival;
 mod contact;
 mod method;
 mod rigid_body;
+mod uncertain;
 
 use clap::{Args, ValueEnum};
 use sheet::{Header, Input, Row};
@@ -46,6 +48,16 @@ pub use method::OfferedNodes;
 ///   law, work_of_adhesion_j_m2, damping, damping_value, end_rule (below),
 ///   yield_pressure_pa (contact yield pressure) [not known].
 ///
+/// Standard errors: each of radius_m, density_kg_m3, speed_normal_m_s, speed_tangential_m_s, spin_rad_s, friction,
+/// restitution, restitution_speed_m_s, yield_speed_m_s, adhesion_coefficient, work_of_adhesion_j, adhesion_speed_m_s,
+/// stiffness_pa, adhesion_n_m, work_of_adhesion_j_m2, zeta_h, zeta_a and external_force_n may have one, in a column with
+/// _error before the unit: speed_normal_error_m_s, restitution_error. Errors are independent and normal; a number beyond its range
+/// takes the nearest value of the range. A table with such a column gets probability_capture, probability_sliding,
+/// probability_rolling (a sphere that rests counts as rolling), those of the four classes (as probability_rebound_sliding), the
+/// largest error of these in probability_error, and the class. probability_by is `expansion` where errors are at most a tenth
+/// and no number is near the end of its range, and else `random rows`, of which 40000 are computed by the rigid body and 5000
+/// by the simulation. class is the most probable class, or `cannot tell` below --level.
+///
 /// Computed by the simulation: restitution is the overall restitution. motion is sliding, rolling or resting, at separation
 /// or, for a captured sphere, when its slip has ended. time_roll_s is the time at which slip ends: 0 if there was no slip,
 /// -1 if slip does not end. A cell is empty if its quantity does not exist or is not computed. A captured sphere is followed
@@ -73,6 +85,9 @@ pub struct Options {
     /// Model that classifies.
     #[arg(long, value_enum, default_value_t = Model::RigidBody)]
     model: Model,
+    /// Least probability of a class in the column `class` of a row with standard errors; below it the class is `cannot tell`.
+    #[arg(long, default_value_t = 0.9)]
+    level: f64,
     #[command(flatten)]
     method: MethodOptions,
     #[command(flatten)]
@@ -95,8 +110,13 @@ impl TableCommand for Options {
 
     fn run_in<T: Number>(&self, streams: &mut Streams<'_>) -> BadRows {
         let bundled = include_str!("impacts.csv");
-        let rigid_body = rigid_body::RigidBodyModel::<T>::new();
-        let simulation = || Ok::<_, String>(contact::SimulationModel::<T> { simulator: self.method.simulator()? });
+        let level = self.level;
+        if !(0.0..=1.0).contains(&level) {
+            return Err(format!("--level {level} is refused: it is a probability; enter a number from 0 to 1").into());
+        }
+        let rigid_body = rigid_body::RigidBodyModel::<T>::new(level);
+        let simulation =
+            || Ok::<_, String>(contact::SimulationModel::<T> { simulator: self.method.simulator()?, level });
         match self.model {
             Model::RigidBody => {
                 self.method.refuse("rigid-body")?;
@@ -130,18 +150,31 @@ impl<T: Number> Work for Both<T> {
     fn columns(&self, header: &Header<'_>) -> Vec<String> {
         let rigid_body = self.rigid_body.columns(header);
         let named = rigid_body.iter().map(|column| format!("rigid_body_{column}"));
-        self.simulation.columns(header).into_iter().chain(named).collect()
+        let agreement = agreement::COLUMNS.map(String::from);
+        self.simulation.columns(header).into_iter().chain(named).chain(agreement).collect()
     }
 
     fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
+        let (simulated, body) = (self.simulation.compute(row), self.rigid_body.compute(row));
+        let difference = match (&simulated, &body) {
+            (Ok(simulated), Ok(body)) => Some(agreement::difference(row, simulated, body)),
+            _ => None,
+        };
         let failed = |result: Result<Vec<String>, BadRow>| match result {
             Ok(cells) => (cells, None),
             Err(bad) => (bad.cells, Some(bad.reason)),
         };
-        let (mut cells, simulation) = failed(self.simulation.cells(row));
-        let (rigid_body_cells, rigid_body) = failed(self.rigid_body.cells(row));
-        cells.resize(self.simulation.columns(&row.header()).len(), String::new());
-        cells.extend(rigid_body_cells);
+        let simulated = simulated.map_err(BadRow::from);
+        let (mut cells, simulation) = failed(simulated.and_then(|simulated| self.simulation.cells_of(row, &simulated)));
+        let body = body.map_err(BadRow::from);
+        let (body_cells, rigid_body) = failed(body.and_then(|body| self.rigid_body.cells_of(row, &body)));
+        let simulation_columns = self.simulation.columns(&row.header()).len();
+        cells.resize(simulation_columns, String::new());
+        cells.extend(body_cells);
+        if let Some(difference) = difference {
+            cells.resize(simulation_columns + self.rigid_body.columns(&row.header()).len(), String::new());
+            cells.extend([if difference.is_none() { "yes" } else { "no" }.into(), difference.unwrap_or_default()]);
+        }
         let reason = match (simulation, rigid_body) {
             (None, None) => return Ok(cells),
             (Some(simulation), Some(rigid_body)) if simulation == rigid_body => simulation,
@@ -157,6 +190,7 @@ impl<T: Number> Work for Both<T> {
             "impact",
             "simulation",
             "rigid body",
+            "agree",
             "law",
             "e\nsimulation",
             "e\nrigid body",
@@ -168,7 +202,7 @@ impl<T: Number> Work for Both<T> {
     }
 
     fn words(&self) -> usize {
-        4
+        5
     }
 
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
@@ -178,8 +212,9 @@ impl<T: Number> Work for Both<T> {
         let of_one = |text| simulated.arrival.of_one_body(text);
         Ok(vec![
             name,
-            simulated.class.to_string(),
-            body.class().to_string(),
+            self.simulation.class_in_words(row, simulated.class)?,
+            self.rigid_body.class_in_words(row, &body)?,
+            if agreement::difference(row, &simulated, &body).is_none() { "yes" } else { "no" }.into(),
             name_of(&simulated.law),
             optional(simulated.restitution()),
             format!("{:.4}", body.impact.normal.overall_restitution()),
@@ -190,6 +225,3 @@ impl<T: Number> Work for Both<T> {
         ])
     }
 }
-
-/// Coulomb's friction, which both models have.
-const FRICTION_INPUT: Input = Input::optional(&["friction"], "0");

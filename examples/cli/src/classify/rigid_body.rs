@@ -2,16 +2,17 @@
 
 use std::marker::PhantomData;
 
+use microimpact::measure::ClassProbabilities;
 use microimpact::rigid::ReboundAdhesion;
 use microimpact::{
     Class, Classification, ContactClass, Impact, ImpactError, RigidBody, Sphere, SurfaceMotion, TangentialImpact,
 };
-use sheet::{Header, Input, Row, Scalar};
+use sheet::{Header, Input, Row};
 
-use super::FRICTION_INPUT;
 use super::arrival::{self, Arrival};
-use crate::command::{BadRow, Work};
-use crate::inputs::{AnyRestitution, POWER_INPUT, RESTITUTION_INPUT, restitution_law};
+use super::uncertain::{Deviations, Inputs, Kind, Probabilities, Reason, Values};
+use crate::command::{BadRow, Number, Work};
+use crate::inputs::{AnyRestitution, FRICTION_INPUT, POWER_INPUT, RESTITUTION_INPUT, restitution_law};
 use crate::words::{motion_name, outcome_name};
 
 /// The numbers that only this model reads.
@@ -28,6 +29,8 @@ const INPUTS: [Input; 6] = [
 /// The rigid-body model in numbers of type `T`.
 pub struct RigidBodyModel<T> {
     scalar: PhantomData<T>,
+    /// Least probability of a class that is named where numbers have standard errors.
+    level: f64,
 }
 
 /// An impact and its class.
@@ -38,7 +41,7 @@ pub struct Classified<T> {
     arrival: Arrival<T>,
 }
 
-impl<T: Scalar> Classified<T> {
+impl<T: Number> Classified<T> {
     /// How the contact point moves after the impact.
     fn motion(&self) -> SurfaceMotion {
         self.arrival.motion_after(self.classification.contact.motion)
@@ -49,9 +52,58 @@ impl<T: Scalar> Classified<T> {
     }
 }
 
-impl<T: Scalar> RigidBodyModel<T> {
-    pub fn new() -> Self {
-        Self { scalar: PhantomData }
+impl<T: Number> RigidBodyModel<T> {
+    pub fn new(level: f64) -> Self {
+        Self { scalar: PhantomData, level }
+    }
+
+    /// The class of a row in words: with its probability if numbers have standard errors.
+    pub fn class_in_words(&self, row: &Row<'_>, classified: &Classified<T>) -> Result<String, String> {
+        let probabilities = self.probabilities(row)?;
+        Ok(probabilities.map_or_else(|| classified.class().to_string(), |found| found.in_words(self.level)))
+    }
+
+    /// The probabilities of the classes of a row; `None` if it has no standard errors.
+    pub fn probabilities(&self, row: &Row<'_>) -> Result<Option<Probabilities>, String> {
+        let Some(deviations) = Deviations::read::<T>(row, &Kind::RigidBody)? else { return Ok(None) };
+        let is_empty = |column: &&str| row.text(column).is_none();
+        let is_expanded = deviations.are_small() && ["impulse_ratio", "rolling_arm_m"].iter().all(is_empty);
+        let probabilities = if is_expanded {
+            deviations.expanded::<T>(|inputs, row_of| expand(row, inputs, row_of))
+        } else {
+            deviations.drawn::<T>(DRAWS, |row| Ok(self.compute(row)?.class()))
+        };
+        probabilities.map(Some)
+    }
+
+    /// The computed cells of a row, from its impact.
+    pub fn cells_of(&self, row: &Row<'_>, classified: &Classified<T>) -> Result<Vec<String>, BadRow> {
+        let Classified { sphere, impact, classification, .. } = classified;
+        let Impact { normal, tangential } = impact;
+        let ledger = impact.energy(sphere);
+        let optional = |value: Option<T>| value.map(|value| row.cell(value)).unwrap_or_default();
+        let in_plane = vec![
+            outcome_name(classification.outcome).into(),
+            motion_name(classified.motion()).into(),
+            row.cell(normal.overall_restitution()),
+            row.cell(normal.rebound_speed()),
+            row.cell(tangential.velocity()),
+            row.cell(tangential.spin(sphere)),
+            row.cell(tangential.impulse_ratio()),
+            row.cell(tangential.rolling_ratio()),
+            optional(classification.speed_over_critical),
+            optional(classification.contact.friction_over_limit),
+            row.cell(classified.arrival.energy_before().unwrap_or(ledger.before)),
+            row.cell(ledger.material),
+            row.cell(ledger.adhesion),
+            row.cell(ledger.friction),
+            row.cell(ledger.rolling),
+        ];
+        let cells = [in_plane, classified.arrival.cells(row, Some(impact))].concat();
+        match self.probabilities(row) {
+            Ok(found) => Ok([cells, found.map_or_else(Vec::new, |found| found.cells(row, self.level))].concat()),
+            Err(reason) => Err(BadRow { reason, cells }),
+        }
     }
 
     /// Builds the scene of a row and classifies its impact.
@@ -85,8 +137,56 @@ impl<T: Scalar> RigidBodyModel<T> {
     }
 }
 
+/// Random rows that are classified for standard errors too large for an expansion.
+const DRAWS: u32 = 40_000;
+
+/// The probabilities by an expansion, with the adhesion that the row gives.
+fn expand<'a, T: Number>(
+    row: &Row<'_>,
+    inputs: &Inputs<T>,
+    row_of: &dyn Fn(Values<T>) -> Row<'a>,
+) -> Result<ClassProbabilities<T>, String> {
+    let given = |column: &str| row.text(column).is_some();
+    if given("adhesion_coefficient") {
+        expand_with(row, inputs, row_of, |row, scene| {
+            let rho = row.required("adhesion_coefficient")?;
+            scene.with_adhesion_coefficient(rho).map_err(|error| row.reason(error))
+        })
+    } else if given("work_of_adhesion_j") {
+        expand_with(row, inputs, row_of, |row, scene| {
+            let work = row.required("work_of_adhesion_j")?;
+            scene.with_work_of_adhesion(work).map_err(|error| row.reason(error))
+        })
+    } else if given("adhesion_speed_m_s") {
+        expand_with(row, inputs, row_of, |row, scene| {
+            let (speed, power) = (row.required("adhesion_speed_m_s")?, row.number("adhesion_power")?);
+            scene.with_adhesion_at_speed(speed, power.unwrap_or(T::ONE)).map_err(|error| row.reason(error))
+        })
+    } else {
+        expand_with(row, inputs, row_of, |_, scene| Ok(scene))
+    }
+}
+
+/// The probabilities by an expansion, with an adhesion.
+fn expand_with<'a, T: Number, A: ReboundAdhesion<T> + Copy>(
+    row: &Row<'_>,
+    inputs: &Inputs<T>,
+    row_of: &dyn Fn(Values<T>) -> Row<'a>,
+    adhering: impl Fn(&Row<'_>, RigidBody<T, AnyRestitution<T>>) -> Result<RigidBody<T, AnyRestitution<T>, A>, String>,
+) -> Result<ClassProbabilities<T>, String> {
+    let reason = Reason::new();
+    let scene = |row: &Row<'_>| {
+        let arrival = Arrival::read(row)?;
+        let scene = RigidBody::new(arrival.sphere, restitution_law(row, |number: T| number)?);
+        let scene = adhering(row, scene)?.with_friction(row.or_zero("friction")?);
+        Ok((scene.map_err(|error| row.reason(error))?, arrival.motion))
+    };
+    let found = ClassProbabilities::new(inputs, |values| reason.keep(scene(&row_of(values))));
+    found.map_err(|error| reason.of(row, error))
+}
+
 /// Chooses the tangential process that the row gives, and computes.
-fn with_adhesion<T: Scalar>(
+fn with_adhesion<T: Number>(
     row: &Row<'_>,
     arrival: Arrival<T>,
     scene: RigidBody<T, AnyRestitution<T>, impl ReboundAdhesion<T> + Copy>,
@@ -114,7 +214,7 @@ fn with_adhesion<T: Scalar>(
 }
 
 /// Why the impulse ratio of a row is refused: no friction of a rigid body has it.
-fn out_of_bounds<T: Scalar>(row: &Row<'_>, rolling_ratio: T) -> String {
+fn out_of_bounds<T: Number>(row: &Row<'_>, rolling_ratio: T) -> String {
     let (text, end) = (row.text("impulse_ratio").unwrap_or_default(), row.cell(rolling_ratio));
     format!(
         "impulse_ratio: \"{text}\" is refused: it must be 0 to mu_0, here {end}, at which the slip ends: the friction of a rigid body \
@@ -122,9 +222,9 @@ fn out_of_bounds<T: Scalar>(row: &Row<'_>, rolling_ratio: T) -> String {
     )
 }
 
-impl<T: Scalar> Work for RigidBodyModel<T> {
+impl<T: Number> Work for RigidBodyModel<T> {
     fn inputs(&self) -> Vec<Input> {
-        [&arrival::INPUTS[..], &[FRICTION_INPUT], &INPUTS].concat()
+        [&arrival::INPUTS[..], &[FRICTION_INPUT], &INPUTS, &Kind::RigidBody.inputs()].concat()
     }
 
     fn columns(&self, header: &Header<'_>) -> Vec<String> {
@@ -145,33 +245,12 @@ impl<T: Scalar> Work for RigidBodyModel<T> {
             "work_friction_j",
             "work_rolling_j",
         ];
-        in_plane.map(String::from).into_iter().chain(arrival::columns(header)).collect()
+        let known = in_plane.map(String::from).into_iter().chain(arrival::columns(header));
+        known.chain(Kind::RigidBody.columns(header)).collect()
     }
 
     fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
-        let classified = self.compute(row)?;
-        let Classified { sphere, impact, classification, .. } = &classified;
-        let Impact { normal, tangential } = impact;
-        let ledger = impact.energy(sphere);
-        let optional = |value: Option<T>| value.map(|value| row.cell(value)).unwrap_or_default();
-        let in_plane = vec![
-            outcome_name(classification.outcome).into(),
-            motion_name(classified.motion()).into(),
-            row.cell(normal.overall_restitution()),
-            row.cell(normal.rebound_speed()),
-            row.cell(tangential.velocity()),
-            row.cell(tangential.spin(sphere)),
-            row.cell(tangential.impulse_ratio()),
-            row.cell(tangential.rolling_ratio()),
-            optional(classification.speed_over_critical),
-            optional(classification.contact.friction_over_limit),
-            row.cell(classified.arrival.energy_before().unwrap_or(ledger.before)),
-            row.cell(ledger.material),
-            row.cell(ledger.adhesion),
-            row.cell(ledger.friction),
-            row.cell(ledger.rolling),
-        ];
-        Ok([in_plane, classified.arrival.cells(row, Some(impact))].concat())
+        self.cells_of(row, &self.compute(row)?)
     }
 
     fn heads(&self, header: &Header<'_>) -> Vec<&'static str> {
@@ -199,7 +278,7 @@ impl<T: Scalar> Work for RigidBodyModel<T> {
         let optional = |value: Option<T>| value.map_or("-".into(), |value| format!("{value:.3}"));
         let in_plane = vec![
             name,
-            classified.class().to_string(),
+            self.class_in_words(row, &classified)?,
             format!("{:.3}", normal.overall_restitution()),
             format!("{:.3}", normal.rebound_speed()),
             arrival.of_one_body(format!("{:.3}", tangential.velocity() + T::ZERO)),
