@@ -11,8 +11,9 @@ mod command;
 mod contact_law;
 mod critical;
 mod figure;
-pub mod fit;
+mod fit;
 mod inputs;
+pub mod joint_fit;
 mod population;
 mod table;
 mod words;
@@ -34,6 +35,7 @@ enum Command {
     #[command(alias = "boundary")]
     Table(table::Options),
     Fit(fit::Options),
+    JointFit(joint_fit::Options),
     Population(population::Options),
 }
 
@@ -56,6 +58,7 @@ impl Arguments {
             Command::Analyse(options) => options.run(streams),
             Command::Table(options) => options.run(streams),
             Command::Fit(options) => options.run(streams),
+            Command::JointFit(options) => options.run(streams),
             Command::Population(options) => options.run(streams),
         }
     }

@@ -56,13 +56,17 @@ fn bundled_impacts_without_arguments() {
     }
     // The bundled impacts were made with k = 130 m/s, W_A = 2.22e-12 J and f = 0.15.
     let summary = String::from_utf8(output.stderr).unwrap();
-    for (name, truth) in [("k of R", 130.0), ("work of adhesion", 2.22e-12), ("friction", 0.15)] {
-        let line = summary.lines().find(|line| line.starts_with(name)).unwrap();
-        let (value, rest) = line.rsplit_once(": ").unwrap().1.split_once(" ± ").unwrap();
-        let error: f64 = rest.split(' ').next().unwrap().parse().unwrap();
-        let value: f64 = value.parse().unwrap();
-        assert!((value - truth).abs() < 3.0 * error && error < 0.05 * truth, "{line}");
+    let line = |name: &str| summary.lines().find(|line| line.starts_with(name)).unwrap();
+    let number = |text: &str| text.trim().parse::<f64>().unwrap();
+    for (name, unit, truth) in [("k of R", " m/s", 130.0), ("W_A", " J", 2.22e-12)] {
+        let (_, bounds) = line(name).split_once(&format!("{unit}, 95 % from ")).unwrap();
+        let (low, high) = bounds.split_once(" to ").unwrap();
+        let (low, high) = (number(low), number(high));
+        assert!(low < truth && truth < high && high - low < 0.2 * truth, "{}", line(name));
     }
+    let (value, rest) = line("friction").rsplit_once(": ").unwrap().1.split_once(" ± ").unwrap();
+    let (value, error) = (number(value), number(rest.split(' ').next().unwrap()));
+    assert!((value - 0.15).abs() < 3.0 * error && error < 0.0075, "{}", line("friction"));
 }
 
 #[test]

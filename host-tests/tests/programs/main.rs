@@ -8,6 +8,7 @@ mod critical;
 mod documentation;
 mod fit;
 mod formats;
+mod joint_fit;
 mod laws;
 mod methods;
 mod mistakes;

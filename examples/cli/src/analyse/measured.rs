@@ -102,6 +102,11 @@ impl<T: Number> Measured<T> {
         Ok(Self { sphere, impact, classification, confidence, before, spin_measured: spin.is_some(), errors })
     }
 
+    /// Standard error of each velocity, m/s.
+    pub fn velocity_error(&self) -> T {
+        self.errors[0]
+    }
+
     /// Overall restitution e.
     pub fn restitution(&self) -> Inputs<T> {
         self.impact.normal.overall_restitution()

@@ -3,7 +3,8 @@
 use std::error::Error;
 use std::path::Path;
 
-use microimpact::{ConstantRestitution, NormalMotion, RigidBody, SpeedRestitution};
+use impact_fit::Verdict;
+use microimpact::{ConstantRestitution, NormalMotion, RigidBody};
 use plotters::style::{BLACK, RED};
 
 use super::summary::{Point, Summary};
@@ -17,14 +18,9 @@ pub fn velocity_ratio(path: &Path, summary: &Summary) -> Result<(), Box<dyn Erro
     let fastest = largest(summary, |point| point.rebound.speed);
     let points = summary.sample.iter().map(|point| (point.rebound.speed, point.rebound.restitution));
     let mut lines: Vec<Line> = Vec::new();
-    if let (Ok(fit), Some(first)) = (summary.restitution(), summary.sample.first()) {
-        let law = SpeedRestitution::new(fit.restitution_speed.value)?;
-        let scene = RigidBody::new(*first.sphere(), law).with_work_of_adhesion(fit.work_of_adhesion.value)?;
-        let curve = (1..=400).map(|step| 1.05 * fastest * f64::from(step) / 400.0).filter_map(|speed| {
-            let motion = NormalMotion::new(speed).ok()?;
-            Some((speed, scene.impact(&motion).normal.overall_restitution()))
-        });
-        lines.push((BLACK, curve.collect()));
+    if let Verdict::Fits(statement) = summary.restitution() {
+        let curve = (1..=400).map(|step| 1.05 * fastest * f64::from(step) / 400.0);
+        lines.push((BLACK, curve.map(|speed| (speed, statement.fit.restitution(speed))).collect()));
     }
     let axes = [(0.0..1.05 * fastest, "approach speed, m/s"), (0.0..1.0, "e")];
     chart(&area, "Velocity ratio against approach speed", axes, points, lines)?;
@@ -43,7 +39,7 @@ pub fn impulse_ratio(path: &Path, summary: &Summary) -> Result<(), Box<dyn Error
             |of: &dyn Fn(&Point) -> f64| summary.sample.iter().map(of).sum::<f64>() / summary.sample.len() as f64;
         let (speed, restitution) = (mean(&|point| point.speed), mean(&|point| point.rebound.restitution));
         let law = ConstantRestitution::new(restitution.clamp(0.0, 1.0))?;
-        let scene = RigidBody::new(*first.sphere(), law).with_friction(0.0)?;
+        let scene = RigidBody::new(first.sphere, law).with_friction(0.0)?;
         let spin = largest(summary, |point| point.peripheral.abs());
         for (peripheral, colour) in [(0.0, BLACK), (spin, RED), (-spin, RED)] {
             let bound = (5..=900).filter_map(|step| {

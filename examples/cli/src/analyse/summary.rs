@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use microimpact::measure::{CalibrationError, Estimate, ImpulseRatios, MeasuredRebound, RestitutionFit, friction};
-use microimpact::{CriticalSpeed, Sphere};
+use impact_fit::{Law, MeasuredSphere, Observation, Response, ScatterModel, Verdict, compete};
+use microimpact::Sphere;
+use microimpact::measure::{Estimate, ImpulseRatios, MeasuredRebound, friction};
 
 use super::measured::Measured;
 use crate::command::Number;
@@ -26,7 +27,9 @@ pub struct Point {
     pub peripheral: f64,
     /// Speed before the impact, m/s.
     pub speed: f64,
-    sphere: Sphere<f64>,
+    pub sphere: Sphere<f64>,
+    /// Standard error of both speeds, m/s.
+    error: f64,
 }
 
 /// Counts of classes and a sample of the impacts.
@@ -58,18 +61,28 @@ impl Summary {
         }
     }
 
-    /// Restitution law and work of adhesion of the spheres that equal the first.
-    pub fn restitution(&self) -> Result<RestitutionFit<f64>, CalibrationError> {
-        let first = self.sample.first().ok_or(CalibrationError::TooFew)?;
-        let alike = self.sample.iter().filter(|point| point.sphere == first.sphere);
-        RestitutionFit::of(&first.sphere, &alike.map(|point| point.rebound).collect::<Vec<_>>())
+    /// What the impacts of spheres of the first one's material say of k and W_A. Sizes may differ.
+    pub fn restitution(&self) -> Verdict {
+        let alike = |point: &&Point| {
+            let first = self.sample.first().unwrap_or(point);
+            let (density, ratio) = (point.sphere.density(), point.sphere.gyration_ratio());
+            density == first.sphere.density() && ratio == first.sphere.gyration_ratio()
+        };
+        let observations: Vec<_> = self.sample.iter().filter(alike).map(Point::observation).collect();
+        compete(&observations, &[Law::SpeedRestitution], ScatterModel::Free)
     }
 }
 
 impl Point {
-    /// The sphere.
-    pub fn sphere(&self) -> &Sphere<f64> {
-        &self.sphere
+    fn observation(&self) -> Observation {
+        let MeasuredRebound { speed, restitution } = self.rebound;
+        let response = if restitution > 0.0 {
+            Response::Rebound { speed: restitution * speed, error: self.error }
+        } else {
+            Response::Capture
+        };
+        let sphere = Some(MeasuredSphere { mass: self.sphere.mass(), relative_error: 0.0 });
+        Observation { speed, speed_error: self.error, response, sphere }
     }
 
     fn of<T: Number>(measured: &Measured<T>) -> Option<Self> {
@@ -89,6 +102,7 @@ impl Point {
             incidence: measured.incidence(),
             peripheral: spin * radius.value.into(),
             speed: along.hypot(normal),
+            error: measured.velocity_error().into(),
             sphere: Sphere::new(radius.value.into(), density.value.into(), kappa.value.into()).ok()?,
         })
     }
@@ -100,15 +114,23 @@ impl fmt::Display for Summary {
         writeln!(f, "impacts: {}", if counts.is_empty() { "none".into() } else { counts.join(", ") })?;
         let plus_minus = |estimate: Estimate<f64>| format!("{:.4e} ± {:.1e}", estimate.value, estimate.standard_error);
         match self.restitution() {
-            Ok(fit) => {
-                writeln!(f, "k of R = k/(k + v): {} m/s", plus_minus(fit.restitution_speed))?;
-                writeln!(f, "work of adhesion: {} J", plus_minus(fit.work_of_adhesion))?;
-                if let Ok(CriticalSpeed::At(speed)) = fit.critical_speed() {
-                    writeln!(f, "critical speed: {} m/s", plus_minus(speed))?;
+            Verdict::Fits(statement) => {
+                for quantity in &statement.quantities {
+                    let name = if quantity.symbol == "k" { "k of R = k/(k + v)" } else { quantity.symbol };
+                    let interval = quantity.interval;
+                    let [value, low, high] = [interval.value, interval.low, interval.high].map(|x| format!("{x:.4e}"));
+                    let high = if interval.high.is_finite() { high } else { "no bound".into() };
+                    writeln!(f, "{name}: {value} {}, 95 % from {low} to {high}", quantity.unit)?;
                 }
-                writeln!(f, "rebounds of the first sphere: {}, of which outliers: {}", fit.rebounds, fit.outliers)?;
             }
-            Err(error) => writeln!(f, "restitution law: {error}")?,
+            Verdict::NoLaw(candidates) => {
+                let p = candidates.first().map_or(0.0, |candidate| candidate.p_value);
+                writeln!(
+                    f,
+                    "R = k/(k + v) with a work of adhesion does not fit (p = {p:.1e}); `fit` tries other laws"
+                )?;
+            }
+            Verdict::NotEnough(reason) => writeln!(f, "restitution law: {reason}")?,
         }
         let ratios: Vec<_> = self.sample.iter().map(|point| point.ratios).collect();
         match friction(&ratios) {

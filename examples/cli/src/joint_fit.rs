@@ -1,6 +1,6 @@
 //! Fits f0, both dampings and the distribution of diameters to a cloud of impacts.
 //!
-//! `cargo microimpact fit FILE.csv --diameter 8.6e-6 --diameter-error 2e-7`
+//! `cargo microimpact joint-fit FILE.csv --diameter 8.6e-6 --diameter-error 2e-7`
 
 use std::error::Error;
 use std::io::Write;
@@ -55,7 +55,7 @@ pub struct Options {
 /// The numbers of an impact.
 const INPUTS: [Input; 2] = [Input::required(&["speed_normal_m_s"]), Input::required(&["restitution"])];
 
-const NAME: &str = "fit";
+const NAME: &str = "joint-fit";
 
 impl Options {
     /// Runs the command; its exit status.

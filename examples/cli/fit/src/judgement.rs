@@ -1,0 +1,110 @@
+//! Whether a law fits.
+//!
+//! Scatter is free, so that its size proves nothing. A law is refuted by a trend of the residuals over speed, by rebounds and
+//! captures on the wrong side of the critical speed, and, if the errors are stated to be all of the scatter, by its size.
+
+use statrs::distribution::{ChiSquared, ContinuousCDF, DiscreteCDF, FisherSnedecor, Poisson};
+
+use crate::law::Coordinate;
+use crate::likelihood::{Likelihood, Nuisance};
+use crate::maximum::{Maximum, maximise};
+
+/// Probabilities of data at least as far from the law as these, if the law is true.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Judgement {
+    /// By the trend of the residuals over speed.
+    pub trend: f64,
+    /// By rebounds and captures on the wrong side of the critical speed.
+    pub outcomes: f64,
+    /// By the size of the residuals; `None` if the scatter is free.
+    pub size: Option<f64>,
+}
+
+impl Judgement {
+    /// Probability that one of the tests finds the data as far from a true law as it does (Sidak 1967).
+    #[must_use]
+    pub fn p_value(&self) -> f64 {
+        let least = self.trend.min(self.outcomes).min(self.size.unwrap_or(1.0));
+        let tests = if self.size.is_some() { 3.0 } else { 2.0 };
+        // 1 - (1 - p)^tests, without cancellation.
+        -(tests * (-least).ln_1p()).exp_m1()
+    }
+}
+
+/// Legendre polynomials of the trend, for few rebounds and for many.
+const FEW: usize = 3;
+const MANY: usize = 5;
+const MANY_REBOUNDS: usize = 30;
+
+/// A probability below which an outcome is on the wrong side of the critical speed.
+const UNLIKELY: f64 = 0.02;
+
+/// The tests of a law at its maximum.
+pub fn judge(likelihood: &mut Likelihood, maximum: &Maximum, scatter_is_known: bool) -> Judgement {
+    let outcomes = outcomes(likelihood, maximum);
+    let size = scatter_is_known.then(|| size(likelihood, maximum));
+    Judgement { trend: trend(likelihood, maximum), outcomes, size }
+}
+
+/// Test of polynomials that are added to the curve.
+fn trend(likelihood: &mut Likelihood, maximum: &Maximum) -> f64 {
+    let rebounds = likelihood.len() - likelihood.captures();
+    let terms = if rebounds < MANY_REBOUNDS { FEW } else { MANY };
+    let nuisances = likelihood.nuisances().to_vec();
+    let more: Vec<Nuisance> = nuisances.iter().copied().chain((0..terms).map(Nuisance::Trend)).collect();
+    let adhesion = adhesion(likelihood);
+    let fraction = likelihood.scatter_fraction(&maximum.values);
+    likelihood.keep_steepness(true);
+    let without = maximise(likelihood, &maximum.values, None);
+    likelihood.set_parameters(adhesion, &more);
+    let start: Vec<f64> = maximum.values.iter().copied().chain((0..terms).map(|_| 0.0)).collect();
+    let with = maximise(likelihood, &start, None);
+    likelihood.set_parameters(adhesion, &nuisances);
+    likelihood.keep_steepness(false);
+    let (Some(without), Some(with)) = (without, with) else {
+        return 1.0;
+    };
+    let ratio = 2.0 * (with.value - without.value).max(0.0);
+    let (terms, parameters) = (terms as f64, start.len() as f64);
+    let freedom = (rebounds as f64 - parameters).max(1.0) / fraction.max(0.05).powi(2);
+    let statistic = (ratio / (freedom + parameters)).exp_m1() * freedom / terms;
+    FisherSnedecor::new(terms, freedom).map_or(1.0, |distribution| distribution.sf(statistic))
+}
+
+/// The coordinate of adhesion in use.
+pub fn adhesion(likelihood: &Likelihood) -> Coordinate {
+    likelihood.coordinates()[1]
+}
+
+/// Test of the number of outcomes that the law makes unlikely.
+fn outcomes(likelihood: &Likelihood, maximum: &Maximum) -> f64 {
+    let recorded = likelihood.captures() > 0;
+    let (mut seen, mut expected) = (0_u64, 0.0);
+    for (rebound, rebounds) in likelihood.rebound_probabilities(&maximum.values).into_iter().zip(likelihood.outcomes())
+    {
+        let (unlikely, happened) = if rebound < 0.5 { (rebound, rebounds) } else { (1.0 - rebound, !rebounds) };
+        if unlikely < UNLIKELY + OUTLIERS {
+            expected += unlikely;
+            seen += u64::from(happened);
+        }
+    }
+    // Where captures are not recorded, every row is a rebound, and only those that no error explains count.
+    if !recorded {
+        expected = expected.max(1.0);
+    }
+    if seen == 0 {
+        return 1.0;
+    }
+    Poisson::new(expected.max(1e-12)).map_or(1.0, |distribution| distribution.sf(seen - 1))
+}
+
+/// Outliers may be on either side.
+const OUTLIERS: f64 = 0.1;
+
+/// Test of the sum of squared residuals.
+fn size(likelihood: &Likelihood, maximum: &Maximum) -> f64 {
+    let residuals: Vec<f64> = likelihood.residuals(&maximum.values).into_iter().flatten().collect();
+    let freedom = residuals.len().saturating_sub(likelihood.coordinates().len()).max(1) as f64;
+    let sum: f64 = residuals.iter().map(|residual| residual * residual).sum();
+    ChiSquared::new(freedom).map_or(1.0, |distribution| distribution.sf(sum))
+}
