@@ -4,6 +4,9 @@
 #![forbid(unsafe_code)]
 #![warn(clippy::panic, clippy::unwrap_used, clippy::expect_used, clippy::indexing_slicing)]
 
+#[cfg(feature = "std")]
+extern crate std;
+
 mod bodies;
 mod classify;
 pub mod contact;

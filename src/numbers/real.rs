@@ -180,17 +180,23 @@ macro_rules! two_fifths_power {
 two_fifths_power!(two_fifths_power_f32, f32, 0x4c2b_ac71, 2);
 two_fifths_power!(two_fifths_power_f64, f64, 0x4cb8_a8c1_54c9_8400, 3);
 
-#[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
+// Safe code without the standard library cannot use the processor's root. libm does on x86, by assembly that is slow between AVX code.
+#[cfg(feature = "std")]
+impl_real_for_float!(f32, f32::sqrt, libm::expf, libm::logf, two_fifths_power_f32);
+#[cfg(feature = "std")]
+impl_real_for_float!(f64, f64::sqrt, libm::exp, libm::log, two_fifths_power_f64);
+#[cfg(all(not(feature = "std"), not(all(target_arch = "arm", target_abi = "eabihf"))))]
 impl_real_for_float!(f32, libm::sqrtf, libm::expf, libm::logf, two_fifths_power_f32);
-#[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
+#[cfg(all(not(feature = "std"), target_arch = "arm", target_abi = "eabihf"))]
 impl_real_for_float!(f32, multiplied_root, libm::expf, libm::logf, two_fifths_power_f32);
+#[cfg(not(feature = "std"))]
 impl_real_for_float!(f64, libm::sqrt, libm::exp, libm::log, two_fifths_power_f64);
 
 /// Square root of zero or a normal number, with an error of one unit in the last place, by multiplications alone.
 ///
 /// On ARM with a floating-point unit, libm computes roots with integers and a table. That takes three times as many
 /// instructions and five times as much flash. Safe code cannot use the square-root instruction of the unit.
-#[cfg(any(test, all(target_arch = "arm", target_abi = "eabihf")))]
+#[cfg(any(test, all(not(feature = "std"), target_arch = "arm", target_abi = "eabihf")))]
 #[inline]
 fn multiplied_root(x: f32) -> f32 {
     // Halving the exponent gives 1/sqrt(x) with an error of 3.5 %. Each Newton step squares the error.
