@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use microimpact::contact::{Adaptive, Contact};
-use microimpact::{NormalMotion, Sphere, Stiffness};
+use microimpact::contact::{Adaptive, Contact, JkrLaw};
+use microimpact::{CriticalSpeed, NormalMotion, Sphere, Stiffness};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, Normal};
@@ -115,6 +115,32 @@ fn a_law_that_does_not_fit_is_said_not_to_fit() {
     // The default error of the speeds is named.
     assert!(output.complaint().contains("0.01 m/s of both speeds is assumed"), "{}", output.complaint());
     assert_eq!(all["assumed_velocity_error_m_s"].as_f64(), Some(0.01));
+}
+
+/// Few impacts of the theory of Johnson, Kendall and Roberts: other laws fit as well, and the critical speed is that of any of them.
+#[test]
+fn laws_not_told_apart_widen_the_critical_speed() {
+    let stiffness = Stiffness::new(7.5e10).unwrap();
+    let law = JkrLaw::new(stiffness, 0.2).unwrap().with_damping(10.5).unwrap();
+    let scene = Contact::new(Sphere::solid(5.06e-6, DENSITY).unwrap(), law);
+    let method = Adaptive::new(1e-9).unwrap();
+    let CriticalSpeed::At(critical) = scene.critical_speed(&method).unwrap() else { panic!("no critical speed") };
+    let mut random = StdRng::seed_from_u64(3);
+    let noise = Normal::new(0.0, 0.05).unwrap();
+    let mut table = HEADER.to_owned();
+    for _ in 0..50 {
+        let speed = random.random_range(0.9 * critical..8.0 * critical);
+        let impact = scene.solve(&NormalMotion::new(speed).unwrap(), &method).unwrap();
+        let rebound = impact.normal.rebound_speed();
+        let measured = if rebound > 0.0 { rebound + noise.sample(&mut random) } else { 0.0 };
+        writeln!(table, "1.012e-5,2600,0.05,{},{measured}", speed + noise.sample(&mut random)).unwrap();
+    }
+    let all = answer(&table, &[]);
+    assert_eq!(all["told_apart"], false, "{all}");
+    let at = |answer: &Value, key: &str| answer["parameters"]["critical_speed_m_s"][key].as_f64().unwrap();
+    assert!(at(&all, "low") <= critical && critical <= at(&all, "high"), "{critical}: {all}");
+    let alone = answer(&table, &["--law", all["law"].as_str().unwrap()]);
+    assert!(at(&all, "high") - at(&all, "low") > at(&alone, "high") - at(&alone, "low"), "{alone} {all}");
 }
 
 /// A spreadsheet of e against v and nothing else: granite with e = 0.83 +- 0.06 (Durda et al. 2011) has no critical speed, and ice

@@ -91,7 +91,7 @@ impl Statement {
 }
 
 /// Fits each of some `laws`, and states the quantities of the most likely one that fits. Of laws that the data do not tell apart,
-/// a constant or the paper's law is chosen.
+/// a constant or the paper's law is chosen, and the interval of the critical speed is that of all of them.
 #[must_use]
 pub fn compete(observations: &[Observation], laws: &[Law], scatter: ScatterModel) -> Verdict {
     let rebounds = observations.iter().filter(|observation| observation.rebounds()).count();
@@ -124,10 +124,28 @@ pub fn compete(observations: &[Observation], laws: &[Law], scatter: ScatterModel
     match chosen {
         Some(chosen) if !refuted => {
             let mut fit = fits.swap_remove(chosen);
-            let quantities = quantities(&mut fit, median_mass(observations));
+            let mut quantities = quantities(&mut fit, median_mass(observations));
+            let alike =
+                |other: &&mut LawFit| other.judgement.p_value() >= LEAST_P_VALUE && other.aic() - least < TOLD_APART;
+            let others: Vec<Interval> =
+                fits.par_iter_mut().filter(alike).map(|other| other.critical_speed().unwrap_or(NONE)).collect();
+            widen(&mut quantities, &others);
             Verdict::Fits(Box::new(Statement { fit, quantities, candidates }))
         }
         _ => Verdict::NoLaw(candidates),
+    }
+}
+
+/// The critical speed by a law without adhesion.
+const NONE: Interval = Interval { value: 0.0, low: 0.0, high: 0.0 };
+
+/// Widens the interval of the critical speed by those of other laws that the data do not tell apart: which law holds is not known.
+fn widen(quantities: &mut [Quantity], others: &[Interval]) {
+    for quantity in quantities.iter_mut().filter(|quantity| quantity.name == CRITICAL_SPEED.0) {
+        for other in others {
+            quantity.interval.low = quantity.interval.low.min(other.low);
+            quantity.interval.high = quantity.interval.high.max(other.high);
+        }
     }
 }
 
