@@ -88,6 +88,9 @@ impl<T: Real> Pair<T> {
     /// The motions of the spheres towards each other, as the planar motion of the reduced sphere. The normal points from the second
     /// centre to the first.
     ///
+    /// The motion belongs to scenes on [`reduced`](Self::reduced). A scene on one of the two spheres solves another impact, and nothing
+    /// reports it.
+    ///
     /// # Errors
     /// A normal that is not of unit length within 1e-3; spheres that do not approach; a part of the planar motion outside its range.
     ///

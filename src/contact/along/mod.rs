@@ -31,7 +31,7 @@ use crate::{InputError, NoFriction, Real, Sphere};
 /// ```
 #[diagnostic::on_unimplemented(
     message = "a scene with `{Self}` does not take a motion `{B}`",
-    label = "with friction, give the motion a tangential velocity: `.with_tangential(v_t)?`"
+    label = "friction needs a tangential velocity, `.with_tangential(v_t)?`; a peeling moment goes with planar motions only"
 )]
 pub trait Surface<T: Real, B>: Copy {
     /// The state before contact, in units of the impact.

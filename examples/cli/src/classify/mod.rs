@@ -73,9 +73,9 @@ pub use method::OfferedNodes;
 ///
 /// In space, velocity_out_x_m_s .. _z_ and spin_out_x_rad_s .. _z_ are the motion after the impact, and energy_in_j and
 /// energy_out_j the kinetic energy of the sphere before and after it, seen as the velocities are given. Of two spheres these
-/// are those of the first; velocity_2_out_x_m_s, .. energy_2_in_j and energy_2_out_j are those of the second. energy_before_j
-/// is then the energy of both spheres, or of one as seen from the wall; less the works it is that energy after the impact. All
-/// other computed columns describe the plane of the normal and the slip; of two spheres they are those of one sphere with
+/// are those of the first; velocity_2_out_x_m_s, .. energy_2_in_j and energy_2_out_j are those of the second. energy_before_j of
+/// the rigid body is then the energy of both spheres, or of one as seen from the wall; less the works it is that energy after
+/// the impact. The simulation has no column for the work of friction. All other computed columns describe the plane of the normal and the slip; of two spheres they are those of one sphere with
 /// the reduced mass, which hits a wall with the closing speed and the slip, so that its speed_tangential_out_m_s and its
 /// spin_out_rad_s are those of neither sphere. In the summary V_n of two spheres is the speed with which they separate, and the
 /// energy lost is a part of that of both.
