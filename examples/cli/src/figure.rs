@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
 /// A file, or a part of it, that holds one chart.
@@ -20,14 +21,15 @@ pub fn drawing(path: &Path, size: (u32, u32)) -> Result<Panel<'_>, Box<dyn Error
     Ok(area)
 }
 
-/// Draws a chart; each axis has a range and a name.
-pub fn chart(
-    area: &Panel<'_>,
+/// Axes to draw on.
+pub type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// Draws the axes of a chart; each has a range and a name.
+pub fn axes<'a, 'b>(
+    area: &'a Panel<'b>,
     caption: &str,
     [(x, x_name), (y, y_name)]: [(Range<f64>, &str); 2],
-    points: impl Iterator<Item = (f64, f64)>,
-    lines: impl IntoIterator<Item = Line>,
-) -> Result<(), Box<dyn Error>> {
+) -> Result<Chart<'a, 'b>, Box<dyn Error>> {
     let mut chart = ChartBuilder::on(area)
         .caption(caption, ("sans-serif", 18))
         .margin(10)
@@ -35,6 +37,18 @@ pub fn chart(
         .set_label_area_size(LabelAreaPosition::Bottom, 40)
         .build_cartesian_2d(x, y)?;
     chart.configure_mesh().light_line_style(TRANSPARENT).x_desc(x_name).y_desc(y_name).draw()?;
+    Ok(chart)
+}
+
+/// Draws a chart.
+pub fn chart(
+    area: &Panel<'_>,
+    caption: &str,
+    ranges: [(Range<f64>, &str); 2],
+    points: impl Iterator<Item = (f64, f64)>,
+    lines: impl IntoIterator<Item = Line>,
+) -> Result<(), Box<dyn Error>> {
+    let mut chart = axes(area, caption, ranges)?;
     chart.draw_series(points.map(|at| Circle::new(at, 2, BLUE.filled())))?;
     for (colour, line) in lines {
         chart.draw_series(LineSeries::new(line, &colour))?;

@@ -1,7 +1,7 @@
 //! Words in cells and options.
 
 use clap::ValueEnum;
-use microimpact::{Outcome, SurfaceMotion};
+use microimpact::{Class, Outcome, SurfaceMotion};
 use sheet::Row;
 
 /// The word for a value.
@@ -19,6 +19,11 @@ pub fn word<V: ValueEnum>(row: &Row<'_>, column: &str, allowed: &[V]) -> Result<
         let words: Vec<_> = allowed.iter().map(name_of).collect();
         format!("{column}: \"{text}\" is refused: it must be {}", words.join(" or "))
     })
+}
+
+/// The class of a sphere that moves on: one that is captured and rests counts as rolling.
+pub fn moving(class: Class) -> Class {
+    if class == Class::CapturedResting { Class::CapturedRolling } else { class }
 }
 
 /// How an impact ends.

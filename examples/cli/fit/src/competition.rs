@@ -31,6 +31,16 @@ pub struct Candidate {
 }
 
 impl Candidate {
+    /// A fit among others, of which the best has the least criterion.
+    fn of(fit: &LawFit, least: f64) -> Self {
+        Self { law: fit.law, aic: fit.aic() - least, p_value: fit.judgement.p_value() }
+    }
+
+    /// Whether the law fits and is not much less likely than the best.
+    fn is_likely(&self) -> bool {
+        self.fits() && self.aic < TOLD_APART
+    }
+
     /// Whether the law fits.
     #[must_use]
     pub fn fits(&self) -> bool {
@@ -78,8 +88,7 @@ impl Statement {
     /// Other laws that fit and are not much less likely.
     #[must_use]
     pub fn not_told_apart(&self) -> Vec<Law> {
-        let alike =
-            |candidate: &&Candidate| candidate.fits() && candidate.aic < TOLD_APART && candidate.law != self.fit.law;
+        let alike = |candidate: &&Candidate| candidate.is_likely() && candidate.law != self.fit.law;
         self.candidates.iter().filter(alike).map(|candidate| candidate.law).collect()
     }
 
@@ -110,13 +119,12 @@ pub fn compete(observations: &[Observation], laws: &[Law], scatter: ScatterModel
     }
     let mut fits: Vec<LawFit> = laws.par_iter().filter_map(|law| LawFit::of(observations, *law, scatter)).collect();
     let least = fits.iter().map(LawFit::aic).fold(f64::INFINITY, f64::min);
-    let mut candidates: Vec<Candidate> = fits
-        .iter()
-        .map(|fit| Candidate { law: fit.law, aic: fit.aic() - least, p_value: fit.judgement.p_value() })
-        .collect();
+    let candidate = |fit: &LawFit| Candidate::of(fit, least);
+    let mut candidates: Vec<Candidate> = fits.iter().map(candidate).collect();
     candidates.sort_by(|a, b| a.aic.total_cmp(&b.aic));
-    let fitting = |fit: &&LawFit| fit.judgement.p_value() >= LEAST_P_VALUE;
-    let best = fits.iter().filter(fitting).map(|fit| fit.aic() - least).fold(f64::INFINITY, f64::min);
+    let fitting = |fit: &&LawFit| candidate(fit).fits();
+    let best = candidates.iter().filter(|candidate| candidate.fits()).map(|candidate| candidate.aic);
+    let best = best.fold(f64::INFINITY, f64::min);
     let chosen = fits.iter().filter(fitting).min_by(|a, b| preference(a).total_cmp(&preference(b))).map(|fit| fit.law);
     let chosen = fits.iter().position(|fit| Some(fit.law) == chosen);
     // A law much less likely than one that does not fit is no better description of the data.
@@ -125,8 +133,7 @@ pub fn compete(observations: &[Observation], laws: &[Law], scatter: ScatterModel
         Some(chosen) if !refuted => {
             let mut fit = fits.swap_remove(chosen);
             let mut quantities = quantities(&mut fit, median_mass(observations));
-            let alike =
-                |other: &&mut LawFit| other.judgement.p_value() >= LEAST_P_VALUE && other.aic() - least < TOLD_APART;
+            let alike = |other: &&mut LawFit| candidate(other).is_likely();
             let others: Vec<Interval> =
                 fits.par_iter_mut().filter(alike).map(|other| other.critical_speed().unwrap_or(NONE)).collect();
             widen(&mut quantities, &others);

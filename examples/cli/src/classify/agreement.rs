@@ -1,11 +1,12 @@
 //! Where the two models give different classes, and why.
 
-use microimpact::{Class, Outcome};
+use microimpact::Outcome;
 use sheet::Row;
 
 use super::contact::Simulated;
 use super::rigid_body::Classified;
 use crate::command::Number;
+use crate::words::moving;
 
 /// The columns that are computed.
 pub const COLUMNS: [&str; 2] = ["models_agree", "models_differ_because"];
@@ -13,15 +14,9 @@ pub const COLUMNS: [&str; 2] = ["models_agree", "models_differ_because"];
 /// Columns of terms along the surface that one model has and the other lacks.
 const OF_ONE_MODEL: [&str; 4] = ["impulse_ratio", "rolling_arm_m", "peeling_n_m", "stiffness_ratio"];
 
-/// Whether two classes are the same, where a captured sphere that rests counts as rolling.
-fn is_same(a: Class, b: Class) -> bool {
-    let moving = |class| if class == Class::CapturedResting { Class::CapturedRolling } else { class };
-    moving(a) == moving(b)
-}
-
 /// Why the models give different classes of a row; `None` if they agree.
 pub fn difference<T: Number>(row: &Row<'_>, simulated: &Simulated<T>, body: &Classified<T>) -> Option<String> {
-    if is_same(simulated.class, body.class()) {
+    if moving(simulated.class) == moving(body.class()) {
         return None;
     }
     if simulated.outcome == Outcome::Undecided {

@@ -12,6 +12,7 @@ use rand_distr::{Distribution, StandardNormal};
 use sheet::{Header, Input, Row};
 
 use crate::command::Number;
+use crate::words::moving;
 
 /// A number that may have a standard error.
 struct Quantity {
@@ -61,31 +62,20 @@ const SIMULATION: [Quantity; 6] = [
     or_zero("external_force_n", "external_force_error_n", Parameter::ExternalForce),
 ];
 
-/// The columns of the standard errors.
-const SHARED_INPUT: Input = Input::further(&[
-    "radius_error_m",
-    "density_error_kg_m3",
-    "speed_normal_error_m_s",
-    "speed_tangential_error_m_s",
-    "spin_error_rad_s",
-    "friction_error",
-]);
-const RIGID_BODY_INPUT: Input = Input::further(&[
-    "restitution_error",
-    "restitution_speed_error_m_s",
-    "yield_speed_error_m_s",
-    "adhesion_coefficient_error",
-    "work_of_adhesion_error_j",
-    "adhesion_speed_error_m_s",
-]);
-const SIMULATION_INPUT: Input = Input::further(&[
-    "stiffness_error_pa",
-    "adhesion_error_n_m",
-    "work_of_adhesion_error_j_m2",
-    "zeta_h_error",
-    "zeta_a_error",
-    "external_force_error_n",
-]);
+/// The columns of the standard errors of some numbers.
+const fn errors<const N: usize>(quantities: &[Quantity; N]) -> [&'static str; N] {
+    let mut columns = [""; N];
+    let mut index = 0;
+    while index < N {
+        columns[index] = quantities[index].error;
+        index += 1;
+    }
+    columns
+}
+
+const SHARED_INPUT: Input = Input::further(&const { errors(&SHARED) });
+const RIGID_BODY_INPUT: Input = Input::further(&const { errors(&RIGID_BODY) });
+const SIMULATION_INPUT: Input = Input::further(&const { errors(&SIMULATION) });
 
 /// The columns that are computed.
 const COLUMNS: [&str; 10] = [
@@ -250,10 +240,7 @@ impl<'a, 'b> Deviations<'a, 'b> {
         let mut counts = [0_u32; 4];
         for _ in 0..draws {
             let row = self.with(self.numbers.iter().map(|number| T::constant(number.drawn(&mut random))));
-            let class = match class(&row)? {
-                Class::CapturedResting => Class::CapturedRolling,
-                class => class,
-            };
+            let class = moving(class(&row)?);
             let Some(index) = CLASSES.iter().position(|other| *other == class) else {
                 return Err("the class of a random row is undecided; use --method adaptive".into());
             };

@@ -5,12 +5,14 @@ use std::ops::Range;
 use std::path::Path;
 
 use impact_fit::{Interval, Observation, Statement, Verdict};
-use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
-use crate::figure::{Panel, drawing};
+use crate::figure::{Chart, Panel, axes, drawing};
 
 const SIZE: (u32, u32) = (900, 800);
+
+/// Name of the axis of both parts.
+const SPEED: &str = "approach speed, m/s";
 
 /// Height of the upper part.
 const UPPER: u32 = 540;
@@ -29,8 +31,6 @@ const CAPTURE: RGBColor = RGBColor(255, 127, 14);
 const FAR: RGBColor = RGBColor(148, 103, 189);
 const CURVE: RGBColor = RGBColor(200, 30, 30);
 const CRITICAL: RGBColor = RGBColor(20, 130, 60);
-
-type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// A class of impacts, with its colour and the impacts in it.
 struct Class<'a> {
@@ -87,22 +87,6 @@ fn critical(statement: Option<&Statement>) -> Option<Interval> {
     statement?.quantity("critical_speed_m_s")
 }
 
-fn axes<'a, 'b>(
-    area: &'a Panel<'b>,
-    caption: &str,
-    x: Range<f64>,
-    (y, y_name): (Range<f64>, &str),
-) -> Result<Chart<'a, 'b>, Box<dyn Error>> {
-    let mut chart = ChartBuilder::on(area)
-        .caption(caption, ("sans-serif", 18))
-        .margin(10)
-        .set_label_area_size(LabelAreaPosition::Left, 60)
-        .set_label_area_size(LabelAreaPosition::Bottom, 40)
-        .build_cartesian_2d(x, y)?;
-    chart.configure_mesh().light_line_style(TRANSPARENT).x_desc("approach speed, m/s").y_desc(y_name).draw()?;
-    Ok(chart)
-}
-
 fn draw_impacts(
     area: &Panel<'_>,
     x: Range<f64>,
@@ -121,7 +105,7 @@ fn draw_impacts(
     let caption = statement.map_or("Impacts; no law fits".to_owned(), |statement| {
         format!("Restitution, and its median by the law {}", statement.fit.law.name())
     });
-    let mut chart = axes(area, &caption, x.clone(), (low - room..high + room, "restitution e"))?;
+    let mut chart = axes(area, &caption, [(x.clone(), SPEED), (low - room..high + room, "restitution e")])?;
     if let Some(statement) = statement {
         draw_curve(&mut chart, x, (low - room, high + room), statement)?;
     }
@@ -198,7 +182,7 @@ fn draw_residuals(area: &Panel<'_>, x: Range<f64>, classes: &[Class<'_>]) -> Res
     // Few far outliers shall not flatten all others; they are drawn at the border.
     let reach = residuals().map(f64::abs).filter(|size| *size < 2.0 * OUTLIER).fold(2.5, f64::max) * 1.1;
     let name = "residual, standard deviations";
-    let mut chart = axes(area, "Residuals of the rebound speed", x.clone(), (-reach..reach, name))?;
+    let mut chart = axes(area, "Residuals of the rebound speed", [(x.clone(), SPEED), (-reach..reach, name)])?;
     chart.draw_series(LineSeries::new([(x.start, 0.0), (x.end, 0.0)], CURVE))?;
     for Class { colour, impacts, .. } in classes {
         let points =
