@@ -36,8 +36,8 @@ const CHANCE: f64 = 3.0;
 /// Largest width over that of the bound of Cramer and Rao.
 const WIDEST: f64 = 1.3;
 
-/// Fewest sets of which a true law may be refuted: p < 0.001 in one of a thousand.
-const REFUTED: f64 = 0.005;
+/// Largest share of sets in which a true law may be refuted: p < 0.001 in one of a thousand, and chance.
+const REFUTED: f64 = 0.002;
 
 const QUANTITIES: [&str; 3] = ["k", "W_A", "v_c"];
 

@@ -2,7 +2,8 @@
 //!
 //! Repeated impacts of equal spheres differ: surfaces are rough. The scatter is often skewed, with a tail of low restitutions.
 
-use statrs::function::erf::erfc;
+use fastrand::Rng;
+use statrs::function::erf::{erfc, erfc_inv};
 
 /// Distribution of the restitution less the curve. Its median is zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +44,12 @@ impl Scatter {
         self.parts.iter().map(|part| part.weight * part.below(value)).sum()
     }
 
+    /// A random scatter.
+    pub fn draw(&self, random: &mut Rng) -> f64 {
+        let part = &self.parts[usize::from(random.f64() < self.parts[1].weight)];
+        part.mean + part.variance.sqrt() * deviate(random)
+    }
+
     /// Variance.
     #[must_use]
     pub fn variance(&self) -> f64 {
@@ -78,6 +85,12 @@ impl Part {
             1.0
         }
     }
+}
+
+/// A random standard normal deviate.
+pub fn deviate(random: &mut Rng) -> f64 {
+    // Between zero and two, both excluded.
+    -std::f64::consts::SQRT_2 * erfc_inv(2.0 * (random.f64() + f64::EPSILON).min(1.0 - f64::EPSILON))
 }
 
 /// Standard normal distribution function.
