@@ -11,7 +11,8 @@ pub const PEELING_INPUT: Input = Input::optional(&["peeling_n_m"], "0 N m");
 pub const YIELD_INPUT: Input = Input::optional(&["yield_pressure_pa"], "not known");
 
 /// The numbers of a restitution law.
-pub const RESTITUTION_INPUT: Input = Input::required(&["restitution", "restitution_speed_m_s", "yield_speed_m_s"]);
+pub const RESTITUTION_COLUMNS: [&str; 3] = ["restitution", "restitution_speed_m_s", "yield_speed_m_s"];
+pub const RESTITUTION_INPUT: Input = Input::required(&RESTITUTION_COLUMNS);
 pub const POWER_INPUT: Input = Input::optional(&["restitution_power"], "1");
 
 /// Coulomb's friction, which both models have.

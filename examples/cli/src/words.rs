@@ -21,10 +21,19 @@ pub fn word<V: ValueEnum>(row: &Row<'_>, column: &str, allowed: &[V]) -> Result<
     })
 }
 
+/// A probability in an option.
+pub fn probability(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number| (0.0..=1.0).contains(number));
+    number.ok_or_else(|| "it is a probability; enter a number from 0 to 1".into())
+}
+
 /// The class of a sphere that moves on: one that is captured and rests counts as rolling.
 pub fn moving(class: Class) -> Class {
     if class == Class::CapturedResting { Class::CapturedRolling } else { class }
 }
+
+/// The word for a class that the data do not decide.
+pub const CANNOT_TELL: &str = "cannot tell";
 
 /// How an impact ends.
 pub fn outcome_name(outcome: Outcome) -> &'static str {

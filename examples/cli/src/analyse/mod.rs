@@ -1,4 +1,4 @@
-//! Analyses measured impacts by the rigid-body model: coefficients, energy, class, and the confidence in the class.
+//! Analyses measured impacts by the rigid-body model: coefficients, energy, class, and the probability of the class.
 //!
 //! `cargo microimpact analyse` shows a bundled table of synthetic impacts and two of the paper;
 //! `cargo microimpact analyse FILE.csv --format csv --plots FOLDER` adds the result to each row of a table and
@@ -7,6 +7,7 @@
 mod measured;
 mod plots;
 mod summary;
+mod verdict;
 
 use std::cell::RefCell;
 use std::error::Error;
@@ -20,26 +21,30 @@ use sheet::{Header, Input, Row};
 
 use crate::Streams;
 use crate::command::{BadRow, BadRows, Number, TABLE_HELP, TableCommand, TableOptions, Work};
-use crate::words::{motion_name, outcome_name};
+use crate::words::probability;
 use measured::{INPUTS, Inputs, Measured};
 use summary::Summary;
 
-/// Analyse measured impacts of microspheres: coefficients, energy, class, and the confidence in the class. Without a table,
+/// Analyse measured impacts of microspheres: coefficients, energy, class, and the probability of the class. Without a table,
 /// analyse synthetic impacts and two of the paper.
 ///
 /// Input columns, in SI units. Brackets give the value that an empty or absent cell has; the other columns are required.
 ///   diameter_m or radius_m, density_kg_m3, gyration_ratio (k^2/r^2) [0.4, a solid sphere],
 ///   restitution (R), or restitution_speed_m_s and restitution_power (k and p of R = k^p/(k^p + v^p)) [p = 1],
-///   or yield_speed_m_s (elastic-plastic, Thornton 1997),
+///   or yield_speed_m_s (elastic-plastic, Thornton 1997) [not known: losses of body and adhesion are not told apart],
 ///   speed_normal_m_s (approach speed, a positive number), speed_tangential_m_s [0],
 ///   spin_rad_s [not measured: the sphere is assumed to roll at separation, and the spin that this implies is computed],
 ///   rebound_speed_m_s, speed_tangential_out_m_s,
 ///   spin_out_rad_s [not measured: the spin follows from friction alone],
-///   velocity_error_m_s (standard error of each measured velocity) [0.01].
+///   velocity_error_m_s (standard error of each measured velocity) [0.01], or one column for each:
+///   speed_normal_error_m_s, speed_tangential_error_m_s, spin_error_rad_s, rebound_speed_error_m_s,
+///   speed_tangential_out_error_m_s, spin_out_error_rad_s.
 ///
-/// Computed: a slip within three standard errors of zero counts as rolling. The confidence is the probability that the true
-/// velocities, normally distributed about the measured ones, have the same class. A row whose velocities no impact can have
-/// is bad.
+/// Computed: confidence is the probability of the most likely class. It takes rolling to be as likely before the measurement
+/// as sliding with any slip up to that before the impact. Below --level the outcome or the motion is `cannot tell`. Without a
+/// measured spin the motion is `assumed rolling`, and there is no confidence. A rebound speed of exactly 0 is a capture. A
+/// rebound above the bound of R, a negative one, and a gain of energy are possible within three standard errors; then the
+/// losses are those at the bound. Beyond, the row is bad.
 ///
 /// With --format csv the command reads and writes row by row, so that a file may be larger than memory. Figures, and the
 /// statistics on standard error, use a random sample of at most 10000 rows.
@@ -49,6 +54,9 @@ pub struct Options {
     /// Folder for the figures velocity_ratio.svg and impulse_ratio.svg.
     #[arg(long)]
     plots: Option<PathBuf>,
+    /// Least probability of an outcome or a motion that is stated; below it the answer is `cannot tell`.
+    #[arg(long, default_value_t = 0.9, value_parser = probability)]
+    level: f64,
     #[command(flatten)]
     table: TableOptions,
 }
@@ -61,7 +69,8 @@ impl TableCommand for Options {
     }
 
     fn run_in<T: Number>(&self, streams: &mut Streams<'_>) -> BadRows {
-        let analysis = Analysis::<T> { summary: RefCell::default(), progress: progress()?, scalar: PhantomData };
+        let level = self.level;
+        let analysis = Analysis::<T> { summary: RefCell::default(), progress: progress()?, level, scalar: PhantomData };
         let bad_rows = self.table.work(Self::NAME, include_str!("impacts.csv"), &analysis, streams)?;
         analysis.progress.finish_and_clear();
         let summary = analysis.summary.into_inner();
@@ -85,6 +94,7 @@ fn progress() -> Result<ProgressBar, Box<dyn Error>> {
 struct Analysis<T> {
     summary: RefCell<Summary>,
     progress: ProgressBar,
+    level: f64,
     scalar: PhantomData<T>,
 }
 
@@ -92,7 +102,7 @@ impl<T: Number> Analysis<T> {
     fn compute(&self, row: &Row<'_>) -> Result<Measured<T>, String> {
         self.progress.inc(1);
         let measured = Measured::of(row)?;
-        self.summary.borrow_mut().add(&measured);
+        self.summary.borrow_mut().add(&measured, self.level);
         Ok(measured)
     }
 }
@@ -128,21 +138,22 @@ impl<T: Number> Work for Analysis<T> {
     fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
         let measured = self.compute(row)?;
         let ledger = measured.energy();
+        let by_law = |value: T| if measured.has_law { row.cell(value) } else { String::new() };
         Ok(vec![
-            outcome_name(measured.classification.outcome).into(),
-            motion_name(measured.classification.contact.motion).into(),
-            row.cell(measured.confidence),
+            measured.verdict.outcome_word(self.level).into(),
+            measured.verdict.motion_word(self.level).into(),
+            measured.verdict.confidence().map(|confidence| row.cell(confidence)).unwrap_or_default(),
             row.cell(T::constant(measured.incidence())),
             row.cell(measured.restitution().value),
             row.cell(measured.restitution_error()),
-            row.cell(measured.impact.normal.adhesion_coefficient().value),
+            by_law(measured.impact.normal.adhesion_coefficient().value),
             row.cell(measured.impulse_ratio().value),
             row.cell(measured.impulse_ratio_error()),
             row.cell(measured.impact.tangential.rolling_ratio().value),
             measured.implied_spin().map(|spin| row.cell(spin)).unwrap_or_default(),
             row.cell(ledger.before.value),
-            row.cell(ledger.material.value),
-            row.cell(ledger.adhesion.value),
+            by_law(ledger.material.value),
+            by_law(ledger.adhesion.value),
             row.cell(ledger.friction.value),
             row.cell(ledger.rolling.value),
         ])
@@ -169,21 +180,25 @@ impl<T: Number> Work for Analysis<T> {
     fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
         let measured = self.compute(row)?;
         let ledger = measured.energy();
-        let percent =
-            |loss: Inputs<T>| format!("{:.1}", (Inputs::constant(100.0) * loss / ledger.before).value + T::ZERO);
+        let percent = |loss: Inputs<T>| {
+            let percent = (Inputs::constant(100.0) * loss / ledger.before).value;
+            // Rounding makes a loss of zero negative.
+            format!("{:.1}", if percent.abs() < T::constant(0.05) { T::ZERO } else { percent })
+        };
         let with_error = |value: Inputs<T>, error: T| format!("{:.4} ± {error:.4}", value.value + T::ZERO);
+        let by_law = |text: String| if measured.has_law { text } else { "-".into() };
         Ok(vec![
             name,
-            measured.classification.class().to_string(),
-            format!("{:.0}", T::constant(100.0) * measured.confidence),
+            measured.verdict.class(self.level),
+            measured.verdict.confidence().map_or("-".into(), |confidence| format!("{:.0}", 100.0 * confidence)),
             format!("{:.1}", measured.incidence()),
             with_error(measured.restitution(), measured.restitution_error()),
-            format!("{:.3}", measured.impact.normal.adhesion_coefficient().value),
+            by_law(format!("{:.3}", measured.impact.normal.adhesion_coefficient().value)),
             with_error(measured.impulse_ratio(), measured.impulse_ratio_error()),
             format!("{:.4}", measured.impact.tangential.rolling_ratio().value + T::ZERO),
             measured.implied_spin().map_or("-".into(), |spin| format!("{spin:.2e}")),
-            percent(ledger.material),
-            percent(ledger.adhesion),
+            by_law(percent(ledger.material)),
+            by_law(percent(ledger.adhesion)),
             percent(ledger.friction),
             percent(ledger.rolling),
         ])

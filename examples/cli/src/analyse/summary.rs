@@ -28,8 +28,8 @@ pub struct Point {
     /// Speed before the impact, m/s.
     pub speed: f64,
     pub sphere: Sphere<f64>,
-    /// Standard error of both speeds, m/s.
-    error: f64,
+    /// Standard errors of both normal speeds, m/s.
+    errors: (f64, f64),
 }
 
 /// Counts of classes and a sample of the impacts.
@@ -43,8 +43,8 @@ pub struct Summary {
 
 impl Summary {
     /// Counts an impact. Each has the same chance to be in the sample (Vitter's algorithm R).
-    pub fn add<T: Number>(&mut self, measured: &Measured<T>) {
-        *self.classes.entry(measured.classification.class().to_string()).or_default() += 1;
+    pub fn add<T: Number>(&mut self, measured: &Measured<T>, level: f64) {
+        *self.classes.entry(measured.verdict.class(level)).or_default() += 1;
         self.seen += 1;
         let place = if self.seen <= SAMPLE {
             self.sample.len()
@@ -76,13 +76,13 @@ impl Summary {
 impl Point {
     fn observation(&self) -> Observation {
         let MeasuredRebound { speed, restitution } = self.rebound;
-        let response = if restitution > 0.0 {
-            Response::Rebound { speed: restitution * speed, error: self.error }
-        } else {
+        let response = if restitution == 0.0 {
             Response::Capture
+        } else {
+            Response::Rebound { speed: restitution * speed, error: self.errors.1 }
         };
         let sphere = Some(MeasuredSphere { mass: self.sphere.mass(), relative_error: 0.0 });
-        Observation { speed, speed_error: self.error, response, sphere }
+        Observation { speed, speed_error: self.errors.0, response, sphere }
     }
 
     fn of<T: Number>(measured: &Measured<T>) -> Option<Self> {
@@ -94,6 +94,7 @@ impl Point {
             measured: tangential.impulse_ratio().value.into(),
             rolling: tangential.rolling_ratio().value.into(),
         };
+        let (before, after) = measured.normal_errors();
         let spin: f64 = tangential.spin_before(&measured.sphere).value.into();
         Some(Self {
             rebound: MeasuredRebound { speed: normal, restitution: measured.restitution().value.into() },
@@ -102,7 +103,7 @@ impl Point {
             incidence: measured.incidence(),
             peripheral: spin * radius.value.into(),
             speed: along.hypot(normal),
-            error: measured.velocity_error().into(),
+            errors: (before.into(), after.into()),
             sphere: Sphere::new(radius.value.into(), density.value.into(), kappa.value.into()).ok()?,
         })
     }

@@ -15,7 +15,7 @@ use sheet::{Header, Input, Row};
 
 use crate::Streams;
 use crate::command::{BadRow, BadRows, Number, TableCommand, TableOptions, Work, simulation_help};
-use crate::words::name_of;
+use crate::words::{name_of, probability};
 use method::MethodOptions;
 pub use method::OfferedNodes;
 
@@ -86,7 +86,7 @@ pub struct Options {
     #[arg(long, value_enum, default_value_t = Model::RigidBody)]
     model: Model,
     /// Least probability of a class in the column `class` of a row with standard errors; below it the class is `cannot tell`.
-    #[arg(long, default_value_t = 0.9)]
+    #[arg(long, default_value_t = 0.9, value_parser = probability)]
     level: f64,
     #[command(flatten)]
     method: MethodOptions,
@@ -111,9 +111,6 @@ impl TableCommand for Options {
     fn run_in<T: Number>(&self, streams: &mut Streams<'_>) -> BadRows {
         let bundled = include_str!("impacts.csv");
         let level = self.level;
-        if !(0.0..=1.0).contains(&level) {
-            return Err(format!("--level {level} is refused: it is a probability; enter a number from 0 to 1").into());
-        }
         let rigid_body = rigid_body::RigidBodyModel::<T>::new(level);
         let simulation =
             || Ok::<_, String>(contact::SimulationModel::<T> { simulator: self.method.simulator()?, level });

@@ -12,7 +12,7 @@ use rand_distr::{Distribution, StandardNormal};
 use sheet::{Header, Input, Row};
 
 use crate::command::Number;
-use crate::words::moving;
+use crate::words::{CANNOT_TELL, moving};
 
 /// A number that may have a standard error.
 struct Quantity {
@@ -257,7 +257,7 @@ impl Probabilities {
     /// The most probable class, if it has at least this probability.
     pub fn class(&self, level: f64) -> String {
         let best = self.best();
-        if best.1 >= level { best.0.to_string() } else { "cannot tell".into() }
+        if best.1 >= level { best.0.to_string() } else { CANNOT_TELL.into() }
     }
 
     /// The class in words, with its probability.
@@ -266,7 +266,7 @@ impl Probabilities {
         if probability >= level {
             format!("{class} ({probability:.2})")
         } else {
-            format!("cannot tell ({class} {probability:.2})")
+            format!("{CANNOT_TELL} ({class} {probability:.2})")
         }
     }
 
