@@ -4,9 +4,9 @@
 
 use std::error::Error;
 
-use microimpact::measure::{MeasuredRebound, RestitutionFit};
+use microimpact::measure::{Estimate, MeasuredImpact, RestitutionFit};
 use microimpact::rigid::{Departure, infer_assuming_rolling};
-use microimpact::{CriticalSpeed, NormalMotion, SpeedRestitution, Sphere};
+use microimpact::{NormalMotion, SpeedRestitution, Sphere};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let sphere = Sphere::solid(5.06e-6, 2600.0)?;
@@ -21,15 +21,36 @@ fn main() -> Result<(), Box<dyn Error>> {
     let energy = impact.energy(&sphere);
     println!("lost {:.1} % of {:.2e} J", 100.0 * energy.lost() / energy.before, energy.before);
 
-    // Several: approach and rebound speed in m/s.
-    let speeds = [(2.0, 1.1), (2.8, 2.09), (4.0, 3.43), (6.0, 5.46), (9.0, 8.25), (14.0, 12.5), (20.0, 17.2)];
-    let rebounds = speeds.map(|(approach, rebound)| MeasuredRebound::from_speeds(approach, rebound));
-    let fit = RestitutionFit::of(&sphere, &rebounds.into_iter().collect::<Result<Vec<_>, _>>()?)?;
+    // Several: approach and rebound speed in m/s, each with a standard error of 0.02 m/s; zero for a capture.
+    let speeds = [
+        (1.5, 0.0),
+        (1.7, 0.0),
+        (2.0, 0.86),
+        (2.3, 1.42),
+        (2.8, 2.09),
+        (3.4, 2.80),
+        (4.0, 3.47),
+        (5.0, 4.49),
+        (6.0, 5.46),
+        (7.0, 6.41),
+        (9.0, 8.23),
+        (11.0, 9.98),
+        (14.0, 12.53),
+        (17.0, 14.96),
+        (20.0, 17.26),
+    ];
+    let speed = |value| Estimate { value, standard_error: 0.02 };
+    let impacts = speeds.map(|(approach, rebound)| {
+        let rebound = (rebound > 0.0).then(|| speed(rebound));
+        MeasuredImpact { sphere, approach: speed(approach), rebound }
+    });
+    let fit = RestitutionFit::of(&impacts)?;
     let (k, work) = (fit.restitution_speed, fit.work_of_adhesion);
-    println!("k = {:.0} ± {:.0} m/s", k.value, k.standard_error);
-    println!("work of adhesion {:.2e} ± {:.0e} J", work.value, work.standard_error);
-    if let CriticalSpeed::At(speed) = fit.critical_speed()? {
-        println!("captured below {:.2} ± {:.0e} m/s", speed.value, speed.standard_error);
+    println!("the law R = k/(k + v) {}", if fit.fits { "fits" } else { "does not fit" });
+    println!("k = {:.0} m/s, 95 % from {:.0} to {:.0}", k.value, k.low, k.high);
+    println!("work of adhesion {:.2e} J, from {:.2e} to {:.2e}", work.value, work.low, work.high);
+    if let Some(speed) = fit.critical_speed {
+        println!("captured below {:.2} m/s, from {:.2} to {:.2}", speed.value, speed.low, speed.high);
     }
     Ok(())
 }

@@ -19,7 +19,7 @@ mod uncertainty;
 
 pub use contact::{adhesion_damping, estimate, material_damping, parameter, ring_strength};
 pub use error::CalibrationError;
-pub use restitution::RestitutionFit;
+pub use restitution::{Interval, MeasuredImpact, RestitutionFit};
 pub use robust::{Estimate, Location};
 pub use tangential::{ImpulseRatios, friction, rolling_motion};
 pub use uncertainty::{ClassProbabilities, Classifiable, NormalDistribution, Uncertain};

@@ -6,7 +6,7 @@ use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, Normal};
 
 /// Density of the spheres, kg/m^3, and their mean diameter, m: silver-coated glass (Table 1 of the paper).
-const DENSITY: f64 = 2600.0;
+pub const DENSITY: f64 = 2600.0;
 const DIAMETER: f64 = 1.012e-5;
 
 /// Natural scatter of the restitution.

@@ -4,6 +4,7 @@ mod absent_terms;
 mod calibrate;
 mod fixed_point_rigid;
 mod inputs;
+mod restitution_fit;
 mod restitution_laws;
 mod rigid_properties;
 mod scalars;

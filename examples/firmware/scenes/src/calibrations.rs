@@ -6,8 +6,8 @@ use core::marker::PhantomData;
 use microimpact::Stiffness;
 use microimpact::contact::{Collocation, Method};
 use microimpact::measure::{
-    CalibrationError, Estimate, ImpulseRatios, MeasuredRebound, RestitutionFit, adhesion_damping, friction,
-    material_damping, parameter, ring_strength,
+    CalibrationError, Estimate, ImpulseRatios, MeasuredImpact, MeasuredRebound, NormalDistribution, RestitutionFit,
+    adhesion_damping, friction, material_damping, parameter, ring_strength,
 };
 
 use super::contacts::{Setting, elastic, surface_of};
@@ -149,41 +149,50 @@ impl<T: Number> Calibration<T> for AdhesionStrength<T> {
     }
 }
 
-/// k and W_A from speeds (m/s) and restitutions.
-pub struct RestitutionLaw<T>([MeasuredRebound<T>; REBOUNDS.len()]);
+/// k and W_A from approach and rebound speeds.
+pub struct RestitutionLaw<T>([MeasuredImpact<T>; IMPACTS.len()]);
 
-/// Rebounds with k = 130 m/s and W_A = 2.22e-12 J, read to three digits, two of them misread.
-const REBOUNDS: [(f64, f64); 12] = [
-    (2.1, 0.510),
-    (2.8, 0.747),
-    (3.5, 0.829),
-    (5.0, 0.894),
-    (6.0, 0.400),
-    (7.0, 0.914),
-    (9.0, 0.914),
-    (14.0, 0.894),
-    (20.0, 0.862),
-    (25.0, 0.990),
-    (30.0, 0.811),
-    (40.0, 0.763),
+/// Approach and rebound speeds, m/s, with k = 130 m/s and W_A = 2.22e-12 J, two of them misread. Zero is a capture.
+const IMPACTS: [(f64, f64); 16] = [
+    (1.4, 0.0),
+    (1.7, 0.0),
+    (2.1, 1.06),
+    (2.4, 1.56),
+    (2.8, 2.10),
+    (3.5, 2.91),
+    (5.0, 4.48),
+    (6.0, 2.40),
+    (7.0, 6.40),
+    (9.0, 8.23),
+    (11.0, 9.98),
+    (14.0, 12.52),
+    (17.0, 14.96),
+    (20.0, 17.25),
+    (25.0, 24.75),
+    (30.0, 24.31),
 ];
 
-impl<T: Number> Calibration<T> for RestitutionLaw<T> {
+/// Standard error of each speed, m/s.
+const SPEED_ERROR: f64 = 0.02;
+
+impl<T: Number + NormalDistribution> Calibration<T> for RestitutionLaw<T> {
     const NAME: &'static str = "calibrate/restitution-law";
-    type Answer = [T; 4];
+    type Answer = [T; 6];
 
     fn new() -> Option<Self> {
-        Some(Self(
-            REBOUNDS
-                .map(|(speed, restitution)| MeasuredRebound { speed: given(speed), restitution: given(restitution) }),
-        ))
+        let sphere = sphere().ok()?;
+        let speed = |value: f64| Estimate { value: given(value), standard_error: given(SPEED_ERROR) };
+        Some(Self(IMPACTS.map(|(approach, rebound)| {
+            let rebound = (rebound > 0.0).then(|| speed(rebound));
+            MeasuredImpact { sphere, approach: speed(approach), rebound }
+        })))
     }
 
     #[inline(always)]
-    fn calibrate(&self) -> Result<[T; 4], CalibrationError> {
-        let RestitutionFit { restitution_speed, work_of_adhesion, .. } = RestitutionFit::of(&sphere()?, &self.0)?;
-        let ([k, error_of_k], [work, error_of_work]) = (numbers(restitution_speed), numbers(work_of_adhesion));
-        Ok([k, error_of_k, work, error_of_work])
+    fn calibrate(&self) -> Result<[T; 6], CalibrationError> {
+        let fit = RestitutionFit::of(&self.0)?;
+        let (k, work) = (fit.restitution_speed, fit.work_of_adhesion);
+        Ok([k.value, k.low, k.high, work.value, work.low, work.high])
     }
 }
 
@@ -238,7 +247,9 @@ pub fn visit_calibrations(visitor: &mut impl CalibrationVisitor) {
     visit_calibrations_of::<f64, Collocation<9, f64>>(visitor);
 }
 
-fn visit_calibrations_of<T: Number, M: Tolerant + Method<T>>(visitor: &mut impl CalibrationVisitor) {
+fn visit_calibrations_of<T: Number + NormalDistribution, M: Tolerant + Method<T>>(
+    visitor: &mut impl CalibrationVisitor,
+) {
     visitor.visit::<T, OneRebound<T, M, MaterialDamping>>();
     visitor.visit::<T, OneRebound<T, M, AdhesionDamping>>();
     visitor.visit::<T, AdhesionStrength<T>>();

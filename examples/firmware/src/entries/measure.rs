@@ -4,8 +4,8 @@ use core::hint::black_box;
 
 use microimpact::contact::{Collocation, Contact, FixedCost, Method};
 use microimpact::measure::{
-    CalibrationError, ImpulseRatios, Location, MeasuredRebound, RestitutionFit, adhesion_damping, estimate, friction,
-    material_damping, parameter, ring_strength, rolling_motion,
+    CalibrationError, Estimate, ImpulseRatios, Location, MeasuredImpact, MeasuredRebound, RestitutionFit,
+    adhesion_damping, estimate, friction, material_damping, parameter, ring_strength, rolling_motion,
 };
 use microimpact::measure::{ClassProbabilities, NormalDistribution, Uncertain};
 use microimpact::{
@@ -45,11 +45,13 @@ fn one_impact<T: Real>(method: &impl Method<T>) -> Result<(), CalibrationError> 
     Ok(())
 }
 
-fn many<T: Real>() -> Result<(), CalibrationError> {
+fn many<T: NormalDistribution>() -> Result<(), CalibrationError> {
     let sphere = Sphere::solid(any(), any())?;
-    let rebounds = black_box([MeasuredRebound { speed: any::<T>(), restitution: any() }; 8]);
-    let fit = RestitutionFit::of(&sphere, &rebounds)?;
-    keep((fit.critical_speed(), fit.adhesion_coefficient(any())));
+    let speed = || Estimate { value: any::<T>(), standard_error: any() };
+    let impacts = black_box([MeasuredImpact { sphere, approach: speed(), rebound: Some(speed()) }; 8]);
+    let fit = RestitutionFit::of(&impacts)?;
+    keep(fit.work_of_adhesion.holds(any()));
+    keep(fit);
     let impacts = black_box([ImpulseRatios { measured: any::<T>(), rolling: any() }; 8]);
     keep(friction(&impacts));
     keep(Location::of(black_box(Parameter::Spin), black_box([any::<T>(); 8]).into_iter()));

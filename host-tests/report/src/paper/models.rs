@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use microimpact::contact::{ContactWorks, RingScene, Works};
-use microimpact::measure::{MeasuredRebound, RestitutionFit};
+use microimpact::measure::{Estimate, MeasuredImpact, RestitutionFit};
 use microimpact::{
     CriticalSpeed, InputError, NormalMotion, RigidBody, SpeedRestitution, rigid::WorkOfAdhesion as WorkTerm,
 };
@@ -76,9 +76,12 @@ impl Pair {
         let rebounds: Vec<_> = impacts
             .iter()
             .filter(|(speed, ..)| *speed <= reach)
-            .map(|(speed, e, _)| MeasuredRebound { speed: *speed, restitution: *e })
+            .map(|(speed, e, _)| {
+                let exact = |value| Estimate { value, standard_error: 0.0 };
+                MeasuredImpact { sphere, approach: exact(*speed), rebound: (*e > 0.0).then(|| exact(e * speed)) }
+            })
             .collect();
-        let fit = RestitutionFit::of(&sphere, &rebounds)?;
+        let fit = RestitutionFit::of(&rebounds)?;
         let rigid = RigidBody::new(sphere, SpeedRestitution::new(fit.restitution_speed.value)?)
             .with_work_of_adhesion(fit.work_of_adhesion.value)?;
         let row = |(speed, e, works): &(f64, f64, ContactWorks<f64>)| {
