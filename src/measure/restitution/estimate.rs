@@ -125,7 +125,9 @@ impl<T: Real + NormalDistribution> Cloud<'_, T> {
         if !numbers.iter().all(|number| number.is_finite()) {
             return Err(CalibrationError::Undetermined);
         }
-        let fits = self.has_no_trend(&curve, scatter, &information) && !self.is_contradicted(&curve, scatter);
+        let fits = !self.has_trend(&curve, scatter, &information)
+            && !self.has_like_neighbours(&curve, scatter)
+            && !self.is_contradicted(&curve, scatter);
         Ok(Fitted { curve, scatter, covariance, outliers: sums.outliers, fits })
     }
 
@@ -236,16 +238,32 @@ impl<T: Real + NormalDistribution> Cloud<'_, T> {
         Ok(())
     }
 
-    /// Whether polynomials over the logarithm of the speed, added to e^2, explain no more than chance.
-    fn has_no_trend(&self, curve: &Curve<T>, scatter: T, information: &Symmetric<T>) -> bool {
+    /// Whether the distances of rebounds at neighbouring speeds are alike, as those from a curve of another shape are: their products have
+    /// the mean zero by chance.
+    fn has_like_neighbours(&self, curve: &Curve<T>, scatter: T) -> bool {
+        let rebounds = || self.rows().filter(|row| row.rebound.is_some());
+        let psi = |row: &Row<T>| row.distance(curve, scatter).map(|distance| Influence::of(distance.deviates).psi);
+        let (mut sum, mut variance) = (T::ZERO, T::ZERO);
+        for row in rebounds() {
+            let next = rebounds().filter(|other| other.x > row.x).reduce(|a, b| if b.x < a.x { b } else { a });
+            if let Some((own, other)) = psi(&row).zip(next.as_ref().and_then(psi)) {
+                let product = own * other;
+                (sum, variance) = (sum + product, variance + product * product);
+            }
+        }
+        sum > T::constant(ALIKE) * variance.sqrt()
+    }
+
+    /// Whether polynomials over the logarithm of the speed, added to e^2, describe the rebounds better than chance explains.
+    fn has_trend(&self, curve: &Curve<T>, scatter: T, information: &Symmetric<T>) -> bool {
         let Some(inverse) = information.inverse() else {
-            return true;
+            return false;
         };
         let rebounds = || self.rows().filter(|row| row.rebound.is_some());
         let (low, high) = rebounds().fold((T::ONE, T::ZERO), |(low, high), row| (low.min(row.x), high.max(row.x)));
         let (low, width) = (low.ln(), (high / low).ln());
         if width <= T::ZERO {
-            return true;
+            return false;
         }
         // Chebyshev polynomials of the second and the third degree; those of lower degree are nearly c and b.
         let polynomials = |x: T| {
@@ -284,7 +302,7 @@ impl<T: Real + NormalDistribution> Cloud<'_, T> {
             variance.add(T::ONE, total);
             score = [score[0] + total[0], score[1] + total[1]];
         }
-        variance.inverse().is_none_or(|inverse| inverse.form(score) < T::constant(LARGEST_TREND))
+        variance.inverse().is_some_and(|inverse| inverse.form(score) > T::constant(LARGEST_TREND))
     }
 
     /// Whether more rows are on the wrong side of the critical speed than outliers explain.
@@ -306,6 +324,9 @@ const NEGLIGIBLE: f64 = 1e-3;
 /// Chi-squared of two degrees of freedom exceeds 13.8 in one of a thousand. The statistic does so more often, since few rows have most of
 /// the weight; it exceeds this number in one of a thousand of the sets of `cargo coverage`.
 const LARGEST_TREND: f64 = 16.0;
+
+/// A normal deviate exceeds this in one of three thousand.
+const ALIKE: f64 = 3.4;
 
 /// Rows on the wrong side that outliers explain: a few, or one in so many.
 const FEW: u32 = 2;

@@ -75,10 +75,10 @@ impl Pair {
         let impacts = spaced(SPEEDS[0], SPEEDS[1], points).map(simulate).collect::<Result<Vec<_>, InputError>>()?;
         let rebounds: Vec<_> = impacts
             .iter()
-            .filter(|(speed, ..)| *speed <= reach)
+            .filter(|(speed, e, _)| *speed <= reach && *e > 0.0)
             .map(|(speed, e, _)| {
                 let exact = |value| Estimate { value, standard_error: 0.0 };
-                MeasuredImpact { sphere, approach: exact(*speed), rebound: (*e > 0.0).then(|| exact(e * speed)) }
+                MeasuredImpact { sphere, approach: exact(*speed), rebound: Some(exact(e * speed)) }
             })
             .collect();
         let fit = RestitutionFit::of(&rebounds)?;
@@ -242,8 +242,7 @@ fn sizes(run: &Run) -> Outcome<[Part; 2]> {
         plot::log_log("Critical speed against diameter", "diameter, µm", "critical speed, m/s", &lines)?,
         "models-critical-speed",
         "Speed below which the surface captures, with the paper's constants, and by A34 with the k and W_A that fit the \
-         slow rebounds of each sphere. Where the fit, which is robust, takes the slowest for outliers, its critical speed \
-         jumps. Point: the paper's 5 m/s for 5 µm.",
+         slow rebounds of each sphere. Point: the paper's 5 m/s for 5 µm.",
         ["diameter, um", "critical speed by simulation, m/s", "by rigid body, m/s", "rebounds taken for outliers"],
         rows,
     );
