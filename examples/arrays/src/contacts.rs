@@ -1,0 +1,310 @@
+//! Rows by the contact simulation.
+
+use microimpact::contact::{
+    AnyLaw, AnyScene, Classified, Contact, ContactImpulses, ContactTimes, ContactWorks, Energy, ErrorControl, Impulses,
+    JkrEnd, Method, NormalContact, SimulatedImpact, Slip, SlipHistory, Status, Times, Works,
+};
+use microimpact::rigid::EnergyLedger;
+use microimpact::space::Departing;
+use microimpact::{
+    Class, ContactClass, CriticalSpeed, Fault, InputError, Outcome, Parameter, Sphere, Stiffness, SurfaceMotion,
+};
+use rayon::prelude::*;
+
+use crate::impacts::{Record, gather};
+use crate::motions::Arrival;
+use crate::{Column, Impacts, Motions, Quantity, RowStatus};
+
+/// Spheres and the physics of their contacts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contacts<'a> {
+    /// Radius, m.
+    pub radius: Column<'a>,
+    /// Density, kg/m^3.
+    pub density: Column<'a>,
+    /// Squared radius of gyration over the squared radius; 0.4 for a solid sphere.
+    pub gyration_ratio: Column<'a>,
+    /// Hertz stiffness K, Pa.
+    pub stiffness: Column<'a>,
+    /// Adhesion, and the end of contact.
+    pub law: Law<'a>,
+    /// Damping of the materials.
+    pub damping: Damping<'a>,
+    /// Constant external force, N, positive out of the surface.
+    pub external_force: Column<'a>,
+    /// What happens along the surface.
+    pub surface: Surface<'a>,
+}
+
+/// Adhesion, and where contact ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Law<'a> {
+    /// No adhesion.
+    Hertz,
+    /// No adhesion; contact ends where damping cancels the elastic force.
+    WithoutTension,
+    /// The paper's ring.
+    Ring {
+        /// Strength f0, N/m.
+        strength: Column<'a>,
+        /// Damping zeta_A on rebound.
+        damping: Column<'a>,
+    },
+    /// Derjaguin, Muller and Toporov.
+    Dmt {
+        /// Work of adhesion per area, J/m^2.
+        work: Column<'a>,
+    },
+    /// Johnson, Kendall and Roberts.
+    Jkr {
+        /// Work of adhesion per area, J/m^2.
+        work: Column<'a>,
+        /// Where contact ends.
+        end: JkrEnd,
+    },
+}
+
+/// Damping of the materials.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Damping<'a> {
+    /// None.
+    None,
+    /// Hysteretic, of strength zeta_H.
+    Hysteretic(Column<'a>),
+    /// Viscoelastic, by the relaxation time, s.
+    Viscoelastic(Column<'a>),
+    /// Constant, by the restitution that it leaves without adhesion.
+    Constant(Column<'a>),
+}
+
+/// What happens along the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Surface<'a> {
+    /// Coulomb's friction.
+    Coulomb {
+        /// Friction coefficient f.
+        friction: Column<'a>,
+    },
+    /// Friction, and a peeling moment. Only in a plane, and with the ring.
+    Peeling {
+        /// Friction coefficient f.
+        friction: Column<'a>,
+        /// Strength lambda, N m.
+        moment: Column<'a>,
+    },
+    /// Friction on a contact that sticks elastically. Only with Hertz's contact.
+    Compliant {
+        /// Friction coefficient f.
+        friction: Column<'a>,
+        /// Stiffness ratio chi.
+        stiffness_ratio: Column<'a>,
+    },
+}
+
+impl Default for Contacts<'_> {
+    /// Elastic solid spheres without friction. Radius, density and stiffness are NaN, which is refused: give them.
+    fn default() -> Self {
+        let missing = Column::All(f64::NAN);
+        Self {
+            radius: missing,
+            density: missing,
+            gyration_ratio: Column::All(0.4),
+            stiffness: missing,
+            law: Law::Hertz,
+            damping: Damping::None,
+            external_force: Column::All(0.0),
+            surface: Surface::Coulomb { friction: Column::All(0.0) },
+        }
+    }
+}
+
+/// What a simulation tells of a contact that it follows.
+type Followed =
+    ((ContactTimes<f64>, ContactImpulses<f64>, ContactWorks<f64>), (SlipHistory<f64>, Option<EnergyLedger<f64>>));
+
+/// Asks for it.
+const FOLLOWED: ((Times, Impulses, Works), (Slip, Energy)) = ((Times, Impulses, Works), (Slip, Energy));
+
+impl Contacts<'_> {
+    /// The sphere of a row.
+    fn sphere(&self, row: usize) -> Result<Sphere<f64>, InputError> {
+        Sphere::new(self.radius.at(row), self.density.at(row), self.gyration_ratio.at(row))
+    }
+
+    /// The law of contact of a row.
+    fn law(&self, row: usize) -> Result<AnyLaw<f64>, InputError> {
+        let stiffness = Stiffness::new(self.stiffness.at(row))?;
+        let law = match self.law {
+            Law::Hertz => AnyLaw::hertz(stiffness),
+            Law::WithoutTension => AnyLaw::without_tension(stiffness),
+            Law::Ring { strength, damping } => AnyLaw::ring(stiffness, strength.at(row), damping.at(row))?,
+            Law::Dmt { work } => AnyLaw::dmt(stiffness, work.at(row))?,
+            Law::Jkr { work, end } => AnyLaw::jkr(stiffness, work.at(row), end)?,
+        };
+        let law = match self.damping {
+            Damping::None => law,
+            Damping::Hysteretic(zeta) => law.with_damping(zeta.at(row))?,
+            Damping::Viscoelastic(time) => law.with_viscoelastic_damping(time.at(row))?,
+            Damping::Constant(restitution) => law.with_constant_damping(restitution.at(row))?,
+        };
+        let force = self.external_force.at(row);
+        // A force of zero is none, which the solver can tell.
+        if force == 0.0 { Ok(law) } else { law.with_external_force(force) }
+    }
+
+    /// The scene of a row, with its friction but without a peeling moment or compliance.
+    ///
+    /// # Errors
+    /// A number outside its range, or that does not go with the law.
+    pub fn scene(&self, row: usize) -> Result<AnyScene<f64>, InputError> {
+        let (Surface::Coulomb { friction } | Surface::Peeling { friction, .. } | Surface::Compliant { friction, .. }) =
+            self.surface;
+        Contact::new(self.sphere(row)?, self.law(row)?).with_friction(friction.at(row))
+    }
+
+    /// Simulates the impacts of `count` rows on all threads. The result of a row is that of a single call of the method.
+    pub fn simulate(
+        &self,
+        motions: &Motions<'_>,
+        count: usize,
+        method: &(impl Method<f64> + Sync),
+        quantities: &[Quantity],
+    ) -> Impacts {
+        let follow = quantities.iter().any(|quantity| quantity.is_followed());
+        gather(count, quantities, |row| self.row(motions, row, method, follow))
+    }
+
+    fn row(
+        &self,
+        motions: &Motions<'_>,
+        row: usize,
+        method: &impl Method<f64>,
+        follow: bool,
+    ) -> Result<Record, InputError> {
+        let scene = self.scene(row)?;
+        let arrival = motions.arrival(scene.sphere(), row)?;
+        let before = &arrival.motion;
+        match self.surface {
+            Surface::Coulomb { .. } if !follow => Ok(record(&arrival, &scene.solve(before, method)?, None)),
+            Surface::Coulomb { .. } => {
+                let (impact, followed) = scene.solve_for(before, method, FOLLOWED)?;
+                Ok(record(&arrival, &impact, Some(&followed)))
+            }
+            Surface::Peeling { moment, .. } => {
+                let moment = moment.at(row);
+                if motions.are_in_space() && moment != 0.0 {
+                    let (parameter, fault) = (Parameter::PeelingMoment, Fault::OtherLaw);
+                    return Err(InputError { parameter, fault, value: moment as f32 });
+                }
+                let (impact, followed) = scene.with_peeling(moment)?.solve_for(before, method, FOLLOWED)?;
+                Ok(record(&arrival, &impact, Some(&followed)))
+            }
+            Surface::Compliant { stiffness_ratio, .. } => {
+                let scene = scene.with_compliance(stiffness_ratio.at(row))?;
+                let (impact, followed) = scene.solve_for(before, method, FOLLOWED)?;
+                let mut record = record(&arrival, &impact, Some(&followed));
+                if is_decided(&impact.normal) {
+                    record.put(Quantity::ImpulseRatioOut, impact.tangential.impulse_ratio());
+                    record.put(Quantity::Phases, f64::from(impact.tangential.phases()));
+                    // It slips and sticks several times.
+                    record.put(Quantity::TimeRoll, f64::NAN);
+                }
+                Ok(record)
+            }
+        }
+    }
+
+    /// The critical speed of each of `count` rows, to the tolerance of the method.
+    pub fn critical_speeds(
+        &self,
+        count: usize,
+        method: &(impl ErrorControl<f64> + Sync),
+    ) -> Vec<Result<CriticalSpeed<f64>, InputError>> {
+        (0..count).into_par_iter().map(|row| self.scene(row)?.critical_speed(method)).collect()
+    }
+}
+
+fn is_decided(normal: &NormalContact<f64>) -> bool {
+    matches!(normal.outcome(), Some(Outcome::Rebound | Outcome::Capture))
+}
+
+/// The velocities along the surface that all scenes have.
+trait Along: Classified<f64, Contact = ContactClass<f64>> {
+    fn velocity_and_spin(&self) -> (f64, f64);
+}
+
+impl Along for microimpact::contact::TangentialVelocities<f64> {
+    fn velocity_and_spin(&self) -> (f64, f64) {
+        (self.velocity(), self.spin())
+    }
+}
+
+impl Along for microimpact::contact::CompliantVelocities<f64> {
+    fn velocity_and_spin(&self) -> (f64, f64) {
+        (self.velocity(), self.spin())
+    }
+}
+
+/// The result of a row.
+fn record<V: Along>(arrival: &Arrival, impact: &SimulatedImpact<f64, V>, followed: Option<&Followed>) -> Record
+where
+    SimulatedImpact<f64, V>: Departing<f64>,
+{
+    match impact.run.status {
+        Status::Solved => {}
+        Status::BudgetSpent => return Record::without(RowStatus::NotConverged),
+        Status::Unsupported => return Record::without(RowStatus::Unsupported),
+    }
+    let (normal, along) = (&impact.normal, impact.tangential.contact());
+    let Some(outcome) = normal.outcome() else {
+        return Record::without(RowStatus::NotConverged);
+    };
+    let motion = arrival.motion_after(along.motion);
+    let mut record = Record::of(Class::of(outcome, motion));
+    record.put_some(Quantity::MaxIndentation, normal.peak_indentation());
+    if let Some(((times, ..), _)) = followed {
+        record.put_some(Quantity::TimePeak, times.peak);
+    }
+    if outcome == Outcome::Undecided {
+        return record;
+    }
+    let (velocity, spin) = impact.tangential.velocity_and_spin();
+    record.put(Quantity::OverallRestitution, normal.overall_restitution());
+    record.put(Quantity::ReboundSpeed, normal.rebound_speed());
+    record.put(Quantity::SpeedTangentialOut, velocity);
+    record.put(Quantity::SpinOut, spin);
+    record.put_some(Quantity::FrictionOverLimit, along.friction_over_limit);
+    record.put_departure(arrival, impact);
+    if let Some(followed) = followed {
+        put_followed(&mut record, outcome, motion, normal, followed);
+    }
+    record
+}
+
+/// What the simulation tells of a contact that it followed to separation, or to the turning point of a captured sphere. A sphere
+/// that creeps to rest has none.
+fn put_followed(
+    record: &mut Record,
+    outcome: Outcome,
+    motion: SurfaceMotion,
+    normal: &NormalContact<f64>,
+    ((times, impulses, works), (slip, ledger)): &Followed,
+) {
+    record.put_some(Quantity::TurningIndentation, normal.turning_indentation());
+    record.put_some(Quantity::ContactTime, times.contact);
+    record.put_some(Quantity::TimeRoll, slip.rolls_from.filter(|_| motion != SurfaceMotion::Sliding));
+    if outcome == Outcome::Rebound || normal.turning_indentation().is_some() {
+        record.put(Quantity::ImpulseHertz, impulses.elastic);
+        record.put(Quantity::ImpulseAdhesionRebound, impulses.adhesion_rebound);
+        record.put(Quantity::WorkMaterial, works.material);
+        record.put(Quantity::WorkAdhesion, works.adhesion);
+        record.put(Quantity::Rotation, slip.rotation);
+        record.put(Quantity::DisplacementTangential, slip.displacement);
+    }
+    if let Some(ledger) = ledger {
+        record.put(Quantity::WorkFriction, ledger.friction);
+        record.put(Quantity::WorkRolling, ledger.rolling);
+        record.put(Quantity::EnergyBefore, ledger.before);
+        record.put(Quantity::EnergyAfter, ledger.after);
+    }
+}
