@@ -7,7 +7,7 @@ use microimpact::contact::{
 use microimpact::rigid::EnergyLedger;
 use microimpact::space::Departing;
 use microimpact::{
-    Class, ContactClass, CriticalSpeed, Fault, InputError, Outcome, Parameter, Sphere, Stiffness, SurfaceMotion,
+    Class, ContactClass, CriticalSpeed, InputError, Outcome, Parameter, Sphere, Stiffness, SurfaceMotion,
 };
 use rayon::prelude::*;
 
@@ -172,9 +172,14 @@ impl Contacts<'_> {
     /// # Errors
     /// A number outside its range, or that does not go with the law.
     pub fn scene(&self, row: usize) -> Result<AnyScene<f64>, InputError> {
+        self.scene_of(self.sphere(row)?, row)
+    }
+
+    /// The same scene of another sphere.
+    fn scene_of(&self, sphere: Sphere<f64>, row: usize) -> Result<AnyScene<f64>, InputError> {
         let (Surface::Coulomb { friction } | Surface::Peeling { friction, .. } | Surface::Compliant { friction, .. }) =
             self.surface;
-        Contact::new(self.sphere(row)?, self.law(row)?).with_friction(friction.at(row))
+        Contact::new(sphere, self.law(row)?).with_friction(friction.at(row))
     }
 
     /// Simulates the impacts of `count` rows on all threads. The result of a row is that of a single call of the method.
@@ -196,8 +201,9 @@ impl Contacts<'_> {
         method: &impl Method<f64>,
         follow: bool,
     ) -> Result<Record, InputError> {
-        let scene = self.scene(row)?;
-        let arrival = motions.arrival(scene.sphere(), row)?;
+        let arrival = motions.arrival(self.sphere(row)?, row)?;
+        arrival.check_on_one_body(self.external_force.at(row))?;
+        let scene = self.scene_of(arrival.sphere, row)?;
         let before = &arrival.motion;
         match self.surface {
             Surface::Coulomb { friction } if !follow => {
@@ -213,10 +219,7 @@ impl Contacts<'_> {
             }
             Surface::Peeling { moment, .. } => {
                 let moment = moment.at(row);
-                if motions.are_in_space() && moment != 0.0 {
-                    let (parameter, fault) = (Parameter::PeelingMoment, Fault::OtherLaw);
-                    return Err(InputError { parameter, fault, value: moment as f32 });
-                }
+                arrival.check_about_one_axis(Parameter::PeelingMoment, moment)?;
                 let (impact, followed) = scene.with_peeling(moment)?.solve_for(before, method, FOLLOWED)?;
                 Ok(record(&arrival, &impact, Some(&followed)))
             }

@@ -1,6 +1,6 @@
 //! Results of rows.
 
-use microimpact::space::{Departing, SpatialMotion};
+use microimpact::space::Departing;
 use microimpact::{Class, InputError};
 use rayon::prelude::*;
 
@@ -72,25 +72,34 @@ impl Record {
         self.put(quantity, number.unwrap_or(f64::NAN));
     }
 
-    /// The motion in space after an impact, if it takes place in space.
+    /// The motions in space after an impact, if it takes place there.
     pub(crate) fn put_departure(&mut self, arrival: &Arrival, impact: &impl Departing<f64>) {
-        let after: Option<SpatialMotion<f64>> =
-            arrival.incidence.as_ref().and_then(|incidence| incidence.after(impact));
-        if let Some(after) = after {
-            let ([vx, vy, vz], [wx, wy, wz]) = (after.velocity(), after.spin());
-            for (quantity, number) in [
-                (Quantity::VelocityOutX, vx),
-                (Quantity::VelocityOutY, vy),
-                (Quantity::VelocityOutZ, vz),
-                (Quantity::SpinOutX, wx),
-                (Quantity::SpinOutY, wy),
-                (Quantity::SpinOutZ, wz),
-            ] {
-                self.put(quantity, number);
-            }
+        for (after, quantities) in arrival.after(impact).into_iter().zip(DEPARTURES) {
+            let numbers = after.velocity().into_iter().chain(after.spin());
+            quantities.into_iter().zip(numbers).for_each(|(quantity, number)| self.put(quantity, number));
         }
     }
 }
+
+/// Velocity and spin of one sphere, and of the second of two.
+const DEPARTURES: [[Quantity; 6]; 2] = [
+    [
+        Quantity::VelocityOutX,
+        Quantity::VelocityOutY,
+        Quantity::VelocityOutZ,
+        Quantity::SpinOutX,
+        Quantity::SpinOutY,
+        Quantity::SpinOutZ,
+    ],
+    [
+        Quantity::Velocity2OutX,
+        Quantity::Velocity2OutY,
+        Quantity::Velocity2OutZ,
+        Quantity::Spin2OutX,
+        Quantity::Spin2OutY,
+        Quantity::Spin2OutZ,
+    ],
+];
 
 /// Rows that a thread takes at a time: enough that the rows cost more than the change.
 const ROWS: usize = 256;

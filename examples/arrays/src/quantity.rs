@@ -65,6 +65,18 @@ quantities! {
     SpinOutY: "spin_out_y", false;
     /// Component z.
     SpinOutZ: "spin_out_z", false;
+    /// Velocity of the second of two spheres after the impact, m/s, component x.
+    Velocity2OutX: "velocity_2_out_x", false;
+    /// Component y.
+    Velocity2OutY: "velocity_2_out_y", false;
+    /// Component z.
+    Velocity2OutZ: "velocity_2_out_z", false;
+    /// Spin of the second of two spheres after the impact, rad/s, component x.
+    Spin2OutX: "spin_2_out_x", false;
+    /// Component y.
+    Spin2OutY: "spin_2_out_y", false;
+    /// Component z.
+    Spin2OutZ: "spin_2_out_z", false;
     /// Indentation at which a captured sphere first turns back, m. Simulation.
     TurningIndentation: "turning_indentation", true;
     /// Time from first contact to the peak, s. Simulation.

@@ -4,7 +4,7 @@ use microimpact::rigid::{
     ElasticPlasticRestitution, PowerRestitution, ReboundAdhesion, RollingDissipation, SpeedRestitution,
 };
 use microimpact::{
-    Class, ConstantRestitution, CriticalSpeed, Fault, InputError, Parameter, RestitutionLaw, RigidBody, Sphere,
+    Class, ConstantRestitution, CriticalSpeed, InputError, Parameter, RestitutionLaw, RigidBody, Sphere,
 };
 use rayon::prelude::*;
 
@@ -123,8 +123,8 @@ type Body<A> = RigidBody<f64, AnyRestitution, A, RollingDissipation<f64>>;
 
 /// Computes the same with each adhesion, which is part of the type of a rigid body.
 macro_rules! with_adhesion {
-    ($self:expr, $row:expr, $body:ident => $result:expr) => {{
-        let body = RigidBody::new($self.sphere($row)?, $self.restitution.at($row)?);
+    ($self:expr, $sphere:expr, $row:expr, $body:ident => $result:expr) => {{
+        let body = RigidBody::new($sphere, $self.restitution.at($row)?);
         match $self.adhesion {
             Adhesion::Coefficient(rho) => {
                 let $body = $self.with_surface(body.with_adhesion_coefficient(rho.at($row))?, $row)?;
@@ -155,24 +155,21 @@ impl RigidBodies<'_> {
     /// Classifies the impacts of `count` rows on all threads. The result of a row is that of a single call.
     pub fn classify(&self, motions: &Motions<'_>, count: usize, quantities: &[Quantity]) -> Impacts {
         gather(count, quantities, |row| {
-            let arm = self.rolling_arm.at(row);
-            if motions.are_in_space() && arm != 0.0 {
-                let (parameter, fault) = (Parameter::RollingArm, Fault::OtherLaw);
-                return Err(InputError { parameter, fault, value: arm as f32 });
-            }
-            with_adhesion!(self, row, body => record(&body, &motions.arrival(body.sphere(), row)?))
+            let arrival = motions.arrival(self.sphere(row)?, row)?;
+            arrival.check_about_one_axis(Parameter::RollingArm, self.rolling_arm.at(row))?;
+            with_adhesion!(self, arrival.sphere, row, body => Ok(record(&body, &arrival)))
         })
     }
 
     /// The critical speed of each of `count` rows.
     pub fn critical_speeds(&self, count: usize) -> Vec<Result<CriticalSpeed<f64>, InputError>> {
-        let of = |row: usize| with_adhesion!(self, row, body => Ok(body.critical_speed()));
+        let of = |row: usize| with_adhesion!(self, self.sphere(row)?, row, body => Ok(body.critical_speed()));
         (0..count).into_par_iter().map(of).collect()
     }
 }
 
 /// The result of a row.
-fn record<A: ReboundAdhesion<f64>>(body: &Body<A>, arrival: &Arrival) -> Result<Record, InputError> {
+fn record<A: ReboundAdhesion<f64>>(body: &Body<A>, arrival: &Arrival) -> Record {
     let impact = body.impact(&arrival.motion);
     let (normal, tangential) = (&impact.normal, &impact.tangential);
     let classification = body.classify_impact(&impact);
@@ -193,5 +190,5 @@ fn record<A: ReboundAdhesion<f64>>(body: &Body<A>, arrival: &Arrival) -> Result<
     record.put(Quantity::EnergyBefore, ledger.before);
     record.put(Quantity::EnergyAfter, ledger.after);
     record.put_departure(arrival, &impact);
-    Ok(record)
+    record
 }

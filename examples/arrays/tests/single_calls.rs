@@ -4,7 +4,7 @@ use impact_arrays::{
     Adhesion, Column, Contacts, Damping, Law, Motions, Quantity, Restitution, RigidBodies, RowStatus, Surface,
 };
 use microimpact::contact::{Adaptive, Contact, FixedCost, JkrEnd, Slip, Times};
-use microimpact::space::{SpatialMotion, Wall};
+use microimpact::space::{Pair, SpatialMotion, Wall};
 use microimpact::{
     Class, CriticalSpeed, InputError, NormalMotion, Outcome, Parameter, RigidBody, SpeedRestitution, Sphere, Stiffness,
 };
@@ -171,6 +171,51 @@ fn motions_in_space_agree_with_a_wall() -> Result<(), InputError> {
             );
         }
     }
+    Ok(())
+}
+
+#[test]
+fn two_spheres_agree_with_a_pair() -> Result<(), InputError> {
+    let (radius, speed) = (column(3e-6, 2e-5), column(0.5, 50.0));
+    let contacts = Contacts { law: Law::Dmt { work: Column::All(0.4) }, ..spheres(&radius) };
+    let all = |vector: [f64; 3]| vector.map(Column::All);
+    let (normal, spins) = ([0.0, 0.6, 0.8], [[1e4, 2e4, -3e4], [0.0, 1e5, 0.0]]);
+    let motions = Motions::Pair {
+        velocities: [all([2.0, -1.0, -1.0]), [Column::All(0.5), Column::All(0.0), Column::Each(&speed)]],
+        spins: spins.map(all),
+        normal: all(normal),
+        radius: Column::All(8e-6),
+        density: Column::All(1000.0),
+        gyration_ratio: Column::All(0.4),
+    };
+    let quantities = [
+        Quantity::VelocityOutX,
+        Quantity::SpinOutZ,
+        Quantity::Velocity2OutX,
+        Quantity::Velocity2OutZ,
+        Quantity::Spin2OutY,
+    ];
+    let method = Adaptive::new(TOLERANCE)?;
+    let impacts = contacts.simulate(&motions, ROWS, &method, &quantities);
+    for row in 0..ROWS {
+        let pair = Pair::new(Sphere::solid(radius[row], 2600.0)?, Sphere::solid(8e-6, 1000.0)?);
+        let first = SpatialMotion::new([2.0, -1.0, -1.0], spins[0])?;
+        let before = pair.incidence(normal, [&first, &SpatialMotion::new([0.5, 0.0, speed[row]], spins[1])?])?;
+        let scene = Contact::hertz(pair.reduced(), Stiffness::new(7.5e10)?)
+            .with_damping(10.5)?
+            .with_dmt(0.4)?
+            .with_friction(0.1)?;
+        let [first, second] = before.after(&scene.solve(&before, &method)?).unwrap();
+        let expected =
+            [first.velocity()[0], first.spin()[2], second.velocity()[0], second.velocity()[2], second.spin()[1]];
+        for ((quantity, numbers), expected) in impacts.quantities.iter().zip(expected) {
+            let close = (numbers[row] - expected).abs() <= 1e-9 * expected.abs();
+            assert!(close, "row {row}, {}: {} {expected}", quantity.name(), numbers[row]);
+        }
+    }
+    let pulled = Contacts { external_force: Column::All(1e-9), ..contacts };
+    let refused = pulled.simulate(&motions, 1, &method, &[]).status[0];
+    assert!(matches!(refused, RowStatus::Refused(error) if error.parameter == Parameter::ExternalForce), "{refused:?}");
     Ok(())
 }
 

@@ -61,6 +61,8 @@ def test_errors_name_the_argument():
         mi.Scene(radius=1e-6, density=1e3, contact=SCENE.contact, tolerance=1).simulate(1.0)
     with pytest.raises(TypeError, match="radius: 'large' is refused"):
         mi.Scene(radius="large", density=1e3, contact=SCENE.contact).simulate(1.0)
+    with pytest.raises(TypeError, match="contact: 75000000000.0 is refused"):
+        mi.Scene(radius=1e-6, density=1e3, contact=7.5e10)
     with pytest.raises(ValueError, match="radius: missing"):
         mi.Scene(density=1e3, contact=SCENE.contact).simulate(1.0)
     with pytest.raises(ValueError, match="outputs: \"lifetime\" is refused"):

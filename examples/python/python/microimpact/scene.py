@@ -67,6 +67,8 @@ class Scene:
     """Tolerance of e^2 and of all outputs, 1e-13 to 1e-2."""
 
     def __post_init__(self) -> None:
+        if not isinstance(self.contact, Contact):
+            raise TypeError(f"contact: {self.contact!r} is refused: give Hertz, Ring, Dmt or Jkr")
         if self.peeling is not None and self.stiffness_ratio is not None:
             raise ValueError("peeling: it is not known with a stiffness_ratio; leave one of them out")
 
