@@ -61,8 +61,18 @@ impl Columns<'_> {
         Ok([component("x")?, component("y")?, component("z")?])
     }
 
-    /// The motions before the impact: in space if there is a velocity, else in a plane.
+    /// The motions before the impact: of two spheres if there is a second velocity, in space if there is one, else in a plane.
     pub(crate) fn motions(&self) -> PyResult<Motions<'_>> {
+        if self.has("velocity_2_x") {
+            return Ok(Motions::Pair {
+                velocities: [self.vector("velocity")?, self.vector("velocity_2")?],
+                spins: [self.vector("spin")?, self.vector("spin_2")?],
+                normal: self.vector("normal")?,
+                radius: self.required("radius_2")?,
+                density: self.required("density_2")?,
+                gyration_ratio: self.required("gyration_ratio_2")?,
+            });
+        }
         if self.has("velocity_x") {
             return Ok(Motions::Wall {
                 velocity: self.vector("velocity")?,

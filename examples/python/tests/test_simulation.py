@@ -183,3 +183,30 @@ def test_tables_agree_with_the_simulation():
     assert known.mean() > 0.7
     assert (np.abs(reading.overall_restitution - impacts.overall_restitution) <= reading.error + 1e-9)[known].all()
     assert boundary.classify(1e-9, 1.0) == mi.TableOutcome.OUTSIDE_TABLE
+
+
+def test_two_spheres_keep_their_momenta():
+    rng = np.random.default_rng(3)
+    count, radius, second = 200, 10 ** rng.uniform(-6, -5, 200), 10 ** rng.uniform(-6, -5, 200)
+    velocity, spin = rng.normal(size=(2, count, 3)) * 5, rng.normal(size=(2, count, 3)) * 1e5
+    normal = rng.normal(size=(count, 3))
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    # The first sphere approaches along the normal, which points to it.
+    closing = ((velocity[0] - velocity[1]) * normal).sum(axis=1)
+    velocity[0] -= (np.maximum(closing, 0) + 1)[:, None] * normal
+    scene = mi.Scene(radius=radius, density=2600, contact=mi.Hertz(stiffness=7e10, zeta_h=5), friction=0.2)
+    after = scene.collide(velocity[0], spin[0], velocity_2=velocity[1], spin_2=spin[1], normal=normal, radius_2=second, density_2=1000)
+    masses = np.array([2600 * radius**3, 1000 * second**3])[:, :, None]
+    velocities, spins = np.array([after.velocity_out, after.velocity_2_out]), np.array([after.spin_out, after.spin_2_out])
+    momentum = (masses * (velocities - velocity)).sum(axis=0)
+    assert np.abs(momentum / (masses[0] * np.abs(velocity).max(axis=(0, 2))[:, None])).max() < 1e-9
+    # The angular momentum about the contact point of each sphere: r x p of its centre, and that of its spin.
+    arms = np.array([radius[:, None] * normal, -second[:, None] * normal])
+    inertias = 0.4 * masses * np.array([radius, second])[:, :, None] ** 2
+    angular = np.cross(arms, masses * (velocities - velocity)) + inertias * (spins - spin)
+    assert np.abs(angular).max(axis=2).max() < 1e-9 * (masses * np.abs(arms).max() * 50).max()
+    energy = [(masses * v**2 + inertias * w**2).sum(axis=(0, 2)) for v, w in ((velocity, spin), (velocities, spins))]
+    assert (energy[1] < energy[0]).all()
+    relative = ((velocities[0] - velocities[1]) * normal).sum(axis=1)
+    approach = ((velocity[1] - velocity[0]) * normal).sum(axis=1)
+    assert np.abs(relative / approach - after.overall_restitution).max() < 1e-9

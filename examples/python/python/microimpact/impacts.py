@@ -70,8 +70,13 @@ OUTCOMES = np.array([0, 0, 1, 1, 1, 2, -1], dtype=np.int8)
 PLANAR = ("overall_restitution", "rebound_speed", "speed_tangential_out", "spin_out", "friction_over_limit")
 """What is computed without being asked for."""
 
-IN_SPACE = tuple(f"{vector}_{axis}" for vector in ("velocity_out", "spin_out") for axis in "xyz")
-"""What is computed of impacts in space."""
+VECTORS = ("velocity_out", "spin_out", "velocity_2_out", "spin_2_out")
+"""What is computed of impacts in space: motions of the sphere, and of the second of two."""
+
+BOTH = ("overall_restitution", "rebound_speed", "friction_over_limit")
+AT_WALL = (*BOTH, *(f"{vector}_{axis}" for vector in VECTORS[:2] for axis in "xyz"))
+OF_TWO = (*BOTH, *(f"{vector}_{axis}" for vector in VECTORS for axis in "xyz"))
+"""What is computed without being asked for in space."""
 
 
 class Impacts:
@@ -100,6 +105,10 @@ class Impacts:
     """Spin after the impact, rad/s; vectors for impacts in space."""
     velocity_out: Float
     """Velocity after an impact in space, m/s: vectors."""
+    velocity_2_out: Float
+    """Velocity of the second of two spheres after a collision, m/s: vectors."""
+    spin_2_out: Float
+    """Spin of the second of two spheres after a collision, rad/s: vectors."""
 
     def __init__(self, results: _Results, shape: tuple[int, ...], errors: str) -> None:
         (status, parameter, failure), classes, numbers = results
@@ -108,7 +117,7 @@ class Impacts:
         self.impact_class = classes.reshape(shape)
         self._parameter = parameter.reshape(shape)
         self.quantities = {name: array.reshape(shape) for name, array in numbers.items()}
-        for name in ("velocity_out", "spin_out"):
+        for name in VECTORS:
             parts = [self.quantities.pop(f"{name}_{axis}", None) for axis in "xyz"]
             if all(part is not None for part in parts):
                 self.quantities[name] = np.stack([part for part in parts if part is not None], axis=-1)

@@ -11,9 +11,9 @@ import numpy.typing as npt
 from . import _native
 from .arrays import Float, one_number, rows
 from .distributions import Distributed
-from .impacts import IN_SPACE, PLANAR, Class, Impacts, outputs_of, shaped
+from .impacts import AT_WALL, OF_TWO, PLANAR, Class, Impacts, outputs_of, shaped
 from .laws import Contact
-from .motions import AT_REST, UPRIGHT, in_plane, in_space
+from .motions import AT_REST, UPRIGHT, Numbers, at_wall, in_plane, of_two
 from .population import Population
 from .tables import BoundaryTable, RestitutionTable
 from .trajectory import Trajectory
@@ -72,7 +72,7 @@ class Scene:
         if self.peeling is not None and self.stiffness_ratio is not None:
             raise ValueError("peeling: it is not known with a stiffness_ratio; leave one of them out")
 
-    def _numbers(self) -> dict[str, npt.ArrayLike | None]:
+    def _numbers(self) -> Numbers:
         return {
             "radius": self.radius,
             "density": self.density,
@@ -83,7 +83,7 @@ class Scene:
             **self.contact.numbers(),
         }
 
-    def _with_radius(self) -> dict[str, npt.ArrayLike | None]:
+    def _with_radius(self) -> Numbers:
         if self.radius is None:
             raise ValueError("radius: missing; give the radius of the spheres in m")
         return self._numbers()
@@ -94,7 +94,7 @@ class Scene:
         return {name: one_number(name, value) for name, value in numbers.items() if value is not None}
 
     def _simulated(
-        self, motions: dict[str, npt.ArrayLike | None], basic: tuple[str, ...], outputs: str | Sequence[str], errors: str
+        self, motions: Numbers, basic: tuple[str, ...], outputs: str | Sequence[str], errors: str
     ) -> Impacts:
         compliant = COMPLIANT if self.stiffness_ratio is not None else ()
         names = outputs_of(outputs if isinstance(outputs, str) else list(outputs), basic, SIMULATED + compliant)
@@ -135,9 +135,32 @@ class Scene:
         Arguments are vectors: their last axis has three components. `velocity` and `wall_velocity` in m/s, `spin` in rad/s;
         `normal` has length one and points from the wall to the sphere. The result has `velocity_out` and `spin_out` as vectors.
         """
-        basic = ("overall_restitution", "rebound_speed", "friction_over_limit", *IN_SPACE)
-        motions = in_space(self._numbers(), velocity, spin, normal, wall_velocity)
-        return self._simulated(motions, basic, outputs, errors)
+        motions = at_wall(self._numbers(), velocity, spin, normal, wall_velocity)
+        return self._simulated(motions, AT_WALL, outputs, errors)
+
+    def collide(
+        self,
+        velocity: npt.ArrayLike,
+        spin: npt.ArrayLike = AT_REST,
+        *,
+        velocity_2: npt.ArrayLike = AT_REST,
+        spin_2: npt.ArrayLike = AT_REST,
+        normal: npt.ArrayLike = UPRIGHT,
+        radius_2: npt.ArrayLike | None = None,
+        density_2: npt.ArrayLike | None = None,
+        gyration_ratio_2: npt.ArrayLike = 0.4,
+        outputs: str | Sequence[str] = (),
+        errors: str = "raise",
+    ) -> Impacts:
+        """Simulates collisions of two spheres in space, of which the second is like the first where nothing else is said.
+
+        Velocities in m/s and spins in rad/s are vectors: their last axis has three components. `normal` has length one and points
+        from the second sphere to the first. The result has `velocity_out` and `spin_out` of the first sphere, `velocity_2_out` and
+        `spin_2_out` of the second. A captured sphere stays in contact with the other.
+        """
+        both, spins = (velocity, velocity_2), (spin, spin_2)
+        motions = of_two(self._with_radius(), both, spins, normal, radius_2, density_2, gyration_ratio_2)
+        return self._simulated(motions, OF_TWO, outputs, errors)
 
     def classify(
         self,
