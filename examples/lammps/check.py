@@ -19,8 +19,8 @@ HERE = Path(__file__).parent
 RANKS = (1, 2)
 
 ACCURACY = {"callback": 1e-7, "plugin": 1e-5}
-"""Largest error of e^2, and of tangential velocities and spins times the radius over the speed. The tolerance of e^2 is 1e-9 in Python; the plugin
-computes in single precision, with 1e-6."""
+"""Largest error of e^2, and of tangential velocities and spins times the radius over the speed. The tolerance of e^2 is 1e-9
+in Python; the plugin computes in single precision, with 1e-6."""
 
 NEAR = {"callback": 0.0, "plugin": 1e-4}
 """Distance of the margins from one within which single precision may find another class."""
@@ -30,15 +30,18 @@ LEAST = 25
 
 
 def run(wall, ranks, folder):
-    """The hits of a run, in the order of their tags."""
+    """The hits of a run in the order of their tags, and their number by class, which the plugin sums over the ranks."""
     command = ["mpiexec", "-n", str(ranks), sys.executable, HERE / "case.py", wall, folder]
-    subprocess.run(command, check=True, timeout=300)
+    printed = subprocess.run(command, check=True, timeout=300, stdout=subprocess.PIPE, text=True).stdout
     hits = np.concatenate([np.fromfile(file).reshape(-1, RECORD) for file in sorted(Path(folder).glob("hits.*"))])
     busy = sum(file.stat().st_size > 0 for file in Path(folder).glob("hits.*"))
     assert busy == ranks, f"{wall}: {busy} of {ranks} ranks have hits"
     hits = hits[np.argsort(hits[:, 0])]
     assert (hits[:, 0] == np.arange(1, SPHERES + 1)).all(), f"{wall}: {len(hits)} hits of {SPHERES} spheres"
-    return hits
+    counts = np.bincount(hits[:, 8].astype(int), minlength=len(mi.CLASSES) + 1)
+    if wall == "plugin":
+        assert printed.split()[-len(counts) :] == [str(count) for count in counts], f"{wall}: the fix counts {printed}"
+    return hits, counts
 
 
 def over_critical():
@@ -72,8 +75,10 @@ def check_hits(wall, hits, margin):
     compared = found == expected.impact_class
     largest = errors[compared].max()
     assert largest < ACCURACY[wall], f"{wall}: the motions after the impact differ by {largest:.1e}"
-    print(f"{wall}: {compared.sum()} hits agree with the library to {largest:.0e}; of {near.sum()} near a boundary,",
-          f"{(found != expected.impact_class).sum()} have the class beyond it")
+    print(
+        f"{wall}: {compared.sum()} hits agree with the library to {largest:.0e}; of {near.sum()} near a boundary,",
+        f"{(found != expected.impact_class).sum()} have the class beyond it",
+    )
 
 
 def check_captures(wall, hits):
@@ -87,8 +92,10 @@ def check_captures(wall, hits):
             continue
         error = np.sqrt(expected * (1 - expected) / count)
         off = (captured[inside].mean() - expected) / error
-        print(f"{wall}: {1e6 * low:5.2f} to {1e6 * high:5.2f} µm: {captured[inside].mean():.4f} captured of {count},",
-              f"population {expected:.4f}, {off:+.1f} standard errors")
+        print(
+            f"{wall}: {1e6 * low:5.2f} to {1e6 * high:5.2f} µm: {captured[inside].mean():.4f} captured of {count},",
+            f"population {expected:.4f}, {off:+.1f} standard errors",
+        )
         assert abs(off) < 3, f"{wall}: the capture efficiency is {off:.1f} standard errors off"
 
 
@@ -98,8 +105,7 @@ def main():
         counts = {}
         for ranks in RANKS:
             with tempfile.TemporaryDirectory() as folder:
-                hits = run(wall, ranks, folder)
-            counts[ranks] = np.bincount(hits[:, 8].astype(int), minlength=len(mi.CLASSES) + 1)
+                hits, counts[ranks] = run(wall, ranks, folder)
             check_hits(wall, hits, margin)
         assert (counts[1] == counts[2]).all(), f"{wall}: {counts[1]} on one rank, {counts[2]} on two"
         check_captures(wall, hits)

@@ -1,8 +1,9 @@
 /* A LAMMPS fix: the surface z = 0, which spheres hit as microimpact simulates it.
 
-   fix ID group microimpact/wall stiffness K adhesion f0 zeta_h H zeta_a A friction f [record FILE]
+   fix ID group microimpact/wall stiffness K [adhesion f0] [zeta_a A] [dmt G] [jkr G] [zeta_h H] [friction f] [record FILE]
 
-   Numbers in SI units, so `units si`. A sphere of the group whose edge has passed the surface, and that moves towards it, gets the
+   Numbers in SI units, so `units si`. What is not given is absent; of the ring (adhesion f0 in N/m), dmt and jkr (works of adhesion
+   in J/m^2) at most one may be given. A sphere of the group whose edge has passed the surface, and that moves towards it, gets the
    velocity and the spin after the impact, on the surface. A captured sphere keeps no normal velocity. An impact that is undecided, or that the
    simulation does not solve, holds the sphere too. Vector of the fix: numbers of hits so far of each class, in the order of
    MicroimpactClass, and of those without a result. With `record`, each rank writes its hits to FILE.RANK after each run: per hit
@@ -44,7 +45,7 @@ class FixWall : public Fix {
       }
       float *number = named(arg[i]);
       if (!number)
-        error->all(FLERR, "fix microimpact/wall: there is no {}; give stiffness, adhesion, zeta_h, zeta_a, friction or record",
+        error->all(FLERR, "fix microimpact/wall: there is no {}; give stiffness, adhesion, zeta_a, dmt, jkr, zeta_h, friction or record",
                    arg[i]);
       *number = static_cast<float>(utils::numeric(FLERR, arg[i + 1], false, lmp));
     }
@@ -86,6 +87,8 @@ class FixWall : public Fix {
   float *named(const char *name) {
     if (strcmp(name, "stiffness") == 0) return &material.stiffness;
     if (strcmp(name, "adhesion") == 0) return &material.adhesion_strength;
+    if (strcmp(name, "dmt") == 0) return &material.dmt_work;
+    if (strcmp(name, "jkr") == 0) return &material.jkr_work;
     if (strcmp(name, "zeta_h") == 0) return &material.material_damping;
     if (strcmp(name, "zeta_a") == 0) return &material.adhesion_damping;
     if (strcmp(name, "friction") == 0) return &material.friction;

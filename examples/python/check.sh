@@ -10,6 +10,9 @@ source "$environment/bin/activate"
 
 pip install --quiet --disable-pip-version-check "./examples/python[test,sweeps]"
 pytest examples/python
+for command in "check" "format --check"; do
+    ruff $command --quiet --no-cache --config examples/python/pyproject.toml examples/python examples/lammps
+done
 
 captures=$(python examples/python/sweeps/dask_sweep.py)
 echo "dask, two processes: $captures"

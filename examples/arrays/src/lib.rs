@@ -35,6 +35,7 @@ mod impacts;
 mod motions;
 mod quantity;
 mod rigid_bodies;
+mod simulate;
 
 pub use column::Column;
 pub use contacts::{Contacts, Damping, Law, Surface};

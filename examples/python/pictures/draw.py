@@ -3,16 +3,15 @@
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("svg")
-# The same file from the same numbers.
-matplotlib.rcParams.update({"svg.hashsalt": "microimpact", "svg.fonttype": "none", "figure.figsize": (4.8, 3.2)})
-
 import matplotlib.pyplot as pyplot
 import numpy as np
 
 import microimpact as mi
 from microimpact import plot
+
+matplotlib.use("svg")
+# The same file from the same numbers.
+matplotlib.rcParams.update({"svg.hashsalt": "microimpact", "svg.fonttype": "none", "figure.figsize": (4.8, 3.2)})
 
 GLASS_ON_STEEL = mi.Ring(stiffness=7.5e10, adhesion=250, zeta_h=10.5, zeta_a=6.25)
 

@@ -65,7 +65,7 @@ def test_errors_name_the_argument():
         mi.Scene(radius=1e-6, density=1e3, contact=7.5e10)
     with pytest.raises(ValueError, match="radius: missing"):
         mi.Scene(density=1e3, contact=SCENE.contact).simulate(1.0)
-    with pytest.raises(ValueError, match="outputs: \"lifetime\" is refused"):
+    with pytest.raises(ValueError, match='outputs: "lifetime" is refused'):
         SCENE.simulate(1.0, outputs=["lifetime"])
     with pytest.raises(ValueError, match="velocity: the shape"):
         SCENE.strike([1.0, 2.0])
@@ -94,7 +94,7 @@ def test_statuses_on_request():
 def test_quantities_that_were_not_asked_for():
     impacts = SCENE.simulate(2.8)
     with pytest.raises(AttributeError, match=r'give outputs=\["contact_time"\]'):
-        impacts.contact_time
+        _ = impacts.contact_time
     assert not hasattr(impacts, "colour")
 
 

@@ -65,7 +65,9 @@ def test_examples_of_the_readme_run(tmp_path, monkeypatch):
 
 
 def test_pictures():
-    scene = mi.Scene(radius=5.06e-6, density=2600, contact=mi.Ring(stiffness=7.5e10, adhesion=250, zeta_a=6.25, zeta_h=10.5))
+    scene = mi.Scene(
+        radius=5.06e-6, density=2600, contact=mi.Ring(stiffness=7.5e10, adhesion=250, zeta_a=6.25, zeta_h=10.5)
+    )
     speeds = np.geomspace(0.5, 50, 30)
     line = microimpact.plot.restitution(scene, speeds).lines[0]
     assert (line.get_ydata() == scene.simulate(speeds).overall_restitution).all()

@@ -22,7 +22,9 @@ def test_the_papers_scenes(table):
     contact = mi.Ring(
         stiffness=cases["stiffness_pa"], adhesion=cases["adhesion_n_m"], zeta_h=cases["zeta_h"], zeta_a=cases["zeta_a"]
     )
-    scene = mi.Scene(radius=cases["radius_m"], density=cases["density_kg_m3"], contact=contact, friction=cases["friction"])
+    scene = mi.Scene(
+        radius=cases["radius_m"], density=cases["density_kg_m3"], contact=contact, friction=cases["friction"]
+    )
     motion = (cases["speed_normal_m_s"], cases["speed_tangential_m_s"], cases["spin_rad_s"])
     impacts = scene.simulate(*motion, outputs="all")
     captured = impacts.outcome == mi.Outcome.CAPTURE
@@ -69,10 +71,17 @@ LAWS = {
 
 
 def of_row(row):
-    damping = {} if row["damping"] in ("none", "") else {"damping": row["damping"], "damping_value": float(row["damping_value"])}
+    damping = (
+        {}
+        if row["damping"] in ("none", "")
+        else {"damping": row["damping"], "damping_value": float(row["damping_value"])}
+    )
     if row["law"] == "ring":
         contact = mi.Ring(
-            stiffness=float(row["stiffness_pa"]), adhesion=float(row["adhesion_n_m"]), zeta_a=float(row["zeta_a"] or 0), **damping
+            stiffness=float(row["stiffness_pa"]),
+            adhesion=float(row["adhesion_n_m"]),
+            zeta_a=float(row["zeta_a"] or 0),
+            **damping,
         )
     else:
         work = float(row["work_of_adhesion_j_m2"] or 0)
@@ -119,7 +128,10 @@ def test_tangential_compliance(table):
     speed = np.abs(cases["speed_tangential_m_s"]) + cases["speed_normal_m_s"]
     assert (np.abs(impacts.speed_tangential_out - cases["speed_tangential_out_m_s"]) < 1e-7 * speed).all()
     assert (impacts.phases == cases["phases"]).mean() > 0.9
-    spatial = scene.strike(np.stack([motion[1], 0 * motion[1], -motion[0]], axis=-1), np.stack([0 * motion[2], motion[2], 0 * motion[2]], -1))
+    spatial = scene.strike(
+        np.stack([motion[1], 0 * motion[1], -motion[0]], axis=-1),
+        np.stack([0 * motion[2], motion[2], 0 * motion[2]], -1),
+    )
     assert np.abs(spatial.velocity_out[:, 0] - impacts.speed_tangential_out).max() < 1e-9 * speed.max()
 
 
@@ -195,9 +207,14 @@ def test_two_spheres_keep_their_momenta():
     closing = ((velocity[0] - velocity[1]) * normal).sum(axis=1)
     velocity[0] -= (np.maximum(closing, 0) + 1)[:, None] * normal
     scene = mi.Scene(radius=radius, density=2600, contact=mi.Hertz(stiffness=7e10, zeta_h=5), friction=0.2)
-    after = scene.collide(velocity[0], spin[0], velocity_2=velocity[1], spin_2=spin[1], normal=normal, radius_2=second, density_2=1000)
+    after = scene.collide(
+        velocity[0], spin[0], velocity_2=velocity[1], spin_2=spin[1], normal=normal, radius_2=second, density_2=1000
+    )
     masses = np.array([2600 * radius**3, 1000 * second**3])[:, :, None]
-    velocities, spins = np.array([after.velocity_out, after.velocity_2_out]), np.array([after.spin_out, after.spin_2_out])
+    velocities, spins = (
+        np.array([after.velocity_out, after.velocity_2_out]),
+        np.array([after.spin_out, after.spin_2_out]),
+    )
     momentum = (masses * (velocities - velocity)).sum(axis=0)
     assert np.abs(momentum / (masses[0] * np.abs(velocity).max(axis=(0, 2))[:, None])).max() < 1e-9
     # The angular momentum about the contact point of each sphere: r x p of its centre, and that of its spin.

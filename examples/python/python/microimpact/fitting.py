@@ -128,7 +128,11 @@ def fit(
         rebound, rebound_error = rebound * speed, rebound_error * speed
     _require("speed_normal", (speed > 0.0) & np.isfinite(speed), speed, "an approach speed must be positive, in m/s")
     _require("rebound_speed", np.isfinite(rebound), rebound, "it must be a number")
-    errors = {"speed_normal_error": speed_error, "rebound_speed_error": rebound_error, "mass_relative_error": mass_error}
+    errors = {
+        "speed_normal_error": speed_error,
+        "rebound_speed_error": rebound_error,
+        "mass_relative_error": mass_error,
+    }
     for name, values in errors.items():
         _require(name, (values >= 0.0) & np.isfinite(values), values, "a standard error must be zero or positive")
     if mass is not None:
@@ -150,14 +154,20 @@ def _fit(answer: dict[str, Any], data: tuple[Float, Float]) -> Fit:
     candidates = [Candidate(*candidate) for candidate in answer.get("candidates", [])]
     reason = answer.get("reason", "")
     if law is None and not reason:
-        best = f"the best, {candidates[0].law}, has p = {candidates[0].p_value:.1e}" if candidates else "no curve comes near the data"
+        best = (
+            f"the best, {candidates[0].law}, has p = {candidates[0].p_value:.1e}"
+            if candidates
+            else "no curve comes near the data"
+        )
         reason = f"no law fits: {best}"
     return Fit(
         law=law,
         fits=None if "reason" in answer else law is not None,
         reason=reason,
         p_value=answer.get("p_value"),
-        quantities={name: Quantity(value, low, high, unit) for name, unit, value, low, high in answer.get("quantities", [])},
+        quantities={
+            name: Quantity(value, low, high, unit) for name, unit, value, low, high in answer.get("quantities", [])
+        },
         candidates=candidates,
         indistinguishable_laws=answer.get("indistinguishable_laws", []),
         natural_scatter=answer.get("natural_scatter"),

@@ -149,7 +149,9 @@ class Impacts:
         counts = ((name, int((self.impact_class == code).sum())) for code, name in enumerate(CLASSES))
         words = ", ".join(f"{count} {name}" for name, count in counts if count)
         failed = int((self.status != Status.SOLVED).sum())
-        return f"<Impacts {self.status.shape}: {words or 'no result'}{f', {failed} without a result' if failed else ''}>"
+        return (
+            f"<Impacts {self.status.shape}: {words or 'no result'}{f', {failed} without a result' if failed else ''}>"
+        )
 
 
 def check(errors: str, failure: tuple[int, str] | None, shape: tuple[int, ...]) -> None:
@@ -170,7 +172,9 @@ def shaped(found: tuple[_Statuses, Float], shape: tuple[int, ...], errors: str) 
     return speeds.reshape(shape)
 
 
-def outputs_of(asked: str | list[str] | tuple[str, ...], basic: tuple[str, ...], all_names: tuple[str, ...]) -> list[str]:
+def outputs_of(
+    asked: str | list[str] | tuple[str, ...], basic: tuple[str, ...], all_names: tuple[str, ...]
+) -> list[str]:
     """The names of the quantities: the basic ones, and those asked for."""
     if isinstance(asked, str):
         if asked != "all":

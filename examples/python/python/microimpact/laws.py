@@ -38,7 +38,7 @@ class Contact:
         if self.damping is not None and self.zeta_h is not None:
             raise ValueError("damping: given twice, as zeta_h and damping; give one of them")
         if self.damping in (None, "none") and self.damping_value is not None:
-            raise ValueError("damping_value: there is no damping of that value; name it, as damping=\"viscoelastic\"")
+            raise ValueError('damping_value: there is no damping of that value; name it, as damping="viscoelastic"')
         if self.damping not in (None, "none") and self.damping_value is None:
             raise ValueError(f"damping_value: missing; {self.damping} damping needs it")
         if self._end_rule() not in self.end_rules:

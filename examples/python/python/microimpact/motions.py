@@ -54,5 +54,7 @@ def of_two(
 def _in_space(scene: Numbers, vectors: dict[str, npt.ArrayLike]) -> Numbers:
     for name in ABOUT_ONE_AXIS:
         if scene.get(name) is not None:
-            raise ValueError(f"{name}: it acts against a spin about one axis, and its effect in space is not known; leave it out")
+            raise ValueError(
+                f"{name}: it acts against a spin about one axis, and its effect in space is not known; leave it out"
+            )
     return {name: part for vector, value in vectors.items() for name, part in components(vector, value).items()}
