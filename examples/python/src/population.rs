@@ -44,6 +44,22 @@ impl Shape<'_> {
     }
 }
 
+/// Largest angle of incidence, degrees.
+const LARGEST_ANGLE: f64 = 89.9;
+
+/// Angles of incidence, rad; of a normal distribution, what lies beyond the largest is left out.
+fn angles(distribution: Distribution) -> PyResult<Distribution> {
+    let largest = LARGEST_ANGLE.to_radians();
+    if distribution.lone_values().iter().any(|angle| !(0.0..=largest).contains(angle)) {
+        let message = format!("angle_deg: an angle of incidence must be 0 to {LARGEST_ANGLE} degrees from the normal");
+        return Err(PyValueError::new_err(message));
+    }
+    if !distribution.is_continuous() {
+        return Ok(distribution);
+    }
+    distribution.within(0.0, largest).map_err(|error| PyValueError::new_err(format!("angle_deg: {error}")))
+}
+
 /// What is asked of a population: number of ranges of diameters or their edges, m, and speeds, m/s.
 pub(crate) type Questions = (usize, Vec<f64>, Vec<f64>);
 
@@ -51,7 +67,7 @@ fn population((diameter, speed, angle, adhesion): &Shapes<'_>, own: Column<'_>) 
     Ok(Population {
         diameter: diameter.distribution("diameter", false)?,
         speed: speed.distribution("speed", false)?,
-        angle: angle.distribution("angle_deg", true)?,
+        angle: angles(angle.distribution("angle_deg", true)?)?,
         adhesion: match adhesion {
             Some(shape) => shape.distribution("adhesion", false)?,
             None => Shape::Numbers("fixed".into(), own.at(0), 0.0).distribution("adhesion", true)?,

@@ -40,9 +40,10 @@ pub(crate) fn keyword(parameter: Parameter) -> &'static str {
     }
 }
 
-/// What is wrong, after the name of the argument.
+/// What is wrong, after the name of the argument if there is one.
 pub(crate) fn message(error: InputError) -> String {
-    format!("{}: {error}", keyword(error.parameter))
+    let (keyword, name) = (keyword(error.parameter), error.parameter.name());
+    if keyword == name { error.to_string() } else { format!("{keyword}: {error}") }
 }
 
 /// The exception for an error of an input.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from .arrays import Float, number_array
+from .arrays import Float, number_array, one_number
 
 
 @dataclass(frozen=True)
@@ -42,12 +42,13 @@ Shape = tuple[str, float, float] | Float
 def shape(name: str, distributed: Distributed, factor: float = 1.0) -> Shape:
     """The distribution in another unit, for Rust."""
     if isinstance(distributed, LogNormal):
-        return ("log-normal", factor * distributed.median, distributed.geometric_deviation)
+        median = one_number(name, distributed.median)
+        return ("log-normal", factor * median, one_number(name, distributed.geometric_deviation))
     if isinstance(distributed, Normal):
-        return ("normal", factor * distributed.mean, factor * distributed.deviation)
+        mean, deviation = (one_number(name, number) for number in (distributed.mean, distributed.deviation))
+        return ("normal", factor * mean, factor * deviation)
     if isinstance(distributed, Samples):
         return np.ascontiguousarray(factor * number_array(name, distributed.values).reshape(-1))
-    try:
-        return ("fixed", factor * float(distributed), 0.0)
-    except (TypeError, ValueError) as error:
-        raise TypeError(f"{name}: give a number, LogNormal, Normal or Samples") from error
+    if not np.isscalar(distributed) and np.ndim(distributed):
+        raise TypeError(f"{name}: an array is refused: give a number, LogNormal, Normal or Samples")
+    return ("fixed", factor * one_number(name, distributed), 0.0)

@@ -10,10 +10,7 @@ import numpy as np
 
 from . import distributions, plot
 from .arrays import Float
-from .distributions import Distributed, LogNormal, Normal, Samples
-
-LARGEST_ANGLE = 89.9
-"""Largest angle of incidence, degrees."""
+from .distributions import Distributed, LogNormal
 
 
 class Estimate(NamedTuple):
@@ -105,6 +102,8 @@ class Population:
             None if adhesion is None else distributions.shape("adhesion", adhesion),
         )
         answer = compute(shapes, (bins, edge, fast))
+        if not all(np.isfinite(number) for _, estimate in answer["by_number"] for number in estimate):
+            raise ValueError("population: the quadrature does not resolve these distributions; give narrower ones")
 
         def estimates(numbers: Any) -> tuple[Estimate, Estimate, Estimate]:
             mean, variance, skewness = (Estimate(*number) for number in numbers)
@@ -131,13 +130,7 @@ class Population:
 
 
 def _angle(angle: Distributed) -> distributions.Shape:
-    """An angle of incidence, in radians."""
+    """An angle of incidence, in radians. It may be zero, so that a log-normal one is none."""
     if isinstance(angle, LogNormal):
         raise TypeError("angle_deg: a log-normal angle is refused: give a number, Normal or Samples")
-    if isinstance(angle, Samples):
-        values = np.asarray(angle.values, dtype=np.float64)
-    else:
-        values = np.array([angle.mean if isinstance(angle, Normal) else angle], dtype=np.float64)
-    if not ((values >= 0.0) & (values <= LARGEST_ANGLE)).all():
-        raise ValueError(f"angle_deg: an angle of incidence must be 0 to {LARGEST_ANGLE} degrees from the normal")
     return distributions.shape("angle_deg", angle, np.pi / 180.0)

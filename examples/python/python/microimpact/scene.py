@@ -203,18 +203,15 @@ class Scene:
 
     def boundary_table(self, smallest_radius: float = 1e-6, cells: int = 24) -> BoundaryTable:
         """A table of critical speeds for this material, from a radius (m) on; four cells an octave, 1 to 128."""
-        return BoundaryTable(
-            _native.BoundaryTable(self.contact.words(), self._material(), smallest_radius, cells, self.tolerance)
-        )
+        smallest, material = one_number("smallest_radius", smallest_radius), self._material()
+        return BoundaryTable(_native.BoundaryTable(self.contact.words(), material, smallest, cells, self.tolerance))
 
     def restitution_table(self, smallest_radius: float = 1e-6, speed_ratio: float = 10.0) -> RestitutionTable:
         """A table of restitution for this material, over two octaves of radii from the smallest (m), and up to `speed_ratio`
         (1.1 to 1e4) times the critical speed."""
-        return RestitutionTable(
-            _native.RestitutionTable(
-                self.contact.words(), self._material(), smallest_radius, speed_ratio, self.tolerance
-            )
-        )
+        smallest, ratio = one_number("smallest_radius", smallest_radius), one_number("speed_ratio", speed_ratio)
+        words, material = self.contact.words(), self._material()
+        return RestitutionTable(_native.RestitutionTable(words, material, smallest, ratio, self.tolerance))
 
     def population(
         self,
@@ -231,7 +228,8 @@ class Scene:
 
         `diameter` in m; `speed` along the path in m/s; `angle_deg` between the path and the normal, in degrees; `adhesion` takes
         the place of the number of adhesion that the law has. Capture efficiency is that in `bins` ranges of diameters, or between
-        the `edges` (m); the bounce fraction that at each of the `speeds` (m/s). Spheres do not spin before the impact.
+        the `edges` (m); the bounce fraction that at each of the `speeds` (m/s). Angles end at 89.9 degrees. Spheres do not spin before
+        the impact.
         """
         for name in ("peeling", "stiffness_ratio"):
             if self._numbers()[name] is not None:
