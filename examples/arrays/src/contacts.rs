@@ -1,0 +1,152 @@
+//! Scenes of the contact simulation: spheres, laws of contact, and what happens along the surface.
+
+use microimpact::contact::{AnyLaw, AnyScene, Contact, JkrEnd};
+use microimpact::{InputError, Sphere, Stiffness};
+
+use crate::Column;
+
+/// Spheres and the physics of their contacts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contacts<'a> {
+    /// Radius, m.
+    pub radius: Column<'a>,
+    /// Density, kg/m^3.
+    pub density: Column<'a>,
+    /// Squared radius of gyration over the squared radius; 0.4 for a solid sphere.
+    pub gyration_ratio: Column<'a>,
+    /// Hertz stiffness K, Pa.
+    pub stiffness: Column<'a>,
+    /// Adhesion, and the end of contact.
+    pub law: Law<'a>,
+    /// Damping of the materials.
+    pub damping: Damping<'a>,
+    /// Constant external force, N, positive out of the surface.
+    pub external_force: Column<'a>,
+    /// What happens along the surface.
+    pub surface: Surface<'a>,
+}
+
+/// Adhesion, and where contact ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Law<'a> {
+    /// No adhesion.
+    Hertz,
+    /// No adhesion; contact ends where damping cancels the elastic force.
+    WithoutTension,
+    /// The paper's ring.
+    Ring {
+        /// Strength f0, N/m.
+        strength: Column<'a>,
+        /// Damping zeta_A on rebound.
+        damping: Column<'a>,
+    },
+    /// Derjaguin, Muller and Toporov.
+    Dmt {
+        /// Work of adhesion per area, J/m^2.
+        work: Column<'a>,
+    },
+    /// Johnson, Kendall and Roberts.
+    Jkr {
+        /// Work of adhesion per area, J/m^2.
+        work: Column<'a>,
+        /// Where contact ends.
+        end: JkrEnd,
+    },
+}
+
+/// Damping of the materials.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Damping<'a> {
+    /// None.
+    None,
+    /// Hysteretic, of strength zeta_H.
+    Hysteretic(Column<'a>),
+    /// Viscoelastic, by the relaxation time, s.
+    Viscoelastic(Column<'a>),
+    /// Constant, by the restitution that it leaves without adhesion.
+    Constant(Column<'a>),
+}
+
+/// What happens along the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Surface<'a> {
+    /// Coulomb's friction.
+    Coulomb {
+        /// Friction coefficient f.
+        friction: Column<'a>,
+    },
+    /// Friction, and a peeling moment. Only in a plane, and with the ring.
+    Peeling {
+        /// Friction coefficient f.
+        friction: Column<'a>,
+        /// Strength lambda, N m.
+        moment: Column<'a>,
+    },
+    /// Friction on a contact that sticks elastically. Only with Hertz's contact.
+    Compliant {
+        /// Friction coefficient f.
+        friction: Column<'a>,
+        /// Stiffness ratio chi.
+        stiffness_ratio: Column<'a>,
+    },
+}
+
+impl Default for Contacts<'_> {
+    /// Elastic solid spheres without friction. Radius, density and stiffness are NaN, which is refused: give them.
+    fn default() -> Self {
+        let missing = Column::All(f64::NAN);
+        Self {
+            radius: missing,
+            density: missing,
+            gyration_ratio: Column::All(0.4),
+            stiffness: missing,
+            law: Law::Hertz,
+            damping: Damping::None,
+            external_force: Column::All(0.0),
+            surface: Surface::Coulomb { friction: Column::All(0.0) },
+        }
+    }
+}
+
+impl Contacts<'_> {
+    /// The sphere of a row.
+    pub(crate) fn sphere(&self, row: usize) -> Result<Sphere<f64>, InputError> {
+        Sphere::new(self.radius.at(row), self.density.at(row), self.gyration_ratio.at(row))
+    }
+
+    /// The law of contact of a row.
+    fn law(&self, row: usize) -> Result<AnyLaw<f64>, InputError> {
+        let stiffness = Stiffness::new(self.stiffness.at(row))?;
+        let law = match self.law {
+            Law::Hertz => AnyLaw::hertz(stiffness),
+            Law::WithoutTension => AnyLaw::without_tension(stiffness),
+            Law::Ring { strength, damping } => AnyLaw::ring(stiffness, strength.at(row), damping.at(row))?,
+            Law::Dmt { work } => AnyLaw::dmt(stiffness, work.at(row))?,
+            Law::Jkr { work, end } => AnyLaw::jkr(stiffness, work.at(row), end)?,
+        };
+        let law = match self.damping {
+            Damping::None => law,
+            Damping::Hysteretic(zeta) => law.with_damping(zeta.at(row))?,
+            Damping::Viscoelastic(time) => law.with_viscoelastic_damping(time.at(row))?,
+            Damping::Constant(restitution) => law.with_constant_damping(restitution.at(row))?,
+        };
+        let force = self.external_force.at(row);
+        // A force of zero is none, which the solver can tell.
+        if force == 0.0 { Ok(law) } else { law.with_external_force(force) }
+    }
+
+    /// The scene of a row, with its friction but without a peeling moment or compliance.
+    ///
+    /// # Errors
+    /// A number outside its range, or that does not go with the law.
+    pub fn scene(&self, row: usize) -> Result<AnyScene<f64>, InputError> {
+        self.scene_of(self.sphere(row)?, row)
+    }
+
+    /// The same scene of another sphere.
+    pub(crate) fn scene_of(&self, sphere: Sphere<f64>, row: usize) -> Result<AnyScene<f64>, InputError> {
+        let (Surface::Coulomb { friction } | Surface::Peeling { friction, .. } | Surface::Compliant { friction, .. }) =
+            self.surface;
+        Contact::new(sphere, self.law(row)?).with_friction(friction.at(row))
+    }
+}

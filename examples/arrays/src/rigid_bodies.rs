@@ -1,0 +1,194 @@
+//! Rows by the rigid-body model.
+
+use microimpact::rigid::{
+    ElasticPlasticRestitution, PowerRestitution, ReboundAdhesion, RollingDissipation, SpeedRestitution,
+};
+use microimpact::{
+    Class, ConstantRestitution, CriticalSpeed, InputError, Parameter, RestitutionLaw, RigidBody, Sphere,
+};
+use rayon::prelude::*;
+
+use crate::impacts::{Record, gather};
+use crate::motions::Arrival;
+use crate::{Column, Impacts, Motions, Quantity};
+
+/// Spheres and the physics of their impacts as rigid bodies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidBodies<'a> {
+    /// Radius, m.
+    pub radius: Column<'a>,
+    /// Density, kg/m^3.
+    pub density: Column<'a>,
+    /// Squared radius of gyration over the squared radius; 0.4 for a solid sphere.
+    pub gyration_ratio: Column<'a>,
+    /// Restitution without adhesion.
+    pub restitution: Restitution<'a>,
+    /// Adhesion.
+    pub adhesion: Adhesion<'a>,
+    /// Friction coefficient f.
+    pub friction: Column<'a>,
+    /// Rolling-dissipation coefficient times its moment arm, m. Only in a plane.
+    pub rolling_arm: Column<'a>,
+}
+
+/// Restitution R without adhesion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Restitution<'a> {
+    /// The same at every speed.
+    Constant(Column<'a>),
+    /// R = k^p/(k^p + v^p); with p = 1 the law of the paper.
+    Power {
+        /// Speed k, m/s.
+        speed: Column<'a>,
+        /// Power p.
+        power: Column<'a>,
+    },
+    /// That of an elastic-plastic sphere (Thornton 1997), by the speed of first yield, m/s.
+    ElasticPlastic(Column<'a>),
+}
+
+/// Adhesion of a rigid body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Adhesion<'a> {
+    /// Coefficient rho; zero for none.
+    Coefficient(Column<'a>),
+    /// Work W_A, J.
+    Work(Column<'a>),
+    /// A coefficient rho = l^q/(l^q + v^q).
+    Speed {
+        /// Speed l, m/s.
+        speed: Column<'a>,
+        /// Power q.
+        power: Column<'a>,
+    },
+}
+
+/// A restitution law that is chosen at run time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AnyRestitution {
+    /// The same at every speed.
+    Constant(ConstantRestitution<f64>),
+    /// R = k/(k + v).
+    Speed(SpeedRestitution<f64>),
+    /// R = k^p/(k^p + v^p).
+    Power(PowerRestitution<f64>),
+    /// That of an elastic-plastic sphere.
+    ElasticPlastic(ElasticPlasticRestitution<f64>),
+}
+
+impl RestitutionLaw<f64> for AnyRestitution {
+    fn restitution(&self, speed: f64) -> f64 {
+        match self {
+            Self::Constant(law) => law.restitution(speed),
+            Self::Speed(law) => law.restitution(speed),
+            Self::Power(law) => law.restitution(speed),
+            Self::ElasticPlastic(law) => law.restitution(speed),
+        }
+    }
+
+    fn approach_speed(&self, body_rebound: f64) -> Option<f64> {
+        match self {
+            Self::Constant(law) => law.approach_speed(body_rebound),
+            Self::Speed(law) => law.approach_speed(body_rebound),
+            Self::Power(law) => law.approach_speed(body_rebound),
+            Self::ElasticPlastic(law) => law.approach_speed(body_rebound),
+        }
+    }
+}
+
+impl Restitution<'_> {
+    /// The law of a row.
+    ///
+    /// # Errors
+    /// A number outside its range.
+    pub fn at(&self, row: usize) -> Result<AnyRestitution, InputError> {
+        match self {
+            Self::Constant(restitution) => ConstantRestitution::new(restitution.at(row)).map(AnyRestitution::Constant),
+            // The law of the paper needs no powers.
+            Self::Power { speed, power } if power.at(row) == 1.0 => {
+                SpeedRestitution::new(speed.at(row)).map(AnyRestitution::Speed)
+            }
+            Self::Power { speed, power } => {
+                PowerRestitution::new(speed.at(row), power.at(row)).map(AnyRestitution::Power)
+            }
+            Self::ElasticPlastic(speed) => {
+                ElasticPlasticRestitution::new(speed.at(row)).map(AnyRestitution::ElasticPlastic)
+            }
+        }
+    }
+}
+
+/// A rigid body with its adhesion.
+type Body<A> = RigidBody<f64, AnyRestitution, A, RollingDissipation<f64>>;
+
+/// Computes the same with each adhesion, which is part of the type of a rigid body.
+macro_rules! with_adhesion {
+    ($self:expr, $sphere:expr, $row:expr, $body:ident => $result:expr) => {{
+        let body = RigidBody::new($sphere, $self.restitution.at($row)?);
+        match $self.adhesion {
+            Adhesion::Coefficient(rho) => {
+                let $body = $self.with_surface(body.with_adhesion_coefficient(rho.at($row))?, $row)?;
+                $result
+            }
+            Adhesion::Work(work) => {
+                let $body = $self.with_surface(body.with_work_of_adhesion(work.at($row))?, $row)?;
+                $result
+            }
+            Adhesion::Speed { speed, power } => {
+                let $body = $self.with_surface(body.with_adhesion_at_speed(speed.at($row), power.at($row))?, $row)?;
+                $result
+            }
+        }
+    }};
+}
+
+impl RigidBodies<'_> {
+    /// The sphere of a row.
+    fn sphere(&self, row: usize) -> Result<Sphere<f64>, InputError> {
+        Sphere::new(self.radius.at(row), self.density.at(row), self.gyration_ratio.at(row))
+    }
+
+    fn with_surface<A>(&self, body: RigidBody<f64, AnyRestitution, A>, row: usize) -> Result<Body<A>, InputError> {
+        body.with_friction(self.friction.at(row))?.with_rolling_dissipation(self.rolling_arm.at(row))
+    }
+
+    /// Classifies the impacts of `count` rows on all threads. The result of a row is that of a single call.
+    pub fn classify(&self, motions: &Motions<'_>, count: usize, quantities: &[Quantity]) -> Impacts {
+        gather(count, quantities, |row| {
+            let arrival = motions.arrival(self.sphere(row)?, row)?;
+            arrival.check_about_one_axis(Parameter::RollingArm, self.rolling_arm.at(row))?;
+            with_adhesion!(self, arrival.sphere, row, body => Ok(record(&body, &arrival)))
+        })
+    }
+
+    /// The critical speed of each of `count` rows.
+    pub fn critical_speeds(&self, count: usize) -> Vec<Result<CriticalSpeed<f64>, InputError>> {
+        let of = |row: usize| with_adhesion!(self, self.sphere(row)?, row, body => Ok(body.critical_speed()));
+        (0..count).into_par_iter().map(of).collect()
+    }
+}
+
+/// The result of a row.
+fn record<A: ReboundAdhesion<f64>>(body: &Body<A>, arrival: &Arrival) -> Record {
+    let impact = body.impact(&arrival.motion);
+    let (normal, tangential) = (&impact.normal, &impact.tangential);
+    let classification = body.classify_impact(&impact);
+    let motion = arrival.motion_after(classification.contact.motion);
+    let ledger = impact.energy(body.sphere());
+    let mut record = Record::of(Class::of(classification.outcome, motion));
+    record.put(Quantity::OverallRestitution, normal.overall_restitution());
+    record.put(Quantity::ReboundSpeed, normal.rebound_speed());
+    record.put(Quantity::SpeedTangentialOut, tangential.velocity());
+    record.put(Quantity::SpinOut, tangential.spin(body.sphere()));
+    record.put_some(Quantity::FrictionOverLimit, classification.contact.friction_over_limit);
+    record.put(Quantity::ImpulseRatioOut, tangential.impulse_ratio());
+    record.put(Quantity::RollingRatio, tangential.rolling_ratio());
+    record.put(Quantity::WorkMaterial, ledger.material);
+    record.put(Quantity::WorkAdhesion, ledger.adhesion);
+    record.put(Quantity::WorkFriction, ledger.friction);
+    record.put(Quantity::WorkRolling, ledger.rolling);
+    record.put(Quantity::EnergyBefore, ledger.before);
+    record.put(Quantity::EnergyAfter, ledger.after);
+    record.put_departure(arrival, &impact);
+    record
+}

@@ -1,0 +1,57 @@
+"""What is computed in Rust; the other modules of the package call it."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+__version__: str
+PARAMETERS: list[str]
+QUANTITIES: list[str]
+
+_Float = npt.NDArray[np.float64]
+_Numbers = Mapping[str, float | _Float]
+_Words = tuple[str, str, str]
+_Statuses = tuple[npt.NDArray[np.int8], npt.NDArray[np.int16], tuple[int, str] | None]
+_Results = tuple[_Statuses, npt.NDArray[np.int8], dict[str, _Float]]
+_Shape = tuple[str, float, float] | _Float
+_Shapes = tuple[_Shape, _Shape, _Shape, _Shape | None]
+_Questions = tuple[int, Sequence[float], Sequence[float]]
+
+def simulate(words: _Words, numbers: _Numbers, count: int, tolerance: float, outputs: Sequence[str]) -> _Results: ...
+def critical_speeds(words: _Words, numbers: _Numbers, count: int, tolerance: float) -> tuple[_Statuses, _Float]: ...
+def classify(numbers: _Numbers, count: int, outputs: Sequence[str]) -> _Results: ...
+def critical_speeds_of_bodies(numbers: _Numbers, count: int) -> tuple[_Statuses, _Float]: ...
+def trajectory(words: _Words, numbers: _Numbers, tolerance: float) -> dict[str, _Float]: ...
+def fit(
+    numbers: Sequence[_Float],
+    captured: npt.NDArray[np.bool_],
+    has_mass: bool,
+    laws: Sequence[str],
+    natural_scatter: bool,
+) -> dict[str, Any]: ...
+def population_of_contacts(
+    words: _Words, numbers: _Numbers, shapes: _Shapes, questions: _Questions, tolerance: float
+) -> dict[str, Any]: ...
+def population_of_bodies(numbers: _Numbers, shapes: _Shapes, questions: _Questions) -> dict[str, Any]: ...
+
+class BoundaryTable:
+    def __new__(
+        cls, words: _Words, numbers: _Numbers, smallest_radius: float, cells: int, tolerance: float
+    ) -> BoundaryTable: ...
+    def classify(self, radius: _Float, speed: _Float) -> npt.NDArray[np.int8]: ...
+    @property
+    def smallest_radius(self) -> float: ...
+    @property
+    def margin(self) -> float: ...
+    @property
+    def parts(self) -> tuple[float, int, list[list[int]]]: ...
+
+class RestitutionTable:
+    def __new__(
+        cls, words: _Words, numbers: _Numbers, smallest_radius: float, speed_ratio: float, tolerance: float
+    ) -> RestitutionTable: ...
+    def read(self, radius: _Float, speed: _Float) -> tuple[npt.NDArray[np.int8], _Float, _Float]: ...
+    @property
+    def error(self) -> float: ...

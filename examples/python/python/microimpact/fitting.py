@@ -1,0 +1,177 @@
+"""Fits of laws to measured impacts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _native, plot
+from .arrays import Float, rows
+
+VELOCITY_ERROR = 0.01
+"""Standard error of both speeds where rebound speeds have none, m/s."""
+
+LEAST_P_VALUE = 0.001
+"""Probability below which a law does not fit."""
+
+
+class Quantity(NamedTuple):
+    """A fitted quantity with its interval of 95 %."""
+
+    value: float
+    low: float
+    high: float
+    """Infinite if the data set no bound."""
+    unit: str
+
+
+class Candidate(NamedTuple):
+    """A law that was tried."""
+
+    law: str
+    aic: float
+    """Akaike's criterion less that of the best law."""
+    p_value: float
+    """Probability of data at least as far from the law."""
+
+    @property
+    def fits(self) -> bool:
+        """Whether the law fits."""
+        return self.p_value >= LEAST_P_VALUE
+
+
+@dataclass(frozen=True)
+class Fit:
+    """What measured impacts say."""
+
+    law: str | None
+    """The law that fits; None if none does, or if the data are not enough."""
+    fits: bool | None
+    """Whether a law fits; None if the data are not enough."""
+    reason: str
+    """Why there is no law; empty if there is one."""
+    p_value: float | None
+    """Probability of data at least as far from the law."""
+    quantities: dict[str, Quantity]
+    """Its parameters and the critical speed, by names that end with the unit."""
+    candidates: list[Candidate]
+    """All laws that were tried, the best first."""
+    indistinguishable_laws: list[str]
+    """Other laws that the data do not tell apart from it."""
+    natural_scatter: float | None
+    """Standard deviation of the natural scatter of the restitution."""
+    outlier_fraction: float | None
+    """Fraction of outliers."""
+    curve: tuple[Float, Float, Float, Float] | None
+    """Speeds, m/s, the fitted restitution there, and its bounds of 95 %."""
+    data: tuple[Float, Float]
+    """Measured approach speeds, m/s, and restitutions; a capture has zero."""
+
+    @property
+    def critical_speed(self) -> Quantity | None:
+        """The critical speed, m/s."""
+        return self.quantities.get("critical_speed_m_s")
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the impacts and the fitted curve with matplotlib; returns the axes."""
+        return plot.fit(self, ax)
+
+
+def fit(
+    speed_normal: npt.ArrayLike,
+    *,
+    rebound_speed: npt.ArrayLike | None = None,
+    overall_restitution: npt.ArrayLike | None = None,
+    captured: npt.ArrayLike | None = None,
+    speed_normal_error: npt.ArrayLike | None = None,
+    rebound_speed_error: npt.ArrayLike | None = None,
+    overall_restitution_error: npt.ArrayLike | None = None,
+    mass: npt.ArrayLike | None = None,
+    mass_relative_error: npt.ArrayLike = 0.0,
+    laws: Sequence[str] = (),
+    natural_scatter: bool = True,
+) -> Fit:
+    """Fits restitution laws and laws of contact to measured impacts, by maximum likelihood.
+
+    `speed_normal` has approach speeds, m/s. Give `rebound_speed`, m/s, or `overall_restitution`, the rebound speed over the
+    approach speed. `captured` says which spheres were captured; without it, those whose rebound speed is exactly zero. Standard
+    errors: those of both speeds are 0.01 m/s where rebound speeds have none; restitutions without an error scatter by nature. With
+    the `mass` of each sphere, kg, works are in J, and else in J/kg. `laws` names the laws to fit instead of all: constant,
+    speed-restitution, elastic-plastic, viscoelastic, ring, dmt, jkr. Without `natural_scatter` the stated errors are all of the
+    scatter.
+    """
+    if (rebound_speed is None) == (overall_restitution is None):
+        raise ValueError("rebound_speed: give one of rebound_speed and overall_restitution")
+    measured = rebound_speed if rebound_speed is not None else overall_restitution
+    assumed = VELOCITY_ERROR if rebound_speed is not None else 0.0
+    second_error = rebound_speed_error if rebound_speed is not None else overall_restitution_error
+    broadcast = rows(
+        {
+            "speed_normal": speed_normal,
+            "speed_normal_error": assumed if speed_normal_error is None else speed_normal_error,
+            "rebound": measured,
+            "rebound_error": assumed if second_error is None else second_error,
+            "mass": 0.0 if mass is None else mass,
+            "mass_relative_error": mass_relative_error,
+            "captured": 0.0 if captured is None else captured,
+        }
+    )
+    count = broadcast.count
+    speed, speed_error, rebound, rebound_error, masses, mass_error, caught = (
+        np.array(np.broadcast_to(value, (count,))) for value in broadcast.numbers.values()
+    )
+    if overall_restitution is not None:
+        rebound, rebound_error = rebound * speed, rebound_error * speed
+    _require("speed_normal", (speed > 0.0) & np.isfinite(speed), speed, "an approach speed must be positive, in m/s")
+    _require("rebound_speed", np.isfinite(rebound), rebound, "it must be a number")
+    errors = {
+        "speed_normal_error": speed_error,
+        "rebound_speed_error": rebound_error,
+        "mass_relative_error": mass_error,
+    }
+    for name, values in errors.items():
+        _require(name, (values >= 0.0) & np.isfinite(values), values, "a standard error must be zero or positive")
+    if mass is not None:
+        _require("mass", (masses > 0.0) & np.isfinite(masses), masses, "a mass must be positive, in kg")
+    is_captured = caught != 0.0 if captured is not None else rebound == 0.0
+    columns = (speed, speed_error, rebound, rebound_error, masses, mass_error)
+    answer = _native.fit(columns, is_captured, mass is not None, list(laws), natural_scatter)
+    return _fit(answer, (speed, np.where(is_captured, 0.0, rebound / speed)))
+
+
+def _require(name: str, valid: npt.NDArray[np.bool_], values: Float, demand: str) -> None:
+    if not valid.all():
+        row = int(np.argmin(valid))
+        raise ValueError(f"{name}: {values[row]} is refused: {demand} (at index {row})")
+
+
+def _fit(answer: dict[str, Any], data: tuple[Float, Float]) -> Fit:
+    law = answer.get("law")
+    candidates = [Candidate(*candidate) for candidate in answer.get("candidates", [])]
+    reason = answer.get("reason", "")
+    if law is None and not reason:
+        best = (
+            f"the best, {candidates[0].law}, has p = {candidates[0].p_value:.1e}"
+            if candidates
+            else "no curve comes near the data"
+        )
+        reason = f"no law fits: {best}"
+    return Fit(
+        law=law,
+        fits=None if "reason" in answer else law is not None,
+        reason=reason,
+        p_value=answer.get("p_value"),
+        quantities={
+            name: Quantity(value, low, high, unit) for name, unit, value, low, high in answer.get("quantities", [])
+        },
+        candidates=candidates,
+        indistinguishable_laws=answer.get("indistinguishable_laws", []),
+        natural_scatter=answer.get("natural_scatter"),
+        outlier_fraction=answer.get("outlier_fraction"),
+        curve=tuple(np.array(column) for column in answer["curve"]) if "curve" in answer else None,  # type: ignore[arg-type]
+        data=data,
+    )

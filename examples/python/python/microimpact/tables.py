@@ -1,0 +1,86 @@
+"""Tables that answer without a simulation."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _native
+from .arrays import Float, rows
+
+
+class TableOutcome(IntEnum):
+    """What a table says of an impact."""
+
+    REBOUND = 0
+    CAPTURE = 1
+    TOO_CLOSE_TO_CALL = 2
+    """The speed is closer to the critical speed than the error of the table."""
+    OUTSIDE_TABLE = 3
+    """The table does not cover this radius or this speed."""
+
+
+class Reading(NamedTuple):
+    """What a restitution table says of impacts."""
+
+    outcome: npt.NDArray[np.int8]
+    """`TableOutcome`."""
+    overall_restitution: Float
+    """Zero for a capture; NaN where the table does not know."""
+    error: Float
+    """Bound of the error of the restitution."""
+
+
+def _radii_and_speeds(radius: npt.ArrayLike, speed_normal: npt.ArrayLike) -> tuple[Float, Float, tuple[int, ...]]:
+    broadcast = rows({"radius": radius, "speed_normal": speed_normal})
+    flat = [np.atleast_1d(np.asarray(value)) for value in broadcast.numbers.values()]
+    first, second = (np.ascontiguousarray(np.broadcast_to(array, (broadcast.count,))) for array in flat)
+    return first, second, broadcast.shape
+
+
+class BoundaryTable:
+    """The critical speed of spheres of one material as a function of the radius, with a bound of the error."""
+
+    def __init__(self, table: _native.BoundaryTable) -> None:
+        self._table = table
+
+    @property
+    def margin(self) -> float:
+        """Largest relative error of a critical speed."""
+        return self._table.margin
+
+    @property
+    def smallest_radius(self) -> float:
+        """Smallest radius that the table covers, m."""
+        return self._table.smallest_radius
+
+    @property
+    def parts(self) -> tuple[float, int, list[list[int]]]:
+        """The constants of a table in firmware: smallest radius (m), margin in units of 2^-23 octaves, and cells."""
+        return self._table.parts
+
+    def classify(self, radius: npt.ArrayLike, speed_normal: npt.ArrayLike) -> npt.NDArray[np.int8]:
+        """`TableOutcome` of spheres of a radius (m) that arrive with a speed (m/s)."""
+        radii, speeds, shape = _radii_and_speeds(radius, speed_normal)
+        return self._table.classify(radii, speeds).reshape(shape)
+
+
+class RestitutionTable:
+    """Restitution of spheres of one material as a function of radius and speed, with a bound of the error."""
+
+    def __init__(self, table: _native.RestitutionTable) -> None:
+        self._table = table
+
+    @property
+    def error(self) -> float:
+        """Largest interpolation error of a restitution; that of a reading is larger close to the critical speed."""
+        return self._table.error
+
+    def read(self, radius: npt.ArrayLike, speed_normal: npt.ArrayLike) -> Reading:
+        """Outcome and restitution of spheres of a radius (m) that arrive with a speed (m/s)."""
+        radii, speeds, shape = _radii_and_speeds(radius, speed_normal)
+        outcome, restitution, error = self._table.read(radii, speeds)
+        return Reading(outcome.reshape(shape), restitution.reshape(shape), error.reshape(shape))

@@ -1,0 +1,88 @@
+//! The contact simulation.
+
+use impact_arrays::{Contacts, Damping, Law, Surface};
+use microimpact::contact::{Adaptive, JkrEnd};
+use numpy::PyArray1;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::columns::Columns;
+use crate::refusal::refused;
+use crate::results::{Results, Statuses, quantities, results, speeds};
+
+/// The words of a scene: law, end rule, and damping.
+pub(crate) type Words = (String, String, String);
+
+fn unknown(name: &str, word: &str) -> PyErr {
+    PyValueError::new_err(format!("{name}: there is no {word}"))
+}
+
+/// Spheres and contacts by the names of the arguments of `Scene`.
+pub(crate) fn contacts<'a>((law, end_rule, damping): &Words, columns: &'a Columns<'_>) -> PyResult<Contacts<'a>> {
+    let friction = columns.optional("friction", 0.0)?;
+    let work = || columns.required("work_of_adhesion");
+    Ok(Contacts {
+        // Tables and populations bring their own radii.
+        radius: columns.optional("radius", f64::NAN)?,
+        density: columns.required("density")?,
+        gyration_ratio: columns.optional("gyration_ratio", 0.4)?,
+        stiffness: columns.required("stiffness")?,
+        law: match (law.as_str(), end_rule.as_str()) {
+            ("hertz", "no-indentation") => Law::Hertz,
+            ("hertz", "no-force") => Law::WithoutTension,
+            ("ring", _) => {
+                Law::Ring { strength: columns.required("adhesion")?, damping: columns.optional("zeta_a", 0.0)? }
+            }
+            ("dmt", _) => Law::Dmt { work: work()? },
+            ("jkr", "pull-off") => Law::Jkr { work: work()?, end: JkrEnd::PullOff },
+            ("jkr", "snap-off") => Law::Jkr { work: work()?, end: JkrEnd::SnapOff },
+            _ => return Err(unknown("law", &format!("{law} with the end rule {end_rule}"))),
+        },
+        damping: match damping.as_str() {
+            "none" => Damping::None,
+            "hysteretic" => Damping::Hysteretic(columns.required("zeta_h")?),
+            "viscoelastic" => Damping::Viscoelastic(columns.required("damping_value")?),
+            "constant" => Damping::Constant(columns.required("damping_value")?),
+            other => return Err(unknown("damping", other)),
+        },
+        external_force: columns.optional("external_force", 0.0)?,
+        surface: if columns.has("stiffness_ratio") {
+            Surface::Compliant { friction, stiffness_ratio: columns.required("stiffness_ratio")? }
+        } else if columns.has("peeling") {
+            Surface::Peeling { friction, moment: columns.required("peeling")? }
+        } else {
+            Surface::Coulomb { friction }
+        },
+    })
+}
+
+/// Simulates impacts.
+#[pyfunction]
+pub(crate) fn simulate<'py>(
+    python: Python<'py>,
+    words: Words,
+    numbers: Columns<'py>,
+    count: usize,
+    tolerance: f64,
+    outputs: Vec<String>,
+) -> PyResult<Results<'py>> {
+    let (contacts, motions, outputs) = (contacts(&words, &numbers)?, numbers.motions()?, quantities(&outputs)?);
+    let method = Adaptive::new(tolerance).map_err(refused)?;
+    let impacts = python.detach(|| contacts.simulate(&motions, count, &method, &outputs));
+    results(python, impacts)
+}
+
+/// Finds critical speeds, m/s.
+#[pyfunction]
+pub(crate) fn critical_speeds<'py>(
+    python: Python<'py>,
+    words: Words,
+    numbers: Columns<'py>,
+    count: usize,
+    tolerance: f64,
+) -> PyResult<(Statuses<'py>, Bound<'py, PyArray1<f64>>)> {
+    let contacts = contacts(&words, &numbers)?;
+    let method = Adaptive::new(tolerance).map_err(refused)?;
+    let found = python.detach(|| contacts.critical_speeds(count, &method));
+    Ok(speeds(python, found))
+}

@@ -1,0 +1,52 @@
+//! Errors of inputs in the names of Python's arguments.
+
+use microimpact::{InputError, Parameter};
+use pyo3::PyErr;
+use pyo3::exceptions::PyValueError;
+
+/// The argument that gives a parameter.
+pub(crate) fn keyword(parameter: Parameter) -> &'static str {
+    match parameter {
+        Parameter::Radius => "radius",
+        Parameter::Density => "density",
+        Parameter::GyrationRatio => "gyration_ratio",
+        Parameter::Stiffness => "stiffness",
+        Parameter::ApproachSpeed => "speed_normal",
+        Parameter::TangentialVelocity => "speed_tangential",
+        Parameter::Spin | Parameter::PeripheralVelocity => "spin",
+        Parameter::VelocityComponent => "velocity",
+        Parameter::NormalLength => "normal",
+        Parameter::Restitution => "restitution",
+        Parameter::RestitutionSpeed => "restitution_speed",
+        Parameter::RestitutionPower => "restitution_power",
+        Parameter::YieldSpeed => "yield_speed",
+        Parameter::AdhesionSpeed => "adhesion_speed",
+        Parameter::AdhesionPower => "adhesion_power",
+        Parameter::AdhesionCoefficient => "adhesion_coefficient",
+        Parameter::WorkOfAdhesion | Parameter::AdhesionEnergy => "work_of_adhesion",
+        Parameter::Friction => "friction",
+        Parameter::StiffnessRatio => "stiffness_ratio",
+        Parameter::RollingArm => "rolling_arm",
+        Parameter::ExternalForce => "external_force",
+        Parameter::MaterialDamping => "zeta_h",
+        Parameter::RelaxationTime | Parameter::NominalRestitution => "damping_value",
+        Parameter::AdhesionStrength => "adhesion",
+        Parameter::AdhesionDamping => "zeta_a",
+        Parameter::PeelingMoment => "peeling",
+        Parameter::Tolerance => "tolerance",
+        Parameter::SpeedRatio => "speed_ratio",
+        // Of the scene, and not of one argument.
+        other => other.name(),
+    }
+}
+
+/// What is wrong, after the name of the argument if there is one.
+pub(crate) fn message(error: InputError) -> String {
+    let (keyword, name) = (keyword(error.parameter), error.parameter.name());
+    if keyword == name { error.to_string() } else { format!("{keyword}: {error}") }
+}
+
+/// The exception for an error of an input.
+pub(crate) fn refused(error: InputError) -> PyErr {
+    PyValueError::new_err(message(error))
+}

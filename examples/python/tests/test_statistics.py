@@ -1,0 +1,107 @@
+"""Populations against draws, fits against the law that made the data."""
+
+import math
+
+import numpy as np
+import pytest
+
+import microimpact as mi
+
+CONTACT = mi.Ring(stiffness=7.5e10, adhesion=250, zeta_a=6.25, zeta_h=10.5)
+DRAWS = 40_000
+
+
+def draws(rng, median, deviation):
+    return median * np.exp(math.log(deviation) * rng.standard_normal(DRAWS))
+
+
+def beyond(found, counted, number):
+    """Whether a fraction that was counted lies beyond four binomial standard errors and that of the quadrature."""
+    error = math.sqrt(max(found.value * (1 - found.value), 1 / number) / number)
+    return abs(found.value - counted) > 4 * error + found.error
+
+
+def test_a_population_against_draws():
+    rng = np.random.default_rng(3)
+    diameter, speed = draws(rng, 8.6e-6, 1.2), draws(rng, 3.0, 1.3)
+    angle = np.radians(np.abs(30 + 5 * rng.standard_normal(DRAWS)))
+    population = mi.Scene(density=2600, contact=CONTACT, friction=0.1).population(
+        diameter=mi.LogNormal(8.6e-6, 1.2),
+        speed=mi.LogNormal(3.0, 1.3),
+        angle_deg=mi.Normal(30, 5),
+        speeds=[2.0],
+    )
+    scene = mi.Scene(radius=diameter / 2, density=2600, contact=CONTACT, friction=0.1)
+    impacts = scene.simulate(speed * np.cos(angle), speed * np.sin(angle))
+    captured = impacts.outcome == mi.Outcome.CAPTURE
+    sliding = np.isin(impacts.impact_class, [mi.Class.REBOUND_SLIDING, mi.Class.CAPTURED_SLIDING])
+    for name, counted in {
+        "capture": captured,
+        "rebound_sliding": ~captured & sliding,
+        "captured_sliding": captured & sliding,
+    }.items():
+        assert not beyond(population.by_number[name], counted.mean(), DRAWS), name
+    sizes = population.sizes
+    assert len(sizes.capture) == 8 and sizes.number_fraction.sum() == pytest.approx(0.998, abs=1e-6)
+    for bin, (low, high) in enumerate(zip(sizes.diameter_from, sizes.diameter_to)):
+        inside = (diameter > low) & (diameter <= high)
+        found = mi.Estimate(sizes.capture[bin], sizes.capture_error[bin])
+        assert not beyond(found, captured[inside].mean(), inside.sum()), bin
+    mean = population.restitution[0]
+    spread = impacts.overall_restitution.std() / math.sqrt(DRAWS)
+    assert abs(mean.value - impacts.overall_restitution.mean()) < 4 * spread + mean.error
+    assert 0 < population.bounces.fraction[0] < 1
+
+
+def test_a_population_of_rigid_bodies_against_draws():
+    rng = np.random.default_rng(4)
+    diameter, speed = draws(rng, 8.6e-6, 1.3), draws(rng, 2.0, 1.2)
+    body = {"density": 2600, "restitution_speed": 130, "work_of_adhesion": 1e-12, "friction": 0.1}
+    population = mi.RigidBody(**body).population(diameter=mi.LogNormal(8.6e-6, 1.3), speed=mi.LogNormal(2.0, 1.2))
+    captured = mi.RigidBody(radius=diameter / 2, **body).classify(speed).outcome == mi.Outcome.CAPTURE
+    assert not beyond(population.by_number["capture"], captured.mean(), DRAWS)
+    # Samples of the same diameters have the same captures, to the last.
+    few, slow = diameter[:50], 1.2
+    sampled = mi.RigidBody(**body).population(diameter=mi.Samples(few), speed=slow)
+    counted = (mi.RigidBody(radius=few / 2, **body).classify(slow).outcome == mi.Outcome.CAPTURE).mean()
+    assert sampled.by_number["capture"].value == pytest.approx(counted, abs=1e-12)
+
+
+def test_populations_refuse():
+    scene = mi.Scene(density=2600, contact=CONTACT)
+    with pytest.raises(ValueError, match="diameter: .*must be positive"):
+        scene.population(diameter=-1e-6, speed=1.0)
+    with pytest.raises(ValueError, match="angle_deg: an angle"):
+        scene.population(diameter=1e-6, speed=1.0, angle_deg=95.0)
+    with pytest.raises(ValueError, match="edges: "):
+        scene.population(diameter=1e-6, speed=1.0, edges=[2e-6, 1e-6])
+    with pytest.raises(ValueError, match="density: an array is refused"):
+        mi.Scene(density=[2600, 2700], contact=CONTACT).population(diameter=1e-6, speed=1.0)
+
+
+def test_a_fit_finds_the_law():
+    rng = np.random.default_rng(5)
+    speed, k, work_over_mass = np.geomspace(1.8, 20, 60), 100.0, 1.2
+    restitution = np.sqrt((k / (k + speed)) ** 2 - 2 * work_over_mass / speed**2)
+    found = mi.fit(speed, rebound_speed=restitution * speed + 0.01 * rng.standard_normal(60))
+    assert found.fits and found.law == "speed-restitution" and found.p_value > 0.001
+    for name, truth in (("restitution_speed_m_s", k), ("work_of_adhesion_j_kg", work_over_mass)):
+        quantity = found.quantities[name]
+        assert quantity.low < truth < quantity.high and quantity.high - quantity.low < 0.2 * truth
+    critical = found.critical_speed
+    assert critical.low < critical.value < critical.high
+    assert (k / (k + critical.value)) ** 2 == pytest.approx(2 * work_over_mass / critical.value**2, rel=0.1)
+
+
+def test_fits_that_say_nothing():
+    few = mi.fit([1.0, 2.0], overall_restitution=[0.5, 0.6])
+    assert few.fits is None and few.law is None and "not enough data" in few.reason
+    rng = np.random.default_rng(6)
+    speed, laws = np.geomspace(1, 30, 60), ["constant", "speed-restitution"]
+    waves = 0.5 + 0.3 * np.sin(8 * np.log(speed)) + 0.01 * rng.standard_normal(60)
+    wave = mi.fit(speed, overall_restitution=waves, laws=laws)
+    assert wave.fits is False and wave.law is None and "no law fits" in wave.reason
+    with pytest.raises(ValueError, match="speed_normal: -1.0 is refused.*at index 1"):
+        mi.fit([1.0, -1.0], overall_restitution=[0.5, 0.5])
+    with pytest.raises(ValueError, match="laws: "):
+        mi.fit(speed, overall_restitution=0.5 + 0 * speed, laws=["linear"])
