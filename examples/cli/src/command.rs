@@ -141,6 +141,9 @@ pub trait TableCommand {
     fn options(&self) -> &TableOptions;
 
     /// Runs in numbers of type `T`.
+    ///
+    /// # Errors
+    /// Why the command failed: the options, the table or a stream.
     fn run_in<T: Number>(&self, streams: &mut Streams<'_>) -> BadRows;
 
     /// Runs the command; its exit status.

@@ -3,7 +3,6 @@
 use std::io::{BufRead, Write};
 
 use clap::{Parser, Subcommand};
-use command::TableCommand;
 
 mod analyse;
 mod classify;
@@ -16,7 +15,13 @@ mod inputs;
 pub mod joint_fit;
 mod population;
 mod table;
+mod trajectory;
 mod words;
+
+pub use classify::Options as Classify;
+pub use command::TableCommand;
+pub use critical::Options as Critical;
+pub use trajectory::Options as Trajectory;
 
 /// Impacts of microspheres: classes, critical speeds, analyses of measurements, tables for firmware, fits, and
 /// populations.
@@ -31,6 +36,7 @@ pub struct Arguments {
 enum Command {
     Classify(classify::Options),
     Critical(critical::Options),
+    Trajectory(trajectory::Options),
     Analyse(analyse::Options),
     #[command(alias = "boundary")]
     Table(table::Options),
@@ -55,6 +61,7 @@ impl Arguments {
         match &self.command {
             Command::Classify(options) => options.run(streams),
             Command::Critical(options) => options.run(streams),
+            Command::Trajectory(options) => options.run(streams),
             Command::Analyse(options) => options.run(streams),
             Command::Table(options) => options.run(streams),
             Command::Fit(options) => options.run(streams),

@@ -96,6 +96,11 @@ pub struct Header<'a> {
 }
 
 impl Header<'_> {
+    /// The names in their order, in lower case.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.names.iter().map(String::as_str)
+    }
+
     /// Whether the table has a column.
     pub fn has(&self, column: &str) -> bool {
         self.names.iter().any(|name| name == column)

@@ -6,6 +6,7 @@
 mod columns;
 mod decimal;
 mod refusal;
+mod rename;
 
 use std::collections::VecDeque;
 use std::error::Error;
@@ -19,6 +20,7 @@ use microimpact::Real;
 pub use columns::{Header, Input, LABEL};
 pub use decimal::Decimal;
 use decimal::{Cell, Convention, JUDGED_ROWS, Judge};
+pub use rename::rename;
 
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
