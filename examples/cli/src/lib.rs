@@ -14,6 +14,7 @@ mod fit;
 mod inputs;
 pub mod joint_fit;
 mod population;
+mod restitution_table;
 mod table;
 mod trajectory;
 mod words;

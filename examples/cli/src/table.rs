@@ -1,7 +1,8 @@
 //! Makes a table of critical speeds by the contact simulation, for firmware that does not compute it itself.
 //!
 //! `cargo microimpact table` writes a Rust constant for the paper's surface;
-//! `cargo microimpact table --format c` an array for C, with the function that reads it.
+//! `cargo microimpact table --format c` an array for C, with the function that reads it;
+//! `cargo microimpact table --format fluent`, or another simulation program, the restitution against the approach speed.
 
 use std::error::Error;
 use std::io::{self, Write};
@@ -13,8 +14,10 @@ use microimpact::{InputError, Sphere, Stiffness};
 
 use crate::Streams;
 use crate::command::exit_status;
+use crate::restitution_table::{self, Program, RestitutionOptions};
 
-/// Make a table of critical speeds, which classifies spheres of one material on one surface as captured or rebounding.
+/// Make a table of critical speeds, which classifies spheres of one material on one surface as captured or rebounding; or,
+/// for a program that simulates the flow of particles, a table of their restitution against the approach speed.
 ///
 /// Options default to the values of the paper (zeta_A = 6.25 is half of the printed value, as in the paper's program). Cells
 /// divide each octave of radii into four; the table starts with the cell that contains the smallest radius.
@@ -47,6 +50,8 @@ pub struct Options {
     /// Language of the table
     #[arg(long, value_enum, default_value_t = Format::Rust)]
     format: Format,
+    #[command(flatten)]
+    restitution: RestitutionOptions,
 }
 
 /// Language of the table.
@@ -58,10 +63,35 @@ enum Format {
     C,
     /// A row for each cell
     Csv,
+    /// Restitution: source of a user-defined function for Ansys Fluent
+    Fluent,
+    /// Restitution: wall boundary condition for AcuTrace
+    Acutrace,
+    /// Restitution: interpolation function for COMSOL Multiphysics
+    Comsol,
+    /// Restitution: dictionary for OpenFOAM
+    Openfoam,
+    /// Restitution: a row for each point
+    RestitutionCsv,
+}
+
+impl Format {
+    /// The program whose table has restitutions; `None` for a table of critical speeds.
+    fn program(self) -> Option<Program> {
+        match self {
+            Self::Rust | Self::C | Self::Csv => None,
+            Self::Fluent => Some(Program::Fluent),
+            Self::Acutrace => Some(Program::AcuTrace),
+            Self::Comsol => Some(Program::Comsol),
+            Self::Openfoam => Some(Program::OpenFoam),
+            Self::RestitutionCsv => Some(Program::Any),
+        }
+    }
 }
 
 /// Eight octaves.
 const MOST_CELLS: usize = 32;
+const CELLS_OF_OCTAVE: f64 = 4.0;
 
 /// The parts of a table whose length was chosen at run time.
 struct Parts {
@@ -77,10 +107,13 @@ impl Options {
         exit_status("table", run(self, streams.output).map(|()| 0), streams.errors)
     }
 
+    fn law(&self) -> Result<AnyLaw<f64>, InputError> {
+        AnyLaw::ring(Stiffness::new(self.stiffness)?, self.adhesion, self.zeta_a)?.with_damping(self.zeta_h)
+    }
+
     fn parts<const N: usize>(&self) -> Result<Parts, InputError> {
         let method = Collocation::<9, f64>::new(1e-9)?;
-        let law =
-            AnyLaw::ring(Stiffness::new(self.stiffness)?, self.adhesion, self.zeta_a)?.with_damping(self.zeta_h)?;
+        let law = self.law()?;
         let table = BoundaryTable::<N>::new(self.smallest_radius, |radius| {
             let sphere = Sphere::solid(radius, self.density)?;
             Contact::new(sphere, law).critical_speed(&method)
@@ -102,24 +135,26 @@ impl Options {
         of_length!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31)
     }
 
-    /// Materials and error of the table, in a line.
-    fn subject(&self, parts: &Parts) -> String {
+    /// The materials in words.
+    fn materials(&self) -> String {
         let Self { density, stiffness, adhesion, zeta_h, zeta_a, .. } = self;
-        let margin = parts.relative_margin;
-        format!(
-            "density {density} kg/m^3, K {stiffness:e} Pa, f0 {adhesion} N/m, zeta_H {zeta_h}, zeta_A {zeta_a}; \
-             greatest relative error {margin:.1e}"
-        )
+        format!("density {density} kg/m^3, K {stiffness:e} Pa, f0 {adhesion} N/m, zeta_H {zeta_h}, zeta_A {zeta_a}")
     }
 }
 
 fn run(options: &Options, to: &mut dyn Write) -> Result<(), Box<dyn Error>> {
+    if let Some(program) = options.format.program() {
+        let octaves = f64::from(options.cells) / CELLS_OF_OCTAVE;
+        let radii = [options.smallest_radius, options.smallest_radius * octaves.exp2()];
+        let (law, materials) = (options.law()?, options.materials());
+        return restitution_table::write(to, program, &options.restitution, radii, options.density, law, materials);
+    }
     let parts = options.table()?;
-    let subject = options.subject(&parts);
+    let subject = format!("{}; greatest relative error {:.1e}", options.materials(), parts.relative_margin);
     match options.format {
-        Format::Rust => rust(to, &parts, &subject),
         Format::C => c(to, &parts, &subject),
         Format::Csv => csv(to, &parts),
+        _ => rust(to, &parts, &subject),
     }?;
     Ok(())
 }

@@ -6,6 +6,7 @@ mod c_interface;
 mod classify;
 mod critical;
 mod documentation;
+mod exporters;
 mod fit;
 mod formats;
 mod joint_fit;
