@@ -58,6 +58,16 @@ impl LawName {
         Ok(word(row, "law", Self::value_variants())?.unwrap_or(without_word))
     }
 
+    /// Its word in a table.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Hertz => "hertz",
+            Self::Ring => "ring",
+            Self::Dmt => "dmt",
+            Self::Jkr => "jkr",
+        }
+    }
+
     /// How its contact can end; first the rule of a row that gives none.
     fn end_rules(self) -> &'static [EndRule] {
         match self {

@@ -6,12 +6,13 @@
 use clap::Args;
 use microimpact::contact::{Adaptive, Contact};
 use microimpact::{CriticalSpeed, Sphere};
-use sheet::{Header, Input, Row};
+use sheet::{Header, Input, Row, Value};
 
 use crate::Streams;
-use crate::command::{BadRow, BadRows, Number, SimulationOptions, TableCommand, TableOptions, Work, simulation_help};
+use crate::command::{BadRows, Number, SimulationOptions, TableCommand, TableOptions};
 use crate::contact_law::{LAW_INPUTS, LawName, RowLaw};
 use crate::inputs::DENSITY_INPUT;
+use crate::rows::{BadRow, Work};
 use crate::words::name_of;
 
 /// Spheres of the paper's figure 6 and Table 1. Its program halves the printed damping of adhesion.
@@ -42,7 +43,7 @@ Figure 6: 13 um,6.5e-6,2600,7.5e10,250,10.5,6.25
 ///     1e6 m/s; critical_speed_m_s is then empty.
 ///   law: hertz, ring, dmt or jkr.
 #[derive(Args)]
-#[command(verbatim_doc_comment, after_long_help = simulation_help())]
+#[command(verbatim_doc_comment, after_long_help = crate::command::TABLE_MANUAL)]
 pub struct Options {
     #[command(flatten)]
     simulation: SimulationOptions,
@@ -78,6 +79,8 @@ impl<T: Number> Critical<T> {
 }
 
 impl<T: Number> Work for Critical<T> {
+    type Notes = ();
+
     fn inputs(&self) -> Vec<Input> {
         [&[Input::required(&["radius_m"]), DENSITY_INPUT], &LAW_INPUTS[..]].concat()
     }
@@ -86,23 +89,23 @@ impl<T: Number> Work for Critical<T> {
         ["critical_speed_m_s", "critical", "law"].map(String::from).into()
     }
 
-    fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
+    fn cells(&self, row: &Row<'_>, (): &mut ()) -> Result<Vec<Value>, BadRow> {
         let (law, critical) = self.find(row)?;
-        let speed = if let CriticalSpeed::At(speed) = critical { row.cell(speed) } else { String::new() };
-        Ok(vec![speed, in_words(&critical).into(), name_of(&law)])
+        let speed = if let CriticalSpeed::At(speed) = critical { speed.value() } else { Value::Empty };
+        Ok(vec![speed, in_words(&critical).into(), name_of(&law).into()])
     }
 
     fn heads(&self, _header: &Header<'_>) -> Vec<&'static str> {
         vec!["sphere", "law", "radius\nm", "critical speed\nm/s"]
     }
 
-    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
+    fn line(&self, row: &Row<'_>, name: String, (): &mut ()) -> Result<Vec<String>, String> {
         let (law, critical) = self.find(row)?;
         let speed = match &critical {
-            CriticalSpeed::At(speed) => row.cell(*speed),
+            CriticalSpeed::At(speed) => row.text_of(*speed),
             none => in_words(none).into(),
         };
-        Ok(vec![name, name_of(&law), row.text("radius_m").unwrap_or_default(), speed])
+        Ok(vec![name, name_of(&law), row.text_of(row.required::<T>("radius_m")?), speed])
     }
 }
 

@@ -15,6 +15,8 @@ mod fit;
 mod inputs;
 pub mod joint_fit;
 mod population;
+mod progress;
+mod rows;
 mod table;
 mod words;
 

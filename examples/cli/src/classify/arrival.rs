@@ -2,7 +2,7 @@
 
 use microimpact::space::{Departing, Pair, PairIncidence, SpatialMotion, Wall, WallIncidence};
 use microimpact::{InputError, NormalMotion, Oblique, PlanarMotion, Sphere, SurfaceMotion};
-use sheet::{Header, Input, Row, Scalar};
+use sheet::{Header, Input, Row, Scalar, Value};
 
 use crate::inputs::{DENSITY_INPUT, GYRATION_INPUT, MOTION_INPUTS};
 
@@ -124,7 +124,7 @@ fn planar<T: Scalar>(row: &Row<'_>, motion: &impl Oblique<T>) -> Result<PlanarMo
 /// Refuses a row with a number in one of these columns.
 fn refuse(row: &Row<'_>, columns: &[&'static str], reason: &str) -> Result<(), String> {
     for column in columns {
-        if row.text(column).is_some() {
+        if row.has(column) {
             return Err(format!("{column}: {reason} or leave the cell empty"));
         }
     }
@@ -138,7 +138,7 @@ impl<T: Scalar> Arrival<T> {
         let density: T = row.required("density_kg_m3")?;
         let sphere = Sphere::new(row.required("radius_m")?, density, gyration("gyration_ratio")?);
         let sphere = sphere.map_err(|error| row.reason(error))?;
-        let in_space = VELOCITY.iter().any(|column| row.text(column).is_some());
+        let in_space = VELOCITY.iter().any(|column| row.has(column));
         if in_space {
             refuse(row, &PLANAR, "the velocity is given in space; remove its cells")?;
         } else {
@@ -254,16 +254,19 @@ impl<T: Scalar> Arrival<T> {
     }
 
     /// The cells of the motions after an impact, for the columns of a table; empty where they are not known.
-    pub fn cells(&self, row: &Row<'_>, impact: Option<&impl Departing<T>>) -> Vec<String> {
+    pub fn cells(&self, row: &Row<'_>, impact: Option<&impl Departing<T>>) -> Vec<Value> {
+        if !is_in_space(&row.header()) {
+            return Vec::new();
+        }
         let after = self.after(impact);
-        let bodies = usize::from(is_in_space(&row.header())) + usize::from(is_of_two(&row.header()));
+        let bodies = 1 + usize::from(is_of_two(&row.header()));
         let cells = |body: usize| match (self.bodies.get(body), after.get(body)) {
             (Some((sphere, before)), Some(after)) => {
                 let energies = [before.energy(sphere), after.energy(sphere)];
                 let numbers = [&after.velocity()[..], &after.spin(), &energies].concat();
-                numbers.into_iter().map(|number| row.cell(number)).collect()
+                numbers.into_iter().map(Scalar::value).collect()
             }
-            _ => vec![String::new(); AFTER.len()],
+            _ => vec![Value::Empty; AFTER.len()],
         };
         (0..bodies).flat_map(cells).collect()
     }

@@ -70,11 +70,12 @@ pub type Outputs<T> =
     ((ContactTimes<T>, ContactImpulses<T>, ContactWorks<T>), (SlipHistory<T>, Option<EnergyLedger<T>>));
 
 /// Simulates an impact by a method.
-type Simulate<T> = Box<dyn Fn(&AnyContact<T>, &PlanarMotion<T>) -> Result<Solution<T>, InputError>>;
+type Simulate<T> = Box<dyn Fn(&AnyContact<T>, &PlanarMotion<T>) -> Result<Solution<T>, InputError> + Send + Sync>;
 
 /// Simulates an impact with compliance along the surface.
-type SimulateCompliant<T> =
-    Box<dyn Fn(&CompliantContact<T>, &PlanarMotion<T>) -> Result<Solution<T, CompliantVelocities<T>>, InputError>>;
+type SimulateCompliant<T> = Box<
+    dyn Fn(&CompliantContact<T>, &PlanarMotion<T>) -> Result<Solution<T, CompliantVelocities<T>>, InputError> + Send + Sync,
+>;
 
 /// A method of the simulation, in numbers of type `T`.
 pub struct Simulator<T> {
@@ -187,12 +188,12 @@ impl MethodOptions {
 }
 
 /// Simulates by a method.
-fn by<T: Number>(method: impl Method<T> + 'static) -> Simulate<T> {
+fn by<T: Number>(method: impl Method<T> + Send + Sync + 'static) -> Simulate<T> {
     Box::new(move |scene, before| scene.solve_for(before, &method, ((Times, Impulses, Works), (Slip, Energy))))
 }
 
 /// Simulates by a method, with compliance along the surface.
-fn compliant_by<T: Number>(method: impl Method<T> + 'static) -> SimulateCompliant<T> {
+fn compliant_by<T: Number>(method: impl Method<T> + Send + Sync + 'static) -> SimulateCompliant<T> {
     Box::new(move |scene, before| scene.solve_for(before, &method, ((Times, Impulses, Works), (Slip, Energy))))
 }
 

@@ -11,10 +11,11 @@ mod rigid_body;
 mod uncertain;
 
 use clap::{Args, ValueEnum};
-use sheet::{Header, Input, Row};
+use sheet::{Header, Input, Row, Value};
 
 use crate::Streams;
-use crate::command::{BadRow, BadRows, Number, TableCommand, TableOptions, Work, simulation_help};
+use crate::command::{BadRows, Number, TableCommand, TableOptions};
+use crate::rows::{BadRow, Work};
 use crate::words::name_of;
 use method::MethodOptions;
 pub use method::OfferedNodes;
@@ -80,7 +81,7 @@ pub use method::OfferedNodes;
 /// spin_out_rad_s are those of neither sphere. In the summary V_n of two spheres is the speed with which they separate, and the
 /// energy lost is a part of that of both.
 #[derive(Args)]
-#[command(verbatim_doc_comment, after_long_help = simulation_help())]
+#[command(verbatim_doc_comment, after_long_help = crate::command::TABLE_MANUAL)]
 pub struct Options {
     /// Model that classifies.
     #[arg(long, value_enum, default_value_t = Model::RigidBody)]
@@ -137,6 +138,8 @@ struct Both<T> {
 }
 
 impl<T: Number> Work for Both<T> {
+    type Notes = ();
+
     fn inputs(&self) -> Vec<Input> {
         let mut inputs = self.simulation.inputs();
         for input in self.rigid_body.inputs() {
@@ -154,13 +157,13 @@ impl<T: Number> Work for Both<T> {
         self.simulation.columns(header).into_iter().chain(named).chain(agreement).collect()
     }
 
-    fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
+    fn cells(&self, row: &Row<'_>, (): &mut ()) -> Result<Vec<Value>, BadRow> {
         let (simulated, body) = (self.simulation.compute(row), self.rigid_body.compute(row));
         let difference = match (&simulated, &body) {
             (Ok(simulated), Ok(body)) => Some(agreement::difference(row, simulated, body)),
             _ => None,
         };
-        let failed = |result: Result<Vec<String>, BadRow>| match result {
+        let failed = |result: Result<Vec<Value>, BadRow>| match result {
             Ok(cells) => (cells, None),
             Err(bad) => (bad.cells, Some(bad.reason)),
         };
@@ -169,11 +172,11 @@ impl<T: Number> Work for Both<T> {
         let body = body.map_err(BadRow::from);
         let (body_cells, rigid_body) = failed(body.and_then(|body| self.rigid_body.cells_of(row, &body)));
         let simulation_columns = self.simulation.columns(&row.header()).len();
-        cells.resize(simulation_columns, String::new());
+        cells.resize(simulation_columns, Value::Empty);
         cells.extend(body_cells);
         if let Some(difference) = difference {
-            cells.resize(simulation_columns + self.rigid_body.columns(&row.header()).len(), String::new());
-            cells.extend([if difference.is_none() { "yes" } else { "no" }.into(), difference.unwrap_or_default()]);
+            cells.resize(simulation_columns + self.rigid_body.columns(&row.header()).len(), Value::Empty);
+            cells.extend([if difference.is_none() { "yes" } else { "no" }.into(), difference.unwrap_or_default().into()]);
         }
         let reason = match (simulation, rigid_body) {
             (None, None) => return Ok(cells),
@@ -205,7 +208,7 @@ impl<T: Number> Work for Both<T> {
         5
     }
 
-    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
+    fn line(&self, row: &Row<'_>, name: String, (): &mut ()) -> Result<Vec<String>, String> {
         let (simulated, body) = (self.simulation.compute(row)?, self.rigid_body.compute(row)?);
         let optional = |value: Option<T>| value.map_or("-".into(), |value| format!("{:.4}", value + T::ZERO));
         let along = simulated.along();

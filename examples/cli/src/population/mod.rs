@@ -14,7 +14,7 @@ use std::io::BufRead;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use sheet::{Decimal, Input, LABEL, Row, Sheet};
+use sheet::{Decimal, Input, Row, Sheet};
 
 use crate::Streams;
 use crate::command::{Reading, SimulationOptions, exit_status, open};
@@ -204,8 +204,7 @@ fn run(options: &Options, streams: &mut Streams<'_>) -> Result<usize, Box<dyn Er
     }
     let mut answers: Vec<Answer> = Vec::new();
     while let Some(row) = sheet.next_row()? {
-        let name = row.text(LABEL).unwrap_or_else(|| format!("row {}", row.index()));
-        answers.push((name, options.answer(&row, &samples, &questions)));
+        answers.push((row.label(), options.answer(&row, &samples, &questions)));
     }
     match options.format {
         Format::Table => output::tables(&answers, streams.output)?,
