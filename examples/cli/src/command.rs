@@ -10,7 +10,7 @@ use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 use microimpact::contact::{Adaptive, AdaptiveNodes};
 use microimpact::measure::NormalDistribution;
 use microimpact::{InputError, Real};
-use sheet::{Decimal, Header, Input, RowWriter, Scalar, Shape, Sheet};
+use sheet::{Decimal, Header, Input, RowWriter, Scalar, Shape, Sheet, Value};
 
 use crate::Streams;
 use crate::classify::OfferedNodes;
@@ -46,6 +46,11 @@ pub struct Reading {
 }
 
 impl Reading {
+    /// Reads tables with this decimal mark.
+    pub fn with(decimal: Decimal) -> Self {
+        Self { decimal: Some(decimal) }
+    }
+
     /// Opens a table, and says on standard error which of its columns a command reads. `computed` are the columns that it will
     /// add to it.
     ///
@@ -85,7 +90,7 @@ pub const STATUS: &str = "\
 Exit status: 0 on success; 1 if a row is bad (the column `error` says why); 2 if nothing could be read.";
 
 /// Options of a command that simulates contacts.
-#[derive(Args)]
+#[derive(Args, Default)]
 pub struct SimulationOptions {
     /// Largest error of e^2 and of a critical speed [default: 1e-9 in f64, 1e-6 in f32]
     #[arg(long)]
@@ -182,16 +187,11 @@ impl TableOptions {
         let computed = |header: &Header<'_>| work.columns(header);
         let mut sheet = self.reading.open(command, source, &work.inputs(), computed, streams.errors)?;
         let (frame, mut reader) = sheet.split();
-        let shape = match self.format {
-            Format::Table => None,
-            Format::Csv => Some(Shape::Csv),
-            Format::Json => Some(Shape::Json),
-        };
         let mut names = work.columns(&frame.header());
         let columns = names.len();
         names.push("error".into());
         let mut output = BufWriter::new(&mut *streams.output);
-        let Some(shape) = shape else {
+        let Some(shape) = self.format.shape() else {
             let task = Task { work, frame, writer: None, shown: SHOWN, columns };
             let computed = task.run(&mut reader, &progress, &mut output)?;
             write_table(&mut output, work, &frame.header(), &computed)?;
@@ -210,6 +210,66 @@ impl TableOptions {
 
 /// Rows that a summary shows.
 const SHOWN: usize = 100;
+
+impl Format {
+    /// How a table of this format is written for programs; `None` for a summary to read.
+    fn shape(self) -> Option<Shape> {
+        match self {
+            Self::Table => None,
+            Self::Csv => Some(Shape::Csv),
+            Self::Json => Some(Shape::Json),
+        }
+    }
+}
+
+/// Writes records; a summary shows the first of them. The first columns, so many as `words`, hold words.
+pub fn write_records(
+    format: Format,
+    names: &[&str],
+    words: usize,
+    records: impl IntoIterator<Item = Vec<Value>>,
+    to: &mut dyn Write,
+) -> io::Result<()> {
+    let mut records = records.into_iter();
+    let Some(shape) = format.shape() else {
+        let line = |record: Vec<Value>| record.iter().map(in_summary).collect();
+        let lines: Vec<Vec<String>> = records.by_ref().take(SHOWN).map(line).collect();
+        let (shown, others) = (lines.len(), records.count());
+        writeln!(to, "{}", table_of(names.to_vec(), words, lines))?;
+        if others > 0 {
+            writeln!(to, "The first {shown} of {} rows; --format csv writes all.", shown + others)?;
+        }
+        return Ok(());
+    };
+    sheet::write_records(shape, names, records, to)
+}
+
+/// A value with the digits that are read, not all of them.
+fn in_summary(value: &Value) -> String {
+    match value {
+        Value::Double(number) if *number != 0.0 && !(1e-3..1e5).contains(&number.abs()) => format!("{number:.4e}"),
+        Value::Double(number) => format!("{}", (number * 1e6).round() / 1e6),
+        other => other.text(Decimal::Point),
+    }
+}
+
+/// The table of one row, from its columns as `NAME=VALUE`; `None` if there are none.
+pub fn one_row(given: &[String]) -> Result<Option<String>, Box<dyn Error>> {
+    if given.is_empty() {
+        return Ok(None);
+    }
+    let mut cells = Vec::new();
+    for pair in given {
+        let Some((name, value)) = pair.split_once('=') else {
+            return Err(format!("--given: \"{pair}\" is refused: enter NAME=VALUE, as density_kg_m3=2600").into());
+        };
+        cells.push((name.trim(), value.trim()));
+    }
+    let mut table = csv::Writer::from_writer(Vec::new());
+    table.write_record(cells.iter().map(|(name, _)| name))?;
+    table.write_record(cells.iter().map(|(_, value)| value))?;
+    Ok(Some(String::from_utf8(table.into_inner()?)?))
+}
 
 /// Opens a file to read.
 pub fn open(path: &Path) -> Result<BufReader<File>, String> {

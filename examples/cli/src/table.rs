@@ -10,18 +10,20 @@ use clap::{Args, ValueEnum};
 use microimpact::contact::{AnyLaw, Collocation, Contact};
 use microimpact::table::BoundaryTable;
 use microimpact::{InputError, Sphere, Stiffness};
+use sheet::Value;
 
 use crate::Streams;
-use crate::command::exit_status;
+use crate::command::{Format, exit_status, write_records};
 
-/// Make a table of critical speeds, which classifies spheres of one material on one surface as captured or rebounding.
+/// Make a table of critical speeds for firmware, which tells captures from rebounds on one surface
 ///
 /// Options default to the values of the paper (zeta_A = 6.25 is half of the printed value, as in the paper's program). Cells
 /// divide each octave of radii into four; the table starts with the cell that contains the smallest radius.
-///
-/// Exit status: 0 on success; 2 if there is no such table (standard error gives the reason).
 #[derive(Args)]
-#[command(allow_negative_numbers = true)]
+#[command(allow_negative_numbers = true, after_help = "\
+Example: a table for C
+  cargo microimpact table --format c
+Exit status: 0 on success; 2 if there is no such table (standard error says why).")]
 pub struct Options {
     /// Smallest radius, m
     #[arg(long, default_value_t = 1e-6)]
@@ -45,19 +47,21 @@ pub struct Options {
     #[arg(long, default_value_t = 6.25)]
     zeta_a: f64,
     /// Language of the table
-    #[arg(long, value_enum, default_value_t = Format::Rust)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = Language::Rust)]
+    format: Language,
 }
 
 /// Language of the table.
 #[derive(Clone, Copy, ValueEnum)]
-enum Format {
-    /// A constant
+enum Language {
+    // A constant.
     Rust,
-    /// Constants and a function for C99
+    // Constants and a function for C99.
     C,
-    /// A row for each cell
+    // A row for each cell, in one of the formats of the other commands.
+    Table,
     Csv,
+    Json,
 }
 
 /// Eight octaves.
@@ -117,9 +121,11 @@ fn run(options: &Options, to: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let parts = options.table()?;
     let subject = options.subject(&parts);
     match options.format {
-        Format::Rust => rust(to, &parts, &subject),
-        Format::C => c(to, &parts, &subject),
-        Format::Csv => csv(to, &parts),
+        Language::Rust => rust(to, &parts, &subject),
+        Language::C => c(to, &parts, &subject),
+        Language::Table => rows(to, &parts, Format::Table),
+        Language::Csv => rows(to, &parts, Format::Csv),
+        Language::Json => rows(to, &parts, Format::Json),
     }?;
     Ok(())
 }
@@ -188,12 +194,15 @@ static inline enum boundary_verdict boundary_classify(float radius, float speed)
 }
 ";
 
-fn csv(to: &mut dyn Write, parts: &Parts) -> io::Result<()> {
-    writeln!(to, "radius_from_m,radius_to_m,constant,linear,square,cube,margin")?;
-    for (k, [constant, linear, square, cube]) in parts.cells.iter().enumerate() {
+/// The columns of a cell of the table.
+const COLUMNS: [&str; 7] = ["radius_from_m", "radius_to_m", "constant", "linear", "square", "cube", "margin"];
+
+fn rows(to: &mut dyn Write, parts: &Parts, format: Format) -> io::Result<()> {
+    let records = parts.cells.iter().enumerate().map(|(k, cell)| {
         // Each cell spans 2^21 steps of the bits of a radius.
-        let radius = |k: usize| f32::from_bits(parts.smallest.to_bits() + ((k as u32) << 21));
-        writeln!(to, "{:e},{:e},{constant},{linear},{square},{cube},{}", radius(k), radius(k + 1), parts.margin)?;
-    }
-    Ok(())
+        let radius = |k: usize| Value::Single(f32::from_bits(parts.smallest.to_bits() + ((k as u32) << 21)));
+        let coefficients = cell.map(|coefficient| Value::Double(coefficient.into()));
+        [radius(k), radius(k + 1)].into_iter().chain(coefficients).chain([Value::Count(parts.margin.into())]).collect()
+    });
+    write_records(format, &COLUMNS, 0, records, to)
 }

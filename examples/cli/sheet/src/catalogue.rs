@@ -125,19 +125,19 @@ columns! {
     // The rigid body.
     "restitution" "1" Range::Of(P::Restitution), "0.978", "kinetic restitution R: that of the sphere without adhesion";
     "restitution_speed_m_s" "m/s" Range::Of(P::RestitutionSpeed), "130", "k of R = k^p/(k^p + v^p)";
-    "restitution_power" "1" Range::Of(P::RestitutionPower), "1", "p of R = k^p/(k^p + v^p)";
+    "restitution_power" "1" Range::Of(P::RestitutionPower), "", "p of R = k^p/(k^p + v^p)";
     "yield_speed_m_s" "m/s" Range::Of(P::YieldSpeed), "0.5", "speed at which an elastic-plastic sphere starts to yield (Thornton 1997)";
     "adhesion_coefficient" "1" Range::Of(P::AdhesionCoefficient), "0.237", "adhesion coefficient rho of a rigid body";
     "adhesion_speed_m_s" "m/s" Range::Of(P::AdhesionSpeed), "1", "l of rho = l^q/(l^q + v^q)";
-    "adhesion_power" "1" Range::Of(P::AdhesionPower), "1", "q of rho = l^q/(l^q + v^q)";
+    "adhesion_power" "1" Range::Of(P::AdhesionPower), "", "q of rho = l^q/(l^q + v^q)";
     "work_of_adhesion_j" "J" Range::Of(P::WorkOfAdhesion), "2.22e-12", "work of adhesion W_A of one contact";
-    "impulse_ratio" "1" Range::Of(P::ImpulseRatio), "0.043", "tangential over normal impulse mu, instead of friction";
+    "impulse_ratio" "1" Range::Of(P::ImpulseRatio), "", "tangential over normal impulse mu, instead of friction";
     "rolling_arm_m" "m" Range::Of(P::RollingArm), "0", "rolling-dissipation coefficient times its arm, mu_m a_c";
     // The simulation.
     "stiffness_pa" "Pa" Range::Of(P::Stiffness), "7.5e10", "Hertz stiffness K";
     "law" "" Range::Words("hertz, ring, dmt or jkr"), "", "law of contact";
     "adhesion_n_m" "N/m" Range::Of(P::AdhesionStrength), "250", "strength f0 of the ring of adhesion, a force per length";
-    "work_of_adhesion_j_m2" "J/m2" Range::Of(P::AdhesionEnergy), "0.05", "work of adhesion G per area, of the laws dmt and jkr";
+    "work_of_adhesion_j_m2" "J/m2" Range::Of(P::AdhesionEnergy), "", "work of adhesion G per area, of the laws dmt and jkr";
     "zeta_h" "1" Range::Of(P::MaterialDamping), "10.5", "hysteretic damping: c_H/C, where the elastic force is multiplied by 1 + c_H v and C = (m/(r^3 K sqrt(v)))^(2/5)";
     "zeta_a" "1" Range::Of(P::AdhesionDamping), "6.25", "damping of the ring of adhesion";
     "damping" "" Range::Words("none, hysteretic, viscoelastic or constant"), "", "damping of the materials, where zeta_h is empty";

@@ -71,6 +71,12 @@ impl Input {
         self.default
     }
 
+    /// Whether a table needs it only beside certain other columns.
+    #[must_use]
+    pub fn is_conditional(&self) -> bool {
+        !self.with.is_empty()
+    }
+
     fn is_in(&self, header: &[&str]) -> bool {
         has_one(header, self.columns)
     }
@@ -105,7 +111,13 @@ pub struct Header<'a> {
     pub(crate) names: &'a [String],
 }
 
-impl Header<'_> {
+impl<'a> Header<'a> {
+    /// A header of these columns.
+    #[must_use]
+    pub fn of(names: &'a [String]) -> Self {
+        Self { names }
+    }
+
     /// Whether the table has a column.
     pub fn has(&self, column: &str) -> bool {
         self.names.iter().any(|name| name == column)

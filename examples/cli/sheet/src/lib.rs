@@ -33,7 +33,7 @@ pub use row::Row;
 use row::text;
 use source::{Guard, Source};
 pub use value::{Scalar, Value};
-pub use writer::{RowWriter, Rows, Shape};
+pub use writer::{RowWriter, Rows, Shape, write_records};
 
 /// A table that is read row by row.
 pub struct Sheet<'a> {

@@ -4,6 +4,7 @@ use std::io::Write;
 
 use csv::{ByteRecord, Terminator, WriterBuilder};
 
+use crate::decimal::Decimal;
 use crate::frame::Frame;
 use crate::row::Row;
 use crate::value::{Value, write_json_text};
@@ -163,4 +164,37 @@ impl Rows<'_> {
             Shape::Json => Ok(self.json),
         }
     }
+}
+
+/// Writes records of words and numbers, as CSV with commas and decimal points, or as JSON.
+///
+/// # Errors
+/// Writing fails.
+pub fn write_records(
+    shape: Shape,
+    names: &[&str],
+    records: impl IntoIterator<Item = Vec<Value>>,
+    to: &mut dyn Write,
+) -> std::io::Result<()> {
+    if shape == Shape::Csv {
+        let mut rows = csv::Writer::from_writer(to);
+        rows.write_record(names)?;
+        for record in records {
+            rows.write_record(record.iter().map(|value| value.text(Decimal::Point)))?;
+        }
+        return rows.flush();
+    }
+    let mut text = vec![b'['];
+    for (index, record) in records.into_iter().enumerate() {
+        text.extend(if index == 0 { "\n{".bytes() } else { ",\n{".bytes() });
+        for (index, (name, value)) in names.iter().zip(&record).enumerate() {
+            text.extend(if index == 0 { "".bytes() } else { ",".bytes() });
+            write_json_text(name, &mut text);
+            text.push(b':');
+            value.write_json(&mut text);
+        }
+        text.push(b'}');
+    }
+    text.extend(b"\n]\n");
+    to.write_all(&text)
 }

@@ -17,39 +17,38 @@ use microimpact::Real;
 use sheet::{Header, Input, Row, Value};
 
 use crate::Streams;
-use crate::command::{BadRows, Number, TableCommand, TableOptions};
+use crate::columns::Used;
+use crate::command::{BadRows, Number, STATUS, TABLE_MANUAL, TableCommand, TableOptions};
 use crate::rows::{BadRow, Work};
 use crate::words::{motion_name, outcome_name};
 use measured::{INPUTS, Inputs, Measured};
 use summary::{Note, Summary};
 
-/// Analyse measured impacts of microspheres: coefficients, energy, class, and the confidence in the class. Without a table,
-/// analyse synthetic impacts and two of the paper.
-///
-/// Input columns, in SI units. Brackets give the value that an empty or absent cell has; the other columns are required.
-///   diameter_m or radius_m, density_kg_m3, gyration_ratio (k^2/r^2) [0.4, a solid sphere],
-///   restitution (R), or restitution_speed_m_s and restitution_power (k and p of R = k^p/(k^p + v^p)) [p = 1],
-///   or yield_speed_m_s (elastic-plastic, Thornton 1997),
-///   speed_normal_m_s (approach speed, a positive number), speed_tangential_m_s [0],
-///   spin_rad_s [not measured: the sphere is assumed to roll at separation, and the spin that this implies is computed],
-///   rebound_speed_m_s, speed_tangential_out_m_s,
-///   spin_out_rad_s [not measured: the spin follows from friction alone],
-///   velocity_error_m_s (standard error of each measured velocity) [0.01].
-///
-/// Computed: a slip within three standard errors of zero counts as rolling. The confidence is the probability that the true
-/// velocities, normally distributed about the measured ones, have the same class. A row whose velocities no impact can have
-/// is bad.
-///
-/// With --format csv the command reads and writes row by row, so that a file may be larger than memory. Figures, and the
-/// statistics on standard error, use a random sample of at most 10000 rows.
+/// Analyse measured impacts by the rigid-body model: coefficients, energy, class, and the confidence in the class
 #[derive(Args)]
-#[command(verbatim_doc_comment, after_long_help = crate::command::TABLE_MANUAL)]
+#[command(after_help = format!("{EXAMPLE}\n{STATUS}"), after_long_help = format!("{EXAMPLE}\n\n{MANUAL}\n\n{TABLE_MANUAL}\n\n{STATUS}"))]
 pub struct Options {
-    /// Folder for the figures velocity_ratio.svg and impulse_ratio.svg.
+    /// Folder for the figures velocity_ratio.svg and impulse_ratio.svg
     #[arg(long)]
     plots: Option<PathBuf>,
     #[command(flatten)]
     table: TableOptions,
+}
+
+const EXAMPLE: &str = "\
+Example: synthetic impacts and two of the paper
+  cargo microimpact analyse
+`cargo microimpact columns analyse` lists the columns that it reads and writes.";
+
+const MANUAL: &str = "\
+Without a measured spin_rad_s the sphere is assumed to roll at separation, and the spin that this implies is computed. Without \
+spin_out_rad_s that spin follows from friction alone. A slip within three standard errors of zero counts as rolling. The confidence \
+is the probability that the true velocities, normally distributed about the measured ones, have the same class. A row whose \
+velocities no impact can have is bad. Figures, and the statistics on standard error, use a random sample of at most 10000 rows.";
+
+/// The columns of the command.
+pub fn columns() -> Used {
+    Used::by(&Analysis::<f64> { summary: Mutex::default(), scalar: PhantomData })
 }
 
 impl TableCommand for Options {

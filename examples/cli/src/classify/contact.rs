@@ -193,6 +193,16 @@ impl<T: Number> Simulated<T> {
     }
 }
 
+/// What arrives, the law of contact and the scene of a row.
+pub fn scene<T: Number>(row: &Row<'_>) -> Result<(Arrival<T>, RowLaw<T>, AnyScene<T>), String> {
+    let arrival = Arrival::read(row)?;
+    arrival.refuse(row, &["peeling_n_m"], &["external_force_n"])?;
+    let row_law = RowLaw::read(row)?;
+    let law = row_law.law().map_err(|error| row.reason(error))?;
+    let scene = Contact::new(arrival.sphere, law).with_friction(row.or_zero("friction")?);
+    Ok((arrival, row_law, scene.map_err(|error| row.reason(error))?))
+}
+
 /// Random rows that are simulated for standard errors too large for an expansion.
 const DRAWS: u32 = 5_000;
 
@@ -247,14 +257,9 @@ impl<T: Number> SimulationModel<T> {
 
     /// Builds the scene of a row and simulates its impact.
     pub fn compute(&self, row: &Row<'_>) -> Result<Simulated<T>, String> {
-        let arrival = Arrival::read(row)?;
-        arrival.refuse(row, &["peeling_n_m"], &["external_force_n"])?;
+        let (arrival, row_law, scene) = scene(row)?;
         let (sphere, before) = (arrival.sphere, arrival.motion);
-        let row_law = RowLaw::read(row)?;
-        let law = row_law.law().map_err(|error| row.reason(error))?;
         let friction = row.or_zero("friction")?;
-        let scene = Contact::new(sphere, law).with_friction(friction);
-        let scene = scene.map_err(|error| row.reason(error))?;
         let yield_pressure = row.number("yield_pressure_pa")?;
         let yield_speed = yield_pressure.map(|pressure| Hertz::yield_speed(&sphere, row_law.stiffness, pressure));
         let yield_speed = yield_speed.transpose().map_err(|error| row.reason(error))?;
