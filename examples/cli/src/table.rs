@@ -11,20 +11,26 @@ use clap::{Args, ValueEnum};
 use microimpact::contact::{AnyLaw, Collocation, Contact};
 use microimpact::table::BoundaryTable;
 use microimpact::{InputError, Sphere, Stiffness};
+use sheet::Value;
 
 use crate::Streams;
-use crate::command::exit_status;
+use crate::command::{Format, exit_status, write_records};
 use crate::restitution_table::{self, Program, RestitutionOptions};
 
-/// Make a table of critical speeds, which classifies spheres of one material on one surface as captured or rebounding; or,
-/// for a program that simulates the flow of particles, a table of their restitution against the approach speed.
+/// Make a table of critical speeds for firmware, or of restitution for programs that simulate the flow of particles
 ///
 /// Options default to the values of the paper (zeta_A = 6.25 is half of the printed value, as in the paper's program). Cells
 /// divide each octave of radii into four; the table starts with the cell that contains the smallest radius.
-///
-/// Exit status: 0 on success; 2 if there is no such table (standard error gives the reason).
 #[derive(Args)]
-#[command(allow_negative_numbers = true)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
+Examples: a table for C, and a boundary condition for Ansys Fluent
+  cargo microimpact table --format c
+  cargo microimpact table --format fluent
+Restitution has the formats fluent, acutrace, comsol, openfoam and restitution-csv.
+Exit status: 0 on success; 2 if there is no such table (standard error says why)."
+)]
 pub struct Options {
     /// Smallest radius, m
     #[arg(long, default_value_t = 1e-6)]
@@ -48,43 +54,57 @@ pub struct Options {
     #[arg(long, default_value_t = 6.25)]
     zeta_a: f64,
     /// Language of the table
-    #[arg(long, value_enum, default_value_t = Format::Rust)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = Language::Rust)]
+    format: Language,
     #[command(flatten)]
     restitution: RestitutionOptions,
 }
 
 /// Language of the table.
 #[derive(Clone, Copy, ValueEnum)]
-enum Format {
-    /// A constant
+enum Language {
+    // A constant.
     Rust,
-    /// Constants and a function for C99
+    // Constants and a function for C99.
     C,
-    /// A row for each cell
+    // A row for each cell, in one of the formats of the other commands.
+    Table,
     Csv,
-    /// Restitution: source of a user-defined function for Ansys Fluent
+    Json,
+    // Restitution against approach speed.
     Fluent,
-    /// Restitution: wall boundary condition for AcuTrace
     Acutrace,
-    /// Restitution: interpolation function for COMSOL Multiphysics
     Comsol,
-    /// Restitution: dictionary for OpenFOAM
     Openfoam,
-    /// Restitution: a row for each point
     RestitutionCsv,
 }
 
-impl Format {
-    /// The program whose table has restitutions; `None` for a table of critical speeds.
-    fn program(self) -> Option<Program> {
+/// What a format holds.
+enum Content {
+    CriticalSpeeds(Written),
+    Restitution(Program),
+}
+
+/// How a table of critical speeds is written.
+enum Written {
+    Rust,
+    C,
+    Rows(Format),
+}
+
+impl Language {
+    fn content(self) -> Content {
         match self {
-            Self::Rust | Self::C | Self::Csv => None,
-            Self::Fluent => Some(Program::Fluent),
-            Self::Acutrace => Some(Program::AcuTrace),
-            Self::Comsol => Some(Program::Comsol),
-            Self::Openfoam => Some(Program::OpenFoam),
-            Self::RestitutionCsv => Some(Program::Any),
+            Self::Rust => Content::CriticalSpeeds(Written::Rust),
+            Self::C => Content::CriticalSpeeds(Written::C),
+            Self::Table => Content::CriticalSpeeds(Written::Rows(Format::Table)),
+            Self::Csv => Content::CriticalSpeeds(Written::Rows(Format::Csv)),
+            Self::Json => Content::CriticalSpeeds(Written::Rows(Format::Json)),
+            Self::Fluent => Content::Restitution(Program::Fluent),
+            Self::Acutrace => Content::Restitution(Program::AcuTrace),
+            Self::Comsol => Content::Restitution(Program::Comsol),
+            Self::Openfoam => Content::Restitution(Program::OpenFoam),
+            Self::RestitutionCsv => Content::Restitution(Program::Any),
         }
     }
 }
@@ -143,18 +163,21 @@ impl Options {
 }
 
 fn run(options: &Options, to: &mut dyn Write) -> Result<(), Box<dyn Error>> {
-    if let Some(program) = options.format.program() {
-        let octaves = f64::from(options.cells) / CELLS_OF_OCTAVE;
-        let radii = [options.smallest_radius, options.smallest_radius * octaves.exp2()];
-        let (law, materials) = (options.law()?, options.materials());
-        return restitution_table::write(to, program, &options.restitution, radii, options.density, law, materials);
-    }
+    let written = match options.format.content() {
+        Content::CriticalSpeeds(written) => written,
+        Content::Restitution(program) => {
+            let octaves = f64::from(options.cells) / CELLS_OF_OCTAVE;
+            let radii = [options.smallest_radius, options.smallest_radius * octaves.exp2()];
+            let (law, materials) = (options.law()?, options.materials());
+            return restitution_table::write(to, program, &options.restitution, radii, options.density, law, materials);
+        }
+    };
     let parts = options.table()?;
     let subject = format!("{}; greatest relative error {:.1e}", options.materials(), parts.relative_margin);
-    match options.format {
-        Format::C => c(to, &parts, &subject),
-        Format::Csv => csv(to, &parts),
-        _ => rust(to, &parts, &subject),
+    match written {
+        Written::Rust => rust(to, &parts, &subject),
+        Written::C => c(to, &parts, &subject),
+        Written::Rows(format) => rows(to, &parts, format),
     }?;
     Ok(())
 }
@@ -223,12 +246,15 @@ static inline enum boundary_verdict boundary_classify(float radius, float speed)
 }
 ";
 
-fn csv(to: &mut dyn Write, parts: &Parts) -> io::Result<()> {
-    writeln!(to, "radius_from_m,radius_to_m,constant,linear,square,cube,margin")?;
-    for (k, [constant, linear, square, cube]) in parts.cells.iter().enumerate() {
+/// The columns of a cell of the table.
+const COLUMNS: [&str; 7] = ["radius_from_m", "radius_to_m", "constant", "linear", "square", "cube", "margin"];
+
+fn rows(to: &mut dyn Write, parts: &Parts, format: Format) -> io::Result<()> {
+    let records = parts.cells.iter().enumerate().map(|(k, cell)| {
         // Each cell spans 2^21 steps of the bits of a radius.
-        let radius = |k: usize| f32::from_bits(parts.smallest.to_bits() + ((k as u32) << 21));
-        writeln!(to, "{:e},{:e},{constant},{linear},{square},{cube},{}", radius(k), radius(k + 1), parts.margin)?;
-    }
-    Ok(())
+        let radius = |k: usize| Value::Single(f32::from_bits(parts.smallest.to_bits() + ((k as u32) << 21)));
+        let coefficients = cell.map(|coefficient| Value::Double(coefficient.into()));
+        [radius(k), radius(k + 1)].into_iter().chain(coefficients).chain([Value::Count(parts.margin.into())]).collect()
+    });
+    write_records(format, &COLUMNS, 0, records, to)
 }

@@ -1,115 +1,174 @@
-//! Writes how indentation and force change in time, by the contact simulation.
+//! The course of impacts: indentation, its rate and the force against time, by the contact simulation.
 //!
-//! `cargo microimpact trajectory FILE.csv` writes the samples of each row of a table.
+//! `cargo microimpact trajectory` shows an impact of the paper;
+//! `cargo microimpact trajectory FILE.csv --format csv` writes the samples of each row of a table.
 
 use std::error::Error;
-use std::io::{BufRead, Write};
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
-use microimpact::contact::{Contact, Recording, Sample, Status};
-use microimpact::{NormalMotion, Sphere};
-use sheet::{Input, LABEL, Row};
+use clap::Args;
+use microimpact::contact::{Adaptive, Recording, Sample, Status, Trajectory};
+use sheet::{Decimal, Input, Row, Sheet, Value};
 
 use crate::Streams;
-use crate::command::{BadRows, Reading, SimulationOptions, exit_status, open, simulation_help};
-use crate::contact_law::{LAW_INPUTS, RowLaw};
-use crate::inputs::{DENSITY_INPUT, MOTION_INPUTS};
+use crate::classify::{arrival, scene};
+use crate::command::{BadRows, Format, Origin, Reading, SimulationOptions, exit_status, one_row, write_records};
+use crate::contact_law::LAW_INPUTS;
+use crate::figure;
+use crate::inputs::{FRICTION_INPUT, PEELING_INPUT};
 
-/// Write indentation and force in time, by the contact simulation: a row for each sample of each impact.
-///
-/// Input columns, in SI units. Brackets give the value that an empty or absent cell has; the other columns are required.
-///   radius_m, density_kg_m3, speed_normal_m_s (approach speed, a positive number), stiffness_pa (K),
-///   adhesion_n_m (f0) [0], zeta_h [0], zeta_a [0], external_force_n (positive out of the surface) [0],
-///   law, work_of_adhesion_j_m2, damping, damping_value, end_rule (below).
-///
-/// Columns of the result: name of the impact, time_s from first contact, indentation_m, velocity_m_s (its rate, positive on the
-/// way in), force_n of the surface on the sphere (positive where it repels), elastic_force_n (its elastic part), and error. Samples
-/// are at most 200, and are dense where the motion is fast. A captured sphere is followed to its first turning point.
+/// Compute the course of impacts: indentation, its rate and the force against time, by the contact simulation
 #[derive(Args)]
-#[command(verbatim_doc_comment, after_long_help = simulation_help())]
+#[command(after_help = "\
+Example: glass on steel at 2.8 m/s
+  cargo microimpact trajectory --given radius_um=5.06 density_kg_m3=2600 stiffness_gpa=75 \\
+    adhesion_n_m=250 zeta_h=10.5 zeta_a=6.25 speed_normal_m_s=2.8 --format csv
+`cargo microimpact columns trajectory` lists the columns.
+Exit status: 0 on success; 1 if a row is bad (the column `error` says why); 2 if nothing could be read.",
+after_long_help = crate::command::TABLE_MANUAL)]
 pub struct Options {
-    /// CSV file to read; `-` for standard input.
-    file: PathBuf,
-    /// Format of the result.
-    #[arg(long, value_enum, default_value_t = Format::Csv)]
+    /// CSV or xlsx file of impacts; `-` for standard input [default: an impact of the paper]
+    #[arg(conflicts_with = "given")]
+    file: Option<PathBuf>,
+    /// One impact by its columns, instead of a file
+    #[arg(long, num_args = 1.., value_name = "NAME=VALUE")]
+    given: Vec<String>,
+    /// Format of the result
+    #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
+    /// SVG file to draw force against indentation in
+    #[arg(long)]
+    figure: Option<PathBuf>,
     #[command(flatten)]
     simulation: SimulationOptions,
     #[command(flatten)]
     reading: Reading,
 }
 
-/// Format of the result.
-#[derive(Clone, Copy, ValueEnum)]
-enum Format {
-    /// A row for each sample.
-    Csv,
-}
-
 const NAME: &str = "trajectory";
 
-const COLUMNS: [&str; 7] = ["name", "time_s", "indentation_m", "velocity_m_s", "force_n", "elastic_force_n", "error"];
+/// Table 1 of the paper. Its program halves the printed damping of adhesion.
+const BUNDLED: &str = "\
+name,radius_m,density_kg_m3,stiffness_pa,adhesion_n_m,zeta_h,zeta_a,friction,speed_normal_m_s,spin_rad_s
+Table 1: glass on steel,5.06e-6,2600,7.5e10,250,10.5,6.25,0.1,2.8,1.46e5
+";
 
-/// Samples of an impact.
-const SAMPLES: usize = 200;
+/// The columns that the command writes.
+pub const COLUMNS: [&str; 8] =
+    ["name", "time_s", "indentation_m", "indentation_rate_m_s", "force_n", "elastic_force_n", "event", "error"];
+
+/// Most samples of an impact.
+const SAMPLES: usize = 512;
+
+/// The columns that the command reads.
+pub fn inputs() -> Vec<Input> {
+    [&arrival::INPUTS[..], &[FRICTION_INPUT, PEELING_INPUT], &LAW_INPUTS].concat()
+}
 
 impl Options {
     /// Runs the command; its exit status.
     pub fn run(&self, streams: &mut Streams<'_>) -> u8 {
-        exit_status(NAME, run(self, streams), streams.errors)
+        exit_status(NAME, self.follow(streams), streams.errors)
     }
 
-    fn samples(&self, row: &Row<'_>) -> Result<Vec<Sample<f64>>, String> {
-        let sphere = Sphere::solid(row.required("radius_m")?, row.required("density_kg_m3")?);
-        let sphere = sphere.map_err(|error| row.reason(error))?;
-        let motion = NormalMotion::new(row.required("speed_normal_m_s")?).map_err(|error| row.reason(error))?;
-        let law = RowLaw::read(row)?.law().map_err(|error| row.reason(error))?;
-        let method = self.simulation.method::<f64>().map_err(|error| row.reason(error))?;
-        let solved = Contact::new(sphere, law).solve_for(&motion, &method, Recording::<SAMPLES>);
-        let (impact, trajectory) = solved.map_err(|error| row.reason(error))?;
-        if impact.run.status != Status::Solved {
-            return Err("the simulation did not converge; use a larger --tolerance".into());
+    fn follow(&self, streams: &mut Streams<'_>) -> BadRows {
+        let method = self.simulation.method::<f64>()?;
+        let given = one_row(&self.given)?;
+        let inputs = inputs();
+        let Origin { source, progress: _progress } = Origin::of(self.file.as_deref(), BUNDLED, streams.input)?;
+        let mut sheet = match &given {
+            Some(text) => {
+                let reading = Reading::with(Decimal::Point);
+                reading.open(NAME, text.as_bytes(), &inputs, |_| Vec::new(), streams.errors)?
+            }
+            None => self.reading.open(NAME, source, &inputs, |_| Vec::new(), streams.errors)?,
+        };
+        let (records, curves, bad_rows) = samples(&mut sheet, &method)?;
+        write_records(self.format, &COLUMNS, 1, records, streams.output)?;
+        if let Some(path) = &self.figure {
+            draw(&curves, path)?;
         }
-        Ok(trajectory.samples().collect())
+        Ok(bad_rows)
     }
 }
 
-fn run(options: &Options, streams: &mut Streams<'_>) -> BadRows {
-    let source: Box<dyn BufRead> =
-        if options.file.as_os_str() == "-" { Box::new(&mut *streams.input) } else { Box::new(open(&options.file)?) };
-    let own = [Input::required(&["radius_m"]), DENSITY_INPUT, MOTION_INPUTS[0]];
-    let inputs = [&own[..], &LAW_INPUTS].concat();
-    let computed = |_: &sheet::Header<'_>| COLUMNS.map(String::from).into();
-    let mut sheet = options.reading.open(NAME, source, &inputs, computed, streams.errors)?;
-    let Format::Csv = options.format;
-    let mut rows = csv::Writer::from_writer(&mut *streams.output);
-    rows.write_record(COLUMNS)?;
-    let mut bad_rows = 0;
+/// Indentation and force of the samples of an impact.
+type Curve = Vec<(f64, f64)>;
+
+/// The samples of all rows, their curves, and the number of bad rows.
+fn samples(sheet: &mut Sheet<'_>, method: &Adaptive<f64>) -> Result<(Vec<Vec<Value>>, Vec<Curve>, usize), String> {
+    let (mut records, mut curves, mut bad_rows) = (Vec::new(), Vec::new(), 0);
     while let Some(row) = sheet.next_row()? {
-        let name = row.text(LABEL).unwrap_or_else(|| format!("row {}", row.index()));
-        match row.check().and_then(|()| options.samples(&row)) {
-            Ok(samples) => write(&mut rows, &row, &name, &samples)?,
+        let name = row.label();
+        match row.check().and_then(|()| course(&row, method)) {
+            Ok((trajectory, at_roll)) => {
+                records.extend(
+                    trajectory.samples().map(|sample| record(&name, &sample, event(&trajectory, &sample, at_roll))),
+                );
+                curves.push(trajectory.samples().map(|sample| (sample.indentation, sample.force)).collect());
+            }
             Err(reason) => {
                 bad_rows += 1;
-                rows.write_record([&name, "", "", "", "", "", &reason])?;
+                let mut record = vec![Value::Empty; COLUMNS.len()];
+                record[0] = name.into();
+                record[COLUMNS.len() - 1] = reason.into();
+                records.push(record);
             }
         }
     }
-    rows.flush()?;
-    Ok(bad_rows)
+    Ok((records, curves, bad_rows))
 }
 
-fn write(
-    rows: &mut csv::Writer<impl Write>,
-    row: &Row<'_>,
-    name: &str,
-    samples: &[Sample<f64>],
-) -> Result<(), Box<dyn Error>> {
-    for sample in samples {
-        let Sample { time, indentation, velocity, force, elastic } = *sample;
-        let numbers = [time, indentation, velocity, force, elastic].map(|number| row.cell(number));
-        rows.write_record([name].into_iter().chain(numbers.iter().map(String::as_str)).chain([""]))?;
+/// The course of the impact of a row, and when the sphere begins to roll.
+fn course(row: &Row<'_>, method: &Adaptive<f64>) -> Result<(Trajectory<f64, SAMPLES>, Option<f64>), String> {
+    let (arrival, _, scene) = scene::<f64>(row)?;
+    let scene = scene.with_peeling(row.or_zero("peeling_n_m")?).map_err(|error| row.reason(error))?;
+    let solved = scene.solve_for(&arrival.motion, method, Recording::<SAMPLES>);
+    let (impact, trajectory) = solved.map_err(|error| row.reason(error))?;
+    if impact.run.status != Status::Solved {
+        return Err("the simulation did not converge; use a larger --tolerance".into());
     }
+    let at_roll = trajectory.roll().map(|sample| sample.time);
+    Ok((trajectory, at_roll))
+}
+
+/// What happens at a sample.
+fn event(trajectory: &Trajectory<f64, SAMPLES>, sample: &Sample<f64>, at_roll: Option<f64>) -> &'static str {
+    let is_last = trajectory.samples().last().is_some_and(|last| last.time == sample.time);
+    if is_last {
+        "end"
+    } else if trajectory.peak().is_some_and(|peak| peak.time == sample.time) {
+        "peak"
+    } else if at_roll == Some(sample.time) {
+        "rolls"
+    } else if sample.time == 0.0 {
+        "contact"
+    } else {
+        ""
+    }
+}
+
+fn record(name: &str, sample: &Sample<f64>, event: &'static str) -> Vec<Value> {
+    let numbers = [sample.time, sample.indentation, sample.velocity, sample.force, sample.elastic];
+    let event = if event.is_empty() { Value::Empty } else { event.into() };
+    let name = [Value::from(name.to_owned())];
+    name.into_iter().chain(numbers.map(Value::Double)).chain([event, Value::Empty]).collect()
+}
+
+/// Draws the forces against the indentations.
+fn draw(curves: &[Curve], path: &std::path::Path) -> Result<(), Box<dyn Error>> {
+    let all = || curves.iter().flatten().copied();
+    let range = |values: &mut dyn Iterator<Item = f64>| {
+        let (low, high) = values.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
+        if low < high { low..high } else { low..low + 1.0 }
+    };
+    let ranges = [
+        (range(&mut all().map(|(indentation, _)| indentation)), "indentation, m"),
+        (range(&mut all().map(|(_, force)| force)), "force, N"),
+    ];
+    let area = figure::drawing(path, (640, 480))?;
+    let lines = curves.iter().map(|curve| (figure::LINE, curve.clone()));
+    figure::chart(&area, "Force of the surface", ranges, all(), lines)?;
+    area.present()?;
     Ok(())
 }

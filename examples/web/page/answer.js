@@ -23,9 +23,6 @@ function inUnits(number, unit) {
     return `${digits(value / factor)} ${name}${unit}`;
 }
 
-// The program names the restitution of both models so.
-const restitutionOf = (row) => row.overall_restitution ?? row.restitution;
-
 // The approach speeds of the curve: dense above the critical speed, where restitution begins as a square root.
 function curveSpeeds(speed, critical) {
     const geometric = (from, to) => Array.from({ length: CURVE_ROWS }, (_, k) => from * (to / from) ** (k / (CURVE_ROWS - 1)));
@@ -106,7 +103,7 @@ function margin({ columns, row, found, critical }) {
 }
 
 function showNumbers({ columns, row, critical }) {
-    const e = restitutionOf(row), rebounds = row.outcome === "rebound";
+    const e = row.overall_restitution, rebounds = row.outcome === "rebound";
     const slip = row.time_roll_s === "-1" ? "to the end" : row.time_roll_s === "0" ? "no slip" : inUnits(row.time_roll_s, "s");
     const numbers = [
         ["Restitution", "e", e === "" ? "–" : digits(e)],
@@ -127,11 +124,11 @@ function showNumbers({ columns, row, critical }) {
 
 function showCurve({ columns, row, critical, curve }) {
     const speed = Number(columns.speed_normal_m_s);
-    const known = curve.filter((row) => restitutionOf(row) !== "" && restitutionOf(row) !== undefined);
-    const points = known.map((row) => [Number(row.speed_normal_m_s), Number(restitutionOf(row))]);
+    const known = curve.filter((row) => row.overall_restitution !== "");
+    const points = known.map((row) => [Number(row.speed_normal_m_s), Number(row.overall_restitution)]);
     const largest = Math.max(0, ...points.map(([, e]) => e)) || 1;
     const speeds = curve.map((row) => Number(row.speed_normal_m_s));
-    const e = Number(restitutionOf(row));
+    const e = Number(row.overall_restitution);
     const at = critical === undefined ? "there is no critical speed" : `the critical speed is ${inUnits(critical, "m/s")}`;
     chart(document.getElementById("restitution"), {
         x: { label: "approach speed, m/s", range: [speeds[0], speeds.at(-1)], logarithmic: true },

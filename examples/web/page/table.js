@@ -1,7 +1,7 @@
 // A file of impacts: its columns, and the result to save.
 
 // Columns that are shown where they hold something; the file has all.
-const SHOWN = ["name", "outcome", "motion", "restitution", "overall_restitution", "contact_time_s", "models_agree", "class", "probability_capture", "error"];
+const SHOWN = ["name", "outcome", "motion", "overall_restitution", "contact_time_s", "models_agree", "class", "probability_capture", "error"];
 
 class TableOfImpacts {
     constructor(section) {
@@ -37,7 +37,7 @@ class TableOfImpacts {
         await this.attempt(async () => {
             const { status, output, errors } = await program.run(["columns"], file);
             if (status !== 0) throw new Error(await errors.text());
-            this.names = JSON.parse(await output.text());
+            ({ headings: this.headings, units: this.units } = JSON.parse(await output.text()));
             this.chosen = new Map();
             this.showColumns();
             this.outcome.replaceChildren();
@@ -47,19 +47,36 @@ class TableOfImpacts {
 
     showColumns() {
         const model = this.section.querySelector("#model").value;
-        const rows = OFFERED.filter(([, , only]) => !only || model === "both" || only === model).map(([column, label]) => {
-            const select = element("select", { id: `column-${column}` }, element("option", { value: "" }, "– none –"));
-            for (const name of this.names) select.append(element("option", { value: name }, name || "(without a name)"));
-            select.value = this.chosen.get(column) ?? (this.names.includes(column) ? column : "");
-            select.addEventListener("change", () => this.chosen.set(column, select.value));
-            return element("div", { className: "choice" }, element("label", { htmlFor: select.id }, label), select);
-        });
-        this.section.querySelector("#columns div").replaceChildren(...rows);
+        const offered = OFFERED.filter(([, , only]) => !only || model === "both" || only === model);
+        this.section.querySelector("#columns div").replaceChildren(...offered.map(([column, label]) => this.choice(column, label)));
     }
 
-    // The columns of the file that get another name, by turns with that name.
+    // The choice of the heading that holds a column, and of its unit; a heading that names the column has its unit.
+    choice(column, label) {
+        const own = this.headings.find(([, named]) => named === column)?.[0] ?? "";
+        const chosen = this.chosen.get(column) ?? { heading: own, name: column };
+        const heading = element("select", { id: `column-${column}` }, element("option", { value: "" }, "– none –"));
+        for (const [text] of this.headings) heading.append(element("option", { value: text }, text || "(without a name)"));
+        heading.value = chosen.heading;
+        const unit = element("select", { id: `unit-${column}`, ariaLabel: `Unit of ${label}` });
+        for (const [name, symbol] of this.units[column] ?? []) unit.append(element("option", { value: name }, symbol));
+        unit.value = chosen.name;
+        const show = () => unit.hidden = unit.options.length < 2 || heading.value === "" || heading.value === own;
+        for (const select of [heading, unit]) {
+            select.addEventListener("change", () => {
+                this.chosen.set(column, { heading: heading.value, name: unit.value || column });
+                show();
+            });
+        }
+        show();
+        return element("div", { className: "choice" }, element("label", { htmlFor: heading.id }, label), element("span", { className: "pair" }, heading, unit));
+    }
+
+    // The headings that get another text, by turns with that text.
     renamed() {
-        return [...this.chosen].filter(([column, name]) => name !== "" && name !== column).flatMap(([column, name]) => [name, column]);
+        const own = (heading, column) => this.headings.some(([text, named]) => text === heading && named === column);
+        const chosen = [...this.chosen].filter(([column, { heading }]) => heading !== "" && !own(heading, column));
+        return chosen.flatMap(([, { heading, name }]) => [heading, name]);
     }
 
     async classify() {

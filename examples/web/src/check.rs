@@ -248,21 +248,23 @@ fn tables(browser: &mut Browser, cases: &str) -> Result<(), String> {
 
 /// Columns with other names, which the user chooses, in a file with semicolons and decimal commas.
 fn mapping(browser: &mut Browser) -> Result<(), String> {
-    let body = "2,5e-6;2600;7,5e10;250;10,5;2,8\n5,06e-6;2600;7,5e10;250;10,5;0,9\n";
+    let body = "2,5;2600;75;250;10,5;2,8\n5,06;2600;75;250;10,5;0,9\n";
     let own = format!("half width;solid;k;f0 of Table 1;zeta_h;speed\n{body}");
-    let known = format!("radius_m;density_kg_m3;stiffness_pa;adhesion_n_m;zeta_h;speed_normal_m_s\n{body}");
+    let known = format!("radius_um;density_kg_m3;stiffness_gpa;adhesion_n_m;zeta_h;speed_normal_m_s\n{body}");
     drop_file(browser, "own.csv", &own)?;
-    for (column, name) in [
-        ("radius_m", "half width"),
-        ("density_kg_m3", "solid"),
-        ("stiffness_pa", "k"),
-        ("adhesion_n_m", "f0 of table 1"),
-        ("speed_normal_m_s", "speed"),
+    for (select, chosen) in [
+        ("column-radius_m", "half width"),
+        ("unit-radius_m", "radius_um"),
+        ("column-density_kg_m3", "solid"),
+        ("column-stiffness_pa", "k"),
+        ("unit-stiffness_pa", "stiffness_gpa"),
+        ("column-adhesion_n_m", "f0 of Table 1"),
+        ("column-speed_normal_m_s", "speed"),
     ] {
         browser.value(&format!(
-            "(() => {{ const select = document.getElementById('column-{column}'); select.value = {}; \
+            "(() => {{ const select = document.getElementById('{select}'); select.value = {}; \
              select.dispatchEvent(new Event('change')); }})()",
-            json!(name)
+            json!(chosen)
         ))?;
     }
     let expected = program(&["classify", "-", "--model", "simulation", "--format", "csv"], &known)?;

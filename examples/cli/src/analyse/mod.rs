@@ -8,49 +8,47 @@ mod measured;
 mod plots;
 mod summary;
 
-use std::cell::RefCell;
-use std::error::Error;
 use std::marker::PhantomData;
 use std::path::PathBuf;
+use std::sync::Mutex;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use microimpact::Real;
-use sheet::{Header, Input, Row};
+use sheet::{Header, Input, Row, Value};
 
 use crate::Streams;
-use crate::command::{BadRow, BadRows, Number, TABLE_HELP, TableCommand, TableOptions, Work};
+use crate::columns::Used;
+use crate::command::{BadRows, Number, STATUS, TABLE_MANUAL, TableCommand, TableOptions};
+use crate::rows::{BadRow, Work};
 use crate::words::{motion_name, outcome_name};
 use measured::{INPUTS, Inputs, Measured};
-use summary::Summary;
+use summary::{Note, Summary};
 
-/// Analyse measured impacts of microspheres: coefficients, energy, class, and the confidence in the class. Without a table,
-/// analyse synthetic impacts and two of the paper.
-///
-/// Input columns, in SI units. Brackets give the value that an empty or absent cell has; the other columns are required.
-///   diameter_m or radius_m, density_kg_m3, gyration_ratio (k^2/r^2) [0.4, a solid sphere],
-///   restitution (R), or restitution_speed_m_s and restitution_power (k and p of R = k^p/(k^p + v^p)) [p = 1],
-///   or yield_speed_m_s (elastic-plastic, Thornton 1997),
-///   speed_normal_m_s (approach speed, a positive number), speed_tangential_m_s [0],
-///   spin_rad_s [not measured: the sphere is assumed to roll at separation, and the spin that this implies is computed],
-///   rebound_speed_m_s, speed_tangential_out_m_s,
-///   spin_out_rad_s [not measured: the spin follows from friction alone],
-///   velocity_error_m_s (standard error of each measured velocity) [0.01].
-///
-/// Computed: a slip within three standard errors of zero counts as rolling. The confidence is the probability that the true
-/// velocities, normally distributed about the measured ones, have the same class. A row whose velocities no impact can have
-/// is bad.
-///
-/// With --format csv the command reads and writes row by row, so that a file may be larger than memory. Figures, and the
-/// statistics on standard error, use a random sample of at most 10000 rows.
+/// Analyse measured impacts by the rigid-body model: coefficients, energy, class, and the confidence in the class
 #[derive(Args)]
-#[command(verbatim_doc_comment, after_long_help = TABLE_HELP)]
+#[command(after_help = format!("{EXAMPLE}\n{STATUS}"), after_long_help = format!("{EXAMPLE}\n\n{MANUAL}\n\n{TABLE_MANUAL}\n\n{STATUS}"))]
 pub struct Options {
-    /// Folder for the figures velocity_ratio.svg and impulse_ratio.svg.
+    /// Folder for the figures velocity_ratio.svg and impulse_ratio.svg
     #[arg(long)]
     plots: Option<PathBuf>,
     #[command(flatten)]
     table: TableOptions,
+}
+
+const EXAMPLE: &str = "\
+Example: synthetic impacts and two of the paper
+  cargo microimpact analyse
+`cargo microimpact columns analyse` lists the columns that it reads and writes.";
+
+const MANUAL: &str = "\
+Without a measured spin_rad_s the sphere is assumed to roll at separation, and the spin that this implies is computed. Without \
+spin_out_rad_s that spin follows from friction alone. A slip within three standard errors of zero counts as rolling. The confidence \
+is the probability that the true velocities, normally distributed about the measured ones, have the same class. A row whose \
+velocities no impact can have is bad. Figures, and the statistics on standard error, use a random sample of at most 10000 rows.";
+
+/// The columns of the command.
+pub fn columns() -> Used {
+    Used::by(&Analysis::<f64> { summary: Mutex::default(), scalar: PhantomData })
 }
 
 impl TableCommand for Options {
@@ -61,10 +59,9 @@ impl TableCommand for Options {
     }
 
     fn run_in<T: Number>(&self, streams: &mut Streams<'_>) -> BadRows {
-        let analysis = Analysis::<T> { summary: RefCell::default(), progress: progress()?, scalar: PhantomData };
+        let analysis = Analysis::<T> { summary: Mutex::default(), scalar: PhantomData };
         let bad_rows = self.table.work(Self::NAME, include_str!("impacts.csv"), &analysis, streams)?;
-        analysis.progress.finish_and_clear();
-        let summary = analysis.summary.into_inner();
+        let summary = analysis.summary.into_inner()?;
         write!(streams.errors, "{summary}")?;
         if let Some(folder) = &self.plots {
             std::fs::create_dir_all(folder)?;
@@ -75,29 +72,15 @@ impl TableCommand for Options {
     }
 }
 
-/// A line on standard error that counts the rows, if that is a terminal.
-fn progress() -> Result<ProgressBar, Box<dyn Error>> {
-    let style = ProgressStyle::with_template("{human_pos} rows, {per_sec}, {elapsed}")?;
-    Ok(ProgressBar::new_spinner().with_style(style))
-}
-
 /// The analysis in numbers of type `T`, and the statistics of the rows so far.
 struct Analysis<T> {
-    summary: RefCell<Summary>,
-    progress: ProgressBar,
+    summary: Mutex<Summary>,
     scalar: PhantomData<T>,
 }
 
-impl<T: Number> Analysis<T> {
-    fn compute(&self, row: &Row<'_>) -> Result<Measured<T>, String> {
-        self.progress.inc(1);
-        let measured = Measured::of(row)?;
-        self.summary.borrow_mut().add(&measured);
-        Ok(measured)
-    }
-}
-
 impl<T: Number> Work for Analysis<T> {
+    type Notes = Vec<Note>;
+
     fn inputs(&self) -> Vec<Input> {
         INPUTS.into()
     }
@@ -125,26 +108,27 @@ impl<T: Number> Work for Analysis<T> {
         .into()
     }
 
-    fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
-        let measured = self.compute(row)?;
+    fn cells(&self, row: &Row<'_>, notes: &mut Vec<Note>) -> Result<Vec<Value>, BadRow> {
+        let measured = Measured::<T>::of(row)?;
+        notes.push(Note::of(&measured));
         let ledger = measured.energy();
         Ok(vec![
             outcome_name(measured.classification.outcome).into(),
             motion_name(measured.classification.contact.motion).into(),
-            row.cell(measured.confidence),
-            row.cell(T::constant(measured.incidence())),
-            row.cell(measured.restitution().value),
-            row.cell(measured.restitution_error()),
-            row.cell(measured.impact.normal.adhesion_coefficient().value),
-            row.cell(measured.impulse_ratio().value),
-            row.cell(measured.impulse_ratio_error()),
-            row.cell(measured.impact.tangential.rolling_ratio().value),
-            measured.implied_spin().map(|spin| row.cell(spin)).unwrap_or_default(),
-            row.cell(ledger.before.value),
-            row.cell(ledger.material.value),
-            row.cell(ledger.adhesion.value),
-            row.cell(ledger.friction.value),
-            row.cell(ledger.rolling.value),
+            measured.confidence.value(),
+            T::constant(measured.incidence()).value(),
+            measured.restitution().value.value(),
+            measured.restitution_error().value(),
+            measured.impact.normal.adhesion_coefficient().value.value(),
+            measured.impulse_ratio().value.value(),
+            measured.impulse_ratio_error().value(),
+            measured.impact.tangential.rolling_ratio().value.value(),
+            measured.implied_spin().into(),
+            ledger.before.value.value(),
+            ledger.material.value.value(),
+            ledger.adhesion.value.value(),
+            ledger.friction.value.value(),
+            ledger.rolling.value.value(),
         ])
     }
 
@@ -166,8 +150,16 @@ impl<T: Number> Work for Analysis<T> {
         ]
     }
 
-    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
-        let measured = self.compute(row)?;
+    fn keep(&self, notes: Vec<Note>) {
+        // The lock is held by one thread, and adding a note does not fail.
+        if let Ok(mut summary) = self.summary.lock() {
+            notes.into_iter().for_each(|note| summary.add(note));
+        }
+    }
+
+    fn line(&self, row: &Row<'_>, name: String, notes: &mut Vec<Note>) -> Result<Vec<String>, String> {
+        let measured = Measured::<T>::of(row)?;
+        notes.push(Note::of(&measured));
         let ledger = measured.energy();
         let percent =
             |loss: Inputs<T>| format!("{:.1}", (Inputs::constant(100.0) * loss / ledger.before).value + T::ZERO);

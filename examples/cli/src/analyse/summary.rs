@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use impact_fit::{Law, MeasuredSphere, Observation, Response, ScatterModel, Verdict, compete};
-use microimpact::Sphere;
 use microimpact::measure::{Estimate, ImpulseRatios, MeasuredRebound, friction};
+use microimpact::{Class, Sphere};
 
 use super::measured::Measured;
 use crate::command::Number;
@@ -32,6 +32,19 @@ pub struct Point {
     error: f64,
 }
 
+/// What the statistics take of an impact.
+pub struct Note {
+    class: Class,
+    point: Option<Point>,
+}
+
+impl Note {
+    /// The note of an impact.
+    pub fn of<T: Number>(measured: &Measured<T>) -> Self {
+        Self { class: measured.classification.class(), point: Point::of(measured) }
+    }
+}
+
 /// Counts of classes and a sample of the impacts.
 #[derive(Default)]
 pub struct Summary {
@@ -43,15 +56,15 @@ pub struct Summary {
 
 impl Summary {
     /// Counts an impact. Each has the same chance to be in the sample (Vitter's algorithm R).
-    pub fn add<T: Number>(&mut self, measured: &Measured<T>) {
-        *self.classes.entry(measured.classification.class().to_string()).or_default() += 1;
+    pub fn add(&mut self, note: Note) {
+        *self.classes.entry(note.class.to_string()).or_default() += 1;
         self.seen += 1;
         let place = if self.seen <= SAMPLE {
             self.sample.len()
         } else {
             self.random.get_or_insert_with(|| fastrand::Rng::with_seed(1)).usize(..self.seen)
         };
-        let Some(point) = Point::of(measured) else {
+        let Some(point) = note.point else {
             return;
         };
         if let Some(old) = self.sample.get_mut(place) {

@@ -9,7 +9,7 @@ use microimpact::{Class, Fault, InputError, Parameter};
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rand_distr::{Distribution, StandardNormal};
-use sheet::{Header, Input, Row};
+use sheet::{Header, Input, Row, Scalar, Value};
 
 use crate::command::Number;
 use crate::words::moving;
@@ -199,7 +199,7 @@ impl<'a, 'b> Deviations<'a, 'b> {
                 numbers.push(Deviating { column, parameter: *parameter, value, error });
             }
         }
-        let given = kind.quantities().any(|quantity| row.text(quantity.error).is_some());
+        let given = kind.quantities().any(|quantity| row.has(quantity.error));
         Ok(given.then_some(Self { row, numbers }))
     }
 
@@ -276,7 +276,7 @@ impl Probabilities {
     }
 
     /// The cells of the computed columns.
-    pub fn cells(&self, row: &Row<'_>, level: f64) -> Vec<String> {
+    pub fn cells(&self, level: f64) -> Vec<Value> {
         let [rebound_sliding, rebound_rolling, captured_sliding, captured_rolling] = self.classes;
         let numbers = [
             captured_sliding + captured_rolling,
@@ -288,8 +288,8 @@ impl Probabilities {
             captured_rolling,
             self.error,
         ];
-        let cells = numbers.into_iter().map(|number| row.cell(number));
-        cells.chain([self.by.to_owned(), self.class(level)]).collect()
+        let cells = numbers.into_iter().map(Scalar::value);
+        cells.chain([self.by.into(), self.class(level).into()]).collect()
     }
 }
 

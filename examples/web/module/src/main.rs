@@ -17,11 +17,11 @@ enum Command {
     Classify(Classify),
     Critical(Critical),
     Trajectory(Trajectory),
-    /// Writes the names of the columns as a JSON list.
+    /// Writes the headings of the table and the columns that they name as JSON.
     Columns,
-    /// Copies the table with other names for some columns.
+    /// Copies the table with other headings for some columns.
     Rename {
-        /// Names of the header and those to write instead, by turns.
+        /// Headings of the table and those to write instead, by turns.
         names: Vec<String>,
     },
     /// Writes what a classified table holds as JSON: the numbers of rows and of bad rows, how often each class occurs, and the

@@ -1,17 +1,19 @@
 //! What the page shows of a table.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::Write;
 
 use microimpact_cli::Streams;
 use serde_json::{Value, json};
+use sheet::catalogue::COLUMNS;
 use sheet::{Decimal, Row, Sheet};
 
-/// Writes the names of the columns.
+/// Writes the headings of a table, each with the column that it names, and the headings that a column may have, one for each unit.
 pub fn columns(streams: &mut Streams<'_>) -> Result<(), String> {
-    // The mark does not matter where no number is read.
-    let sheet = Sheet::open(&mut *streams.input, &[], Some(Decimal::Point))?;
-    write(&json!(sheet.header().names().collect::<Vec<_>>()), streams.output)
+    let headings = sheet::headings(&mut *streams.input)?;
+    let units: BTreeMap<_, _> = COLUMNS.iter().map(|column| (column.name, column.names())).collect();
+    write(&json!({ "headings": headings, "units": units }), streams.output)
 }
 
 /// Copies a table with other names for some of its columns: old and new ones by turns.
@@ -28,15 +30,17 @@ pub fn summary(first: usize, streams: &mut Streams<'_>) -> Result<(), String> {
     let mut classes = BTreeMap::<_, u64>::new();
     while let Some(row) = sheet.next_row()? {
         rows += 1;
-        if row.text("error").is_some() {
+        if row.has("error") {
             bad += 1;
         } else {
             *classes.entry(class(&row)).or_default() += 1;
         }
         if shown.len() < first {
-            shown.push(names.iter().map(|name| row.text(name).unwrap_or_default()).collect::<Vec<_>>());
+            let cell = |name: &String| row.text(name).map(Cow::into_owned).unwrap_or_default();
+            shown.push(names.iter().map(cell).collect::<Vec<_>>());
         }
     }
+    drop(sheet);
     write(&json!({ "rows": rows, "bad": bad, "classes": classes, "names": names, "first": shown }), streams.output)
 }
 
