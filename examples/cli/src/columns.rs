@@ -9,7 +9,7 @@ use sheet::catalogue::{COLUMNS, Column};
 use sheet::{Header, Input, LABEL, Value};
 
 use crate::Streams;
-use crate::classify::{Model, MethodOptions, model_columns};
+use crate::classify::{MethodOptions, Model, model_columns};
 use crate::command::{Format, exit_status, write_records};
 use crate::rows::Work;
 use crate::words::name_of;
@@ -70,8 +70,12 @@ impl Used {
                 let mut both = Self { inputs: Vec::new(), outputs: Vec::new() };
                 for model in models {
                     let used = model_columns(model, &MethodOptions::default());
-                    both.inputs.extend(used.inputs.into_iter().filter(|input| !both.inputs.contains(input)).collect::<Vec<_>>());
-                    both.outputs.extend(used.outputs.into_iter().filter(|name| !both.outputs.contains(name)).collect::<Vec<_>>());
+                    both.inputs.extend(
+                        used.inputs.into_iter().filter(|input| !both.inputs.contains(input)).collect::<Vec<_>>(),
+                    );
+                    both.outputs.extend(
+                        used.outputs.into_iter().filter(|name| !both.outputs.contains(name)).collect::<Vec<_>>(),
+                    );
                 }
                 both.outputs.extend(["models_agree", "models_differ_because"].map(String::from));
                 both

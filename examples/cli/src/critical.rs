@@ -10,9 +10,7 @@ use sheet::{Header, Input, Row, Value};
 
 use crate::Streams;
 use crate::columns::Used;
-use crate::command::{
-    BadRows, Number, STATUS, SimulationOptions, TABLE_MANUAL, TableCommand, TableOptions,
-};
+use crate::command::{BadRows, Number, STATUS, SimulationOptions, TABLE_MANUAL, TableCommand, TableOptions};
 use crate::contact_law::{LAW_INPUTS, LawName, RowLaw};
 use crate::inputs::{DENSITY_INPUT, SIZE_INPUT, radius};
 use crate::rows::{BadRow, Work};
@@ -83,8 +81,7 @@ struct Critical<T> {
 
 impl<T: Number> Critical<T> {
     fn find(&self, row: &Row<'_>) -> Result<(LawName, CriticalSpeed<T>), String> {
-        let sphere = Sphere::solid(radius(row)?, row.required("density_kg_m3")?)
-            .map_err(|error| row.reason(error))?;
+        let sphere = Sphere::solid(radius(row)?, row.required("density_kg_m3")?).map_err(|error| row.reason(error))?;
         let law = RowLaw::read(row)?;
         let critical = law.law().and_then(|law| Contact::new(sphere, law).critical_speed(&self.method));
         Ok((law.name, critical.map_err(|error| row.reason(error))?))

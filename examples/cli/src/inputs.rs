@@ -26,9 +26,7 @@ pub fn radius<T: Scalar>(row: &Row<'_>) -> Result<T, String> {
         (Some(radius), None) => Ok(radius),
         (None, Some(diameter)) => Ok(T::constant(0.5) * diameter),
         (None, None) => Err("radius_m: missing; give radius_m or diameter_m".into()),
-        (Some(_), Some(_)) => {
-            Err("size: given twice, as radius_m and diameter_m; leave one of them empty".into())
-        }
+        (Some(_), Some(_)) => Err("size: given twice, as radius_m and diameter_m; leave one of them empty".into()),
     }
 }
 

@@ -87,11 +87,7 @@ fn run(options: &Options, streams: &mut Streams<'_>) -> Result<(), Box<dyn Error
     let mean_square = fit.residuals().map(|(_, residual)| residual * residual).sum::<f64>() / impacts.len() as f64;
     let of_table = options.format == Format::Table;
     let remarks: &mut dyn Write = if of_table { &mut *streams.output } else { &mut *streams.errors };
-    writeln!(
-        remarks,
-        "impacts: {}, mean square of the residuals in their variance: {mean_square:.3}",
-        impacts.len()
-    )?;
+    writeln!(remarks, "impacts: {}, mean square of the residuals in their variance: {mean_square:.3}", impacts.len())?;
     if let Some(figure) = &options.figure {
         figures::draw(&fit, figure)?;
     }

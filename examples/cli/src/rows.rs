@@ -135,8 +135,7 @@ pub struct Task<'a, W> {
 impl<W: Work> Task<'_, W> {
     fn part(&self, rows: &[ByteRecord], first: usize) -> Result<Part<W::Notes>, csv::Error> {
         let mut output = self.writer.map(RowWriter::rows);
-        let mut part =
-            Part { bytes: Vec::new(), lines: Vec::new(), bad_rows: Vec::new(), notes: W::Notes::default() };
+        let mut part = Part { bytes: Vec::new(), lines: Vec::new(), bad_rows: Vec::new(), notes: W::Notes::default() };
         for (index, cells) in rows.iter().enumerate() {
             let row = self.frame.row(cells, first + index);
             let reason = match &mut output {

@@ -20,10 +20,13 @@ use crate::command::{Format, exit_status, write_records};
 /// Options default to the values of the paper (zeta_A = 6.25 is half of the printed value, as in the paper's program). Cells
 /// divide each octave of radii into four; the table starts with the cell that contains the smallest radius.
 #[derive(Args)]
-#[command(allow_negative_numbers = true, after_help = "\
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
 Example: a table for C
   cargo microimpact table --format c
-Exit status: 0 on success; 2 if there is no such table (standard error says why).")]
+Exit status: 0 on success; 2 if there is no such table (standard error says why)."
+)]
 pub struct Options {
     /// Smallest radius, m
     #[arg(long, default_value_t = 1e-6)]

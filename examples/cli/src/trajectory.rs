@@ -102,7 +102,9 @@ fn samples(sheet: &mut Sheet<'_>, method: &Adaptive<f64>) -> Result<(Vec<Vec<Val
         let name = row.label();
         match row.check().and_then(|()| course(&row, method)) {
             Ok((trajectory, at_roll)) => {
-                records.extend(trajectory.samples().map(|sample| record(&name, &sample, event(&trajectory, &sample, at_roll))));
+                records.extend(
+                    trajectory.samples().map(|sample| record(&name, &sample, event(&trajectory, &sample, at_roll))),
+                );
                 curves.push(trajectory.samples().map(|sample| (sample.indentation, sample.force)).collect());
             }
             Err(reason) => {

@@ -297,7 +297,11 @@ mod tests {
             assert!(COLUMNS[..index].iter().all(|other| other.name != column.name), "{}", column.name);
             assert!(!column.meaning.is_empty() && !column.meaning.ends_with('.'), "{}", column.name);
             if !matches!(column.unit, "" | "1") {
-                assert!(units_of(column.unit).first().is_some_and(|unit| unit.symbol == column.unit), "{}", column.name);
+                assert!(
+                    units_of(column.unit).first().is_some_and(|unit| unit.symbol == column.unit),
+                    "{}",
+                    column.name
+                );
                 let end = column.name.strip_prefix(column.base()).unwrap();
                 assert!(unit_by_suffix(units_of(column.unit), &end[1..]).is_some_and(|unit| unit.is_si()), "{end}");
             }

@@ -214,14 +214,17 @@ pub(crate) fn check(headings: &[Heading], inputs: &[Input]) -> Result<(), String
     }
     for (index, heading) in headings.iter().enumerate().filter(|(_, heading)| !heading.name.is_empty()) {
         if let Some(other) = headings[..index].iter().find(|other| other.name == heading.name) {
-            let units = if other.text == heading.text { "" } else { &format!(", as {} and {}", other.text, heading.text) };
+            let units =
+                if other.text == heading.text { "" } else { &format!(", as {} and {}", other.text, heading.text) };
             return Err(format!("the header names the column {} twice{units}; rename or remove one", heading.name));
         }
     }
     let unread = || headings.iter().filter(|heading| heading.name != LABEL && !is_read(&heading.name, inputs));
     let absent = inputs.iter().filter(|input| input.default.is_none() && !input.is_in(&header)).map(|input| {
         let near = input.columns.iter().find_map(|column| {
-            likeliest(unread().map(|heading| (heading.text.as_str(), heading.given.as_str())), |name| likeness(name, column))
+            likeliest(unread().map(|heading| (heading.text.as_str(), heading.given.as_str())), |name| {
+                likeness(name, column)
+            })
         });
         let near = near.map_or_else(String::new, |near| format!(" (did you mean it by `{}`?)", near.to_lowercase()));
         format!("{}{near}", input.in_words())
@@ -258,9 +261,8 @@ pub(crate) fn in_words(headings: &[Heading], inputs: &[Input], computed: &[Strin
         let columns = inputs.iter().flat_map(|input| input.columns).copied();
         columns.filter(|column| !header.contains(column)).map(|column| (column, column))
     };
-    let unread = |heading: &&Heading| {
-        !heading.name.is_empty() && heading.name != LABEL && !is_read(&heading.name, inputs)
-    };
+    let unread =
+        |heading: &&Heading| !heading.name.is_empty() && heading.name != LABEL && !is_read(&heading.name, inputs);
     let unread = headings.iter().filter(unread).map(|heading| {
         match likeliest(absent(), |column| likeness(&heading.given, column)) {
             Some(near) if !computed.contains(&heading.name) => format!("{} (did you mean `{near}`?)", heading.name),

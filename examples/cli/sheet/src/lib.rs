@@ -178,11 +178,7 @@ fn judge(
 }
 
 /// The cells of the next row, or `None` after the last.
-fn next_cells<R: Read>(
-    rows: &mut csv::Reader<R>,
-    guard: &Guard,
-    number: usize,
-) -> Result<Option<ByteRecord>, String> {
+fn next_cells<R: Read>(rows: &mut csv::Reader<R>, guard: &Guard, number: usize) -> Result<Option<ByteRecord>, String> {
     let mut cells = ByteRecord::new();
     Ok(read_cells(rows, guard, number, &mut cells)?.then_some(cells))
 }

@@ -68,10 +68,27 @@ const UNITS: [(&str, &[Unit]); 16] = [
             decimal("N/mm2", 6),
         ],
     ),
-    ("N", &[decimal("N", 0), decimal("mN", -3), decimal("MN", 6), decimal("uN", -6), decimal("nN", -9), decimal("pN", -12)]),
+    (
+        "N",
+        &[
+            decimal("N", 0),
+            decimal("mN", -3),
+            decimal("MN", 6),
+            decimal("uN", -6),
+            decimal("nN", -9),
+            decimal("pN", -12),
+        ],
+    ),
     (
         "N/m",
-        &[decimal("N/m", 0), decimal("mN/m", -3), decimal("MN/m", 6), decimal("kN/m", 3), decimal("uN/m", -6), decimal("N/mm", 3)],
+        &[
+            decimal("N/m", 0),
+            decimal("mN/m", -3),
+            decimal("MN/m", 6),
+            decimal("kN/m", 3),
+            decimal("uN/m", -6),
+            decimal("N/mm", 3),
+        ],
     ),
     ("N m", &[decimal("N m", 0), decimal("mN m", -3), decimal("uN m", -6), decimal("nN m", -9), decimal("pN m", -12)]),
     (
@@ -199,7 +216,9 @@ impl Written {
         let same = |written: &[String], symbol: &str| {
             let mut factors = symbol.split(' ').filter(|factor| !factor.is_empty());
             let all = written.iter().all(|text| {
-                factors.next().is_some_and(|factor| if capitals { factor == text } else { factor.eq_ignore_ascii_case(text) })
+                factors
+                    .next()
+                    .is_some_and(|factor| if capitals { factor == text } else { factor.eq_ignore_ascii_case(text) })
             });
             all && factors.next().is_none()
         };

@@ -154,7 +154,8 @@ mod tests {
             let moderate = (bits >> 40) as f64 * 1e-4;
             assert_eq!(moderate.value().text(Decimal::Point), by_the_standard_library(moderate));
         }
-        for number in [0.0, -0.0, 1.0, 1e-3, 1e7, 9.999_999e6, 1e-5, 1e15, 1e16, 1e22, 5e-324, f64::MAX, 0.1, 123_456.0] {
+        for number in [0.0, -0.0, 1.0, 1e-3, 1e7, 9.999_999e6, 1e-5, 1e15, 1e16, 1e22, 5e-324, f64::MAX, 0.1, 123_456.0]
+        {
             assert_eq!(number.value().text(Decimal::Point), by_the_standard_library(number + 0.0));
         }
         assert_eq!(1.5_f64.value().text(Decimal::Comma), "1,5");

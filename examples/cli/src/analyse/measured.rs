@@ -8,7 +8,9 @@ use microimpact::{
 use sheet::{Input, Row};
 
 use crate::command::Number;
-use crate::inputs::{DENSITY_INPUT, GYRATION_INPUT, POWER_INPUT, RESTITUTION_INPUT, SIZE_INPUT, radius, restitution_law};
+use crate::inputs::{
+    DENSITY_INPUT, GYRATION_INPUT, POWER_INPUT, RESTITUTION_INPUT, SIZE_INPUT, radius, restitution_law,
+};
 
 /// Results with their derivatives by the six measured velocities: normal, tangential and peripheral, before and after.
 pub type Inputs<T> = Dual<T, 6>;

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use impact_fit::{Law, MeasuredSphere, Observation, Response, ScatterModel, Verdict, compete};
-use microimpact::{Class, Sphere};
 use microimpact::measure::{Estimate, ImpulseRatios, MeasuredRebound, friction};
+use microimpact::{Class, Sphere};
 
 use super::measured::Measured;
 use crate::command::Number;
