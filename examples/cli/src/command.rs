@@ -93,7 +93,7 @@ Exit status: 0 on success; 1 if a row is bad (the column `error` says why); 2 if
 #[derive(Args, Default)]
 pub struct SimulationOptions {
     /// Largest error of e^2 and of a critical speed [default: 1e-9 in f64, 1e-6 in f32]
-    #[arg(long)]
+    #[arg(long, value_name = "X")]
     tolerance: Option<f64>,
 }
 
@@ -187,12 +187,15 @@ impl TableOptions {
     /// Computes all rows of a file, of standard input if the file is `-`, or of a bundled table if there is no file.
     pub fn work(&self, command: &str, bundled: &str, work: &impl Work, streams: &mut Streams<'_>) -> BadRows {
         let Origin { source, progress } = Origin::of(self.file.as_deref(), bundled, streams.input)?;
-        let computed = |header: &Header<'_>| work.columns(header);
-        let mut sheet = self.reading.open(command, source, &work.inputs(), computed, streams.errors)?;
+        let computed = |header: &Header<'_>| {
+            let mut names = work.columns(header);
+            names.push("error".into());
+            names
+        };
+        let mut sheet = self.reading.open(command, source, &work.inputs(), &computed, streams.errors)?;
         let (frame, mut reader) = sheet.split();
-        let mut names = work.columns(&frame.header());
-        let columns = names.len();
-        names.push("error".into());
+        let names = computed(&frame.header());
+        let columns = names.len() - 1;
         let mut output = BufWriter::new(&mut *streams.output);
         let Some(shape) = self.format.shape() else {
             let task = Task { work, frame, writer: None, shown: SHOWN, columns };

@@ -4,6 +4,8 @@ mod analyse;
 mod boundary;
 mod c_interface;
 mod classify;
+mod commands;
+mod contract;
 mod critical;
 mod documentation;
 mod exporters;

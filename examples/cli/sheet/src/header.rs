@@ -67,6 +67,11 @@ impl Heading {
         Ok(())
     }
 
+    /// Whether the catalogue has numbers in this column.
+    pub(crate) fn is_number(&self) -> bool {
+        self.unit.is_some() || Column::named(&self.name).is_some_and(|column| !column.unit.is_empty())
+    }
+
     /// Whether it is a column of these inputs, or its name without a unit.
     fn may_be_read(&self, inputs: &[Input]) -> bool {
         let mut columns = inputs.iter().flat_map(|input| input.columns()).copied();

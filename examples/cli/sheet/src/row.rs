@@ -162,18 +162,17 @@ impl<'a> Row<'a> {
         value.value().text(self.frame.convention.decimal())
     }
 
-    /// What a given cell holds: a number if the command reads it as one.
+    /// What a given cell holds: a number if the catalogue says so.
     pub(crate) fn given(&self, index: usize) -> Value {
         let text = text(self.cells, index);
         let Some(heading) = self.frame.headings.get(index) else {
             return Value::Empty;
         };
-        let is_read = self.frame.inputs.iter().any(|input| input.columns().contains(&heading.name.as_str()));
         let number = || {
             let with_point = self.frame.convention.with_point(&self.frame.cell(index, self.number, &text)).ok()?;
             with_point.parse::<f64>().ok().filter(|number| number.is_finite())
         };
-        match number().filter(|_| is_read) {
+        match number().filter(|_| heading.is_number()) {
             Some(number) => Value::Double(number),
             None => Value::from(text.into_owned()),
         }

@@ -20,13 +20,13 @@ pub struct MethodOptions {
     #[arg(long, value_enum)]
     method: Option<MethodName>,
     /// Nodes of collocation, 5 to 14 [default: 9], or of fixed-cost, 5 to 9 [default: 7]
-    #[arg(long)]
+    #[arg(long, value_name = "N")]
     nodes: Option<u32>,
     /// Iterations of fixed-cost for each phase, 1 to 40 [default: 3]
-    #[arg(long)]
+    #[arg(long, value_name = "N")]
     iterations: Option<u32>,
     /// Time steps of runge-kutta-gill in an undamped impact, 16 to 1000000 [default: 2000]
-    #[arg(long, value_parser = clap::value_parser!(u32).range(16..=1_000_000))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=1_000_000))]
     steps: Option<u32>,
     #[command(flatten)]
     simulation: SimulationOptions,

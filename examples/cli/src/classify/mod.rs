@@ -29,7 +29,7 @@ pub struct Options {
     #[arg(long, value_enum, default_value_t = Model::RigidBody)]
     model: Model,
     /// Least probability of a class that is named where the row has standard errors
-    #[arg(long, default_value_t = LEVEL)]
+    #[arg(long, value_name = "P", default_value_t = LEVEL)]
     level: f64,
     #[command(flatten)]
     method: MethodOptions,
@@ -57,6 +57,13 @@ velocities when slip has ended. The outcome is undecided where a method cannot d
 depend on it are then empty. A row that a method cannot solve has its reason in the column error, and no outcome. Only the ring \
 takes adhesion_n_m, zeta_a and peeling_n_m; dmt and jkr require work_of_adhesion_j_m2. With both models, columns of the rigid body \
 begin with rigid_body_.
+
+--tolerance bounds the error of the squared restitution, and the relative error of a critical speed. Rounding limits it: it must be at \
+least 1e-13 in f64, and 1e-6 in f32. The least tolerance of collocation depends on its nodes: 3e-4 with 5 nodes, 1e-5 with 6, 1e-7 \
+with 7, 1e-9 with 8, 1e-11 with 9. With 10 or more, only rounding limits it. Of the methods, adaptive chooses nodes and intervals that \
+keep the tolerance; collocation uses as many intervals as the tolerance needs, with a fixed number of nodes in each; fixed-cost, for \
+firmware, has a fixed number of nodes and iterations, and cannot represent jkr and no-force; runge-kutta-gill is the paper's own, \
+with fixed steps in time, and cannot represent jkr.
 
 In space the velocities, spins and the normal take the place of the speeds and the spin in a plane. With radius_2_m there are two \
 spheres, in space or in a plane, and the normal points from the second to the first; in a plane the speeds and the spin are those of \
