@@ -11,14 +11,13 @@ use microimpact::{CriticalSpeed, NormalMotion, Outcome, Sphere};
 /// Options of a table of restitution.
 #[derive(Args)]
 pub struct RestitutionOptions {
-    /// Restitution: number of radii, from the smallest on in equal ratios to the end of the last cell [default: 25; 1 for
-    /// acutrace and comsol, whose tables hold spheres of one radius]
+    /// Restitution: number of radii, of equal ratios [default: 25; 1 in acutrace and comsol]
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=MOST_RADII))]
     radii: Option<u32>,
     /// Restitution: largest approach speed, m/s
     #[arg(long, default_value_t = 100.0)]
     fastest: f64,
-    /// Restitution: largest error of the restitution between two speeds of the table, 0.0001 to 0.1
+    /// Restitution: largest error between two speeds, 0.0001 to 0.1
     #[arg(long, default_value_t = 0.002, value_name = "ERROR")]
     restitution_error: f64,
 }

@@ -17,7 +17,7 @@ use crate::Streams;
 use crate::command::{Format, exit_status, write_records};
 use crate::restitution_table::{self, Program, RestitutionOptions};
 
-/// Make a table of critical speeds for firmware, or of restitution for programs that simulate the flow of particles
+/// Make a table of critical speeds for firmware, or of restitution for programs that simulate particles
 ///
 /// Options default to the values of the paper (zeta_A = 6.25 is half of the printed value, as in the paper's program). Cells
 /// divide each octave of radii into four; the table starts with the cell that contains the smallest radius.
@@ -25,10 +25,8 @@ use crate::restitution_table::{self, Program, RestitutionOptions};
 #[command(
     allow_negative_numbers = true,
     after_help = "\
-Examples: a table for C, and a boundary condition for Ansys Fluent
+Example: a table for C
   cargo microimpact table --format c
-  cargo microimpact table --format fluent
-Restitution has the formats fluent, acutrace, comsol, openfoam and restitution-csv.
 Exit status: 0 on success; 2 if there is no such table (standard error says why)."
 )]
 pub struct Options {
