@@ -85,7 +85,10 @@ impl Used {
             Tabled::Analyse => analyse::columns(),
             Tabled::Fit => Self { inputs: fit::INPUTS.into(), outputs: Vec::new() },
             Tabled::JointFit => Self { inputs: joint_fit::INPUTS.into(), outputs: Vec::new() },
-            Tabled::Population => Self { inputs: population::inputs(), outputs: owned(&population::COLUMNS) },
+            Tabled::Population => Self {
+                inputs: population::inputs(population::Model::value_variants()),
+                outputs: owned(&population::COLUMNS),
+            },
             Tabled::Materials => Self { inputs: Vec::new(), outputs: owned(&materials::COLUMNS) },
         }
     }

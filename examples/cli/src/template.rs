@@ -12,6 +12,8 @@ use crate::Streams;
 use crate::classify::{MethodOptions, Model, model_columns};
 use crate::columns::{Tabled, Used};
 use crate::command::exit_status;
+use crate::population;
+use crate::words::name_of;
 
 /// Write a CSV table to fill in: the header of a command, and a row that it can compute
 #[derive(Args)]
@@ -22,9 +24,9 @@ pub struct Options {
     /// Command that will read the table
     #[arg(value_enum, default_value_t = Tabled::Classify)]
     command: Tabled,
-    /// Model of classify that will read it
-    #[arg(long, value_enum, default_value_t = Model::RigidBody)]
-    model: Model,
+    /// Model of classify or population that will read it [default: as that of the command]
+    #[arg(long, value_enum)]
+    model: Option<Model>,
     /// Decimal mark; a comma makes semicolons separate the cells
     #[arg(long, value_enum, default_value_t = Decimal::Point)]
     decimal: Decimal,
@@ -36,15 +38,24 @@ impl Options {
         exit_status("template", self.write(streams).map(|()| 0), streams.errors)
     }
 
-    fn inputs(&self) -> Vec<Input> {
-        match self.command {
-            Tabled::Classify => model_columns(self.model, &MethodOptions::default()).inputs,
-            command => Used::of(command).inputs,
+    fn inputs(&self) -> Result<Vec<Input>, String> {
+        match (self.command, self.model) {
+            (Tabled::Classify, model) => {
+                Ok(model_columns(model.unwrap_or(Model::RigidBody), &MethodOptions::default()).inputs)
+            }
+            (Tabled::Population, None | Some(Model::Simulation)) => {
+                Ok(population::inputs(&[population::Model::Simulation]))
+            }
+            (Tabled::Population, Some(Model::RigidBody)) => Ok(population::inputs(&[population::Model::RigidBody])),
+            (command, None) => Ok(Used::of(command).inputs),
+            (command, Some(model)) => {
+                Err(format!("--model {} does not apply to {}", name_of(&model), name_of(&command)))
+            }
         }
     }
 
     fn write(&self, streams: &mut Streams<'_>) -> Result<(), Box<dyn Error>> {
-        let inputs = self.inputs();
+        let inputs = self.inputs()?;
         if inputs.is_empty() {
             return Err("this command reads no table".into());
         }

@@ -121,6 +121,10 @@ fn preambles_unit_rows_and_padding() {
 
 #[test]
 fn encodings() {
+    // The code page of older spreadsheets has one byte for the sign of a micrometre.
+    let old = b"name,Radius [\xb5m],density_kg_m3,restitution,speed_normal_m_s\nM\xfcller,5,2600,0.5,2\n";
+    let written = String::from_utf8(classified(old, "rigid-body").stdout).unwrap();
+    assert!(written.starts_with("name,Radius [µm],") && written.contains("\nMüller,5,2600,0.5,2,rebound"), "{written}");
     let text = TABLE_1.replace(',', "\t");
     let plain = computed(&classified(text.as_bytes(), "rigid-body"), b'\t');
     for (mark, bytes) in [
@@ -214,6 +218,7 @@ fn templates_run() {
         ("analyse", &[]),
         ("fit", &[]),
         ("population", &[]),
+        ("population", &["--model", "rigid-body"]),
     ] {
         for decimal in ["point", "comma"] {
             let template = microimpact("template", &[&[command, "--decimal", decimal], arguments].concat(), b"");

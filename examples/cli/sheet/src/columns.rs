@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::catalogue::Column;
 use crate::header::Heading;
 
 /// The column that names a row. It is a label, and never read as a number.
@@ -173,6 +174,12 @@ fn has_words_of(column: &str, name: &str) -> bool {
         && name.split('_').all(|word| column.split('_').any(|other| other == word))
 }
 
+/// Whether a name is that of a column up to its unit, and none of another column.
+fn has_another_unit(column: &str, name: &str) -> bool {
+    let end = Column::named(column).and_then(|column| name.strip_prefix(column.base())?.strip_prefix('_'));
+    end.is_some_and(|end| !end.is_empty()) && Column::named(name).is_none()
+}
+
 /// Columns of different quantities whose names are alike, so that neither is a misspelling of the other.
 const ALIKE: [&str; 5] =
     ["work_of_adhesion_j", "work_of_adhesion_j_m2", "adhesion_n_m", "adhesion_speed_m_s", "adhesion_power"];
@@ -193,7 +200,7 @@ fn likeness(name: &str, column: &str) -> Option<f64> {
         return Some(2.0);
     }
     // Words that agree are a better guess than a similar beginning.
-    if has_words_of(column, name) {
+    if has_words_of(column, name) || has_another_unit(column, name) {
         return Some(1.0 + similarity);
     }
     (similarity > NEAR).then_some(similarity)

@@ -7,7 +7,8 @@ use crate::units::{Unit, is_unit, unit_by_suffix, unit_in, units_of};
 /// A cell of a header.
 #[derive(Clone, Debug)]
 pub(crate) struct Heading {
-    /// The text as it is written.
+    /// The text as it is written, and without space around it.
+    pub(crate) raw: String,
     pub(crate) text: String,
     /// The same in lower case, with underscores for spaces.
     pub(crate) given: String,
@@ -28,7 +29,13 @@ impl Heading {
         let lower = |text: &str| text.trim().to_lowercase().replace(['µ', 'μ'], "u").replace([' ', '-'], "_");
         let base = lower(words);
         let columns = || inputs.iter().flat_map(|input| input.columns()).copied();
-        let mut heading = Self { name: text.to_lowercase(), given: lower(text), text: text.to_owned(), unit: None };
+        let mut heading = Self {
+            name: text.to_lowercase(),
+            given: lower(text),
+            raw: cell.to_owned(),
+            text: text.to_owned(),
+            unit: None,
+        };
         if let Some(unit) = brackets {
             if let Some((name, unit)) = in_brackets(columns(), &base, unit)? {
                 heading.name = name.to_owned();
@@ -53,16 +60,17 @@ impl Heading {
             return Ok(());
         }
         let unit = unit.trim_matches(['[', ']', '(', ')']);
-        let with_unit = Self::of(&format!("{words} [{unit}]"), inputs)?;
         let is_read = inputs.iter().any(|input| input.columns().contains(&self.name.as_str()));
-        if is_read && (with_unit.name != self.name || with_unit.unit != self.unit) {
-            return Err(format!(
-                "{}: the row below the header says \"{unit}\", which is not the unit in the name; correct one of them",
-                self.text
-            ));
-        }
-        if !is_read {
-            *self = with_unit;
+        match Self::of(&format!("{words} [{unit}]"), inputs) {
+            Ok(with_unit) if !is_read => *self = with_unit,
+            Ok(with_unit) if with_unit.name == self.name && with_unit.unit == self.unit => {}
+            Err(reason) if !is_read => return Err(reason),
+            _ => {
+                return Err(format!(
+                    "{}: the row below the header says \"{unit}\", which is not the unit in the name; correct one of them",
+                    self.text
+                ));
+            }
         }
         Ok(())
     }

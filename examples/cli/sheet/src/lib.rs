@@ -21,7 +21,7 @@ mod writer;
 
 use std::collections::VecDeque;
 use std::error::Error;
-use std::io::{BufReader, Cursor, Read};
+use std::io::{BufReader, Read};
 
 pub use csv::ByteRecord;
 
@@ -62,10 +62,11 @@ impl<'a> Sheet<'a> {
         let guard = Guard::default();
         let mut lines = BufReader::new(source.text);
         let (dialect, header_line) = dialect::read(&mut lines)?;
-        let bytes: Box<dyn Read + 'a> = Box::new(guard.over(Cursor::new(header_line).chain(lines)));
+        let bytes: Box<dyn Read + 'a> = Box::new(guard.over(source::in_utf8(header_line, lines)));
         let mut rows = csv::ReaderBuilder::new().delimiter(dialect.delimiter).flexible(true).from_reader(bytes);
         let header = rows.byte_headers().map_err(|error| error.to_string())?.clone();
-        let headings: Result<Vec<_>, _> = (0..header.len()).map(|i| Heading::of(&text(&header, i), inputs)).collect();
+        let headings: Result<Vec<_>, _> =
+            header.iter().map(|cell| Heading::of(&String::from_utf8_lossy(cell), inputs)).collect();
         let mut headings = headings?;
         let mut judged = VecDeque::new();
         let mut first = next_cells(&mut rows, &guard, 1)?;
@@ -199,7 +200,7 @@ fn read_cells<R: Read>(
             return Ok(false);
         }
         // A row of several lines whose last quote is not closed has swallowed the rows after it.
-        if rows.is_done() && guard.is_open() && rows.position().line() > line + 1 {
+        if guard.is_open_at_end() && rows.position().line() > line + 1 {
             return Err(format!("row {number}, line {line}: a quote is not closed; close it or remove it"));
         }
         if cells.iter().any(|cell| !cell.trim_ascii().is_empty()) {

@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::io::{self, Cursor, Read};
 use std::rc::Rc;
 
-use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE};
+use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use encoding_rs_io::DecodeReaderBytesBuilder;
 
 use crate::workbook;
@@ -69,12 +69,25 @@ fn encoding(start: &[u8]) -> Option<&'static Encoding> {
     }
 }
 
+/// A text from its header on. Where the header is not UTF-8, the text has the code page of older spreadsheets, in which the sign of
+/// a micrometre is one byte.
+pub(crate) fn in_utf8<'a>(header: Vec<u8>, others: impl Read + 'a) -> Box<dyn Read + 'a> {
+    let is_utf8 = std::str::from_utf8(&header).is_ok();
+    let all = Cursor::new(header).chain(others);
+    if is_utf8 {
+        Box::new(all)
+    } else {
+        Box::new(DecodeReaderBytesBuilder::new().encoding(Some(WINDOWS_1252)).build(all))
+    }
+}
+
 /// Counts of the text that a table was read from.
 #[derive(Default)]
 struct Counts {
     /// Bytes since the last row.
     bytes: Cell<u64>,
     quotes: Cell<u64>,
+    has_ended: Cell<bool>,
 }
 
 /// A handle of what a [`Guarded`] reader has counted.
@@ -92,9 +105,9 @@ impl Guard {
         self.0.bytes.set(0);
     }
 
-    /// Whether the quotes of the text so far are not in pairs.
-    pub(crate) fn is_open(&self) -> bool {
-        self.0.quotes.get() % 2 == 1
+    /// Whether the text has ended, and its quotes are not in pairs.
+    pub(crate) fn is_open_at_end(&self) -> bool {
+        self.0.has_ended.get() && self.0.quotes.get() % 2 == 1
     }
 }
 
@@ -107,6 +120,7 @@ pub(crate) struct Guarded<R> {
 impl<R: Read> Read for Guarded<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let length = self.text.read(buffer)?;
+        self.counts.has_ended.set(length == 0 && !buffer.is_empty());
         let quotes = memchr::memchr_iter(b'"', &buffer[..length]).count();
         self.counts.quotes.set(self.counts.quotes.get() + quotes as u64);
         self.counts.bytes.set(self.counts.bytes.get() + length as u64);

@@ -50,7 +50,7 @@ impl<'a> RowWriter<'a> {
         let lower: Vec<_> = frame.headings.iter().map(|heading| heading.text.to_lowercase()).collect();
         let given = frame.headings.iter().zip(&lower).map(|(heading, name)| {
             if !computed.contains(name) {
-                return heading.text.clone();
+                return heading.raw.clone();
             }
             let mut kept = format!("input_{name}");
             while lower.contains(&kept) || computed.contains(&kept) {

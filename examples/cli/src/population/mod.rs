@@ -92,11 +92,11 @@ formats csv and json have a row or an object for each number.";
 pub const COLUMNS: [&str; 10] =
     ["population", "model", "quantity", "from", "to", "value", "numerical_error", "low", "high", "error"];
 
-/// The columns that either model reads.
-pub fn inputs() -> Vec<Input> {
+/// The columns that some models read.
+pub fn inputs(models: &[Model]) -> Vec<Input> {
     let none = SampleFiles::none();
     let mut inputs = Vec::new();
-    for model in [Model::Simulation, Model::RigidBody] {
+    for model in models.iter().copied() {
         let read = distributions::inputs(model, &none).into_iter().chain(scenes::inputs(model));
         inputs.extend(read.filter(|input| !inputs.contains(input)).collect::<Vec<_>>());
     }
@@ -105,7 +105,7 @@ pub fn inputs() -> Vec<Input> {
 
 /// Model that computes the impacts.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Model {
+pub enum Model {
     RigidBody,
     Simulation,
 }
