@@ -35,6 +35,7 @@ pub fn page(file: &Path, permission: Permission) -> Result<(), String> {
 
     let cases = repository().join("host-tests/data/cases.csv");
     let cases = fs::read_to_string(&cases).map_err(|error| format!("{}: {error}", cases.display()))?;
+    units(&mut browser)?;
     first_answer(&mut browser)?;
     keyboard(&mut browser)?;
     names_of_controls(&mut browser)?;
@@ -82,6 +83,60 @@ fn first_row(table: &str, column: &str) -> Result<String, String> {
     cell.map(String::from).ok_or_else(|| format!("no column {column}"))
 }
 
+/// The paper's Table 1 in SI units, at which the sliders start. Its program halves the printed damping of adhesion.
+const TABLE_1: [(&str, f64); 10] = [
+    ("radius_m", 5.06e-6),
+    ("density_kg_m3", 2600.0),
+    ("stiffness_pa", 7.5e10),
+    ("adhesion_n_m", 250.0),
+    ("zeta_a", 6.25),
+    ("zeta_h", 10.5),
+    ("friction", 0.1),
+    ("speed_normal_m_s", 2.8),
+    ("speed_tangential_m_s", 0.0),
+    ("spin_rad_s", 1.46e5),
+];
+
+/// Numbers of other terms in SI units, where their sliders start: 100 mJ/m^2, 1 ns and 0.9.
+const OTHER_TERMS: [(&str, &str, &str, f64); 3] = [
+    ("law", "dmt", "work_of_adhesion_j_m2", 0.1),
+    ("damping", "viscoelastic", "damping_value", 1e-9),
+    ("damping", "constant", "damping_value", 0.9),
+];
+
+/// The sliders give the program numbers in SI units.
+fn units(browser: &mut Browser) -> Result<(), String> {
+    let check = |browser: &mut Browser, column: &str, expected: f64| {
+        let found = browser.text(&format!("scene.columns().{column}"))?;
+        if found.parse() == Ok(expected) { Ok(()) } else { Err(format!("{column} is {found} and not {expected}")) }
+    };
+    for (column, expected) in TABLE_1 {
+        check(browser, column, expected)?;
+    }
+    for (control, term, column, expected) in OTHER_TERMS {
+        choose(browser, control, term)?;
+        check(browser, column, expected)?;
+    }
+    reset(browser)
+}
+
+/// Chooses an option of a control.
+fn choose(browser: &mut Browser, control: &str, option: &str) -> Result<(), String> {
+    browser.value(&format!(
+        "(() => {{ const select = document.getElementById({}); select.value = {}; \
+         select.dispatchEvent(new Event('change')); }})()",
+        json!(control),
+        json!(option)
+    ))?;
+    Ok(())
+}
+
+/// Returns to Table 1.
+fn reset(browser: &mut Browser) -> Result<(), String> {
+    browser.value("document.querySelector('#scene [type=reset]').click()")?;
+    browser.wait_for(READY)
+}
+
 /// The answer of the sliders where they start is that of the program to the same row.
 fn first_answer(browser: &mut Browser) -> Result<(), String> {
     let table = browser.text("table(scene.columns())")?;
@@ -120,8 +175,7 @@ fn keyboard(browser: &mut Browser) -> Result<(), String> {
     if !class.starts_with("Captured") {
         return Err(format!("at {speed} m/s, after {STEPS_TO_CAPTURE} steps to the left, the class is {class}"));
     }
-    browser.value("document.querySelector('#scene [type=reset]').click()")?;
-    browser.wait_for(READY)
+    reset(browser)
 }
 
 /// Every control has a name, and shows when it has the focus.
@@ -159,12 +213,8 @@ fn names_of_controls(browser: &mut Browser) -> Result<(), String> {
 fn every_term(browser: &mut Browser) -> Result<(), String> {
     for law in ["hertz", "ring", "dmt", "jkr"] {
         for damping in ["none", "hysteretic", "viscoelastic", "constant"] {
-            for (control, value) in [("law", law), ("damping", damping)] {
-                browser.value(&format!(
-                    "(() => {{ const select = document.getElementById('{control}'); select.value = '{value}'; \
-                     select.dispatchEvent(new Event('change')); }})()"
-                ))?;
-            }
+            choose(browser, "law", law)?;
+            choose(browser, "damping", damping)?;
             browser.wait_for(READY)?;
             let class = browser.text("document.getElementById('class').textContent")?;
             let margin = browser.text("document.getElementById('margin').textContent")?;
@@ -177,8 +227,7 @@ fn every_term(browser: &mut Browser) -> Result<(), String> {
             }
         }
     }
-    browser.value("document.querySelector('#scene [type=reset]').click()")?;
-    browser.wait_for(READY)
+    reset(browser)
 }
 
 /// A number out of its range is refused in the program's words, and standard errors give probabilities.
@@ -206,8 +255,7 @@ fn refusal(browser: &mut Browser) -> Result<(), String> {
     if !shown.contains(&format!("rebound, rolling {rolling:.3}")) {
         return Err(format!("the probability of a rolling rebound is {rolling}; the page shows {shown}"));
     }
-    browser.value("document.querySelector('#scene [type=reset]').click()")?;
-    browser.wait_for(READY)
+    reset(browser)
 }
 
 /// Drops a file on the page.
@@ -261,11 +309,7 @@ fn mapping(browser: &mut Browser) -> Result<(), String> {
         ("column-adhesion_n_m", "f0 of Table 1"),
         ("column-speed_normal_m_s", "speed"),
     ] {
-        browser.value(&format!(
-            "(() => {{ const select = document.getElementById('{select}'); select.value = {}; \
-             select.dispatchEvent(new Event('change')); }})()",
-            json!(chosen)
-        ))?;
+        choose(browser, select, chosen)?;
     }
     let expected = program(&["classify", "-", "--model", "simulation", "--format", "csv"], &known)?;
     same("the result of renamed columns", &classified(browser, "simulation")?, &expected)
