@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use crate::browser::Browser;
-use crate::check::{READY, drop_file};
+use crate::check::tables::drop_file;
+use crate::check::{READY, choose};
 
 /// Name, width and height of the window, and colour scheme.
 const PICTURES: [(&str, (u32, u32), &str); 4] = [
@@ -28,6 +29,14 @@ pub fn write(browser: &mut Browser, file: &Path, table: &str) -> Result<(), Stri
         browser.value("window.scrollTo(0, 0)")?;
         browser.screenshot(&file.with_file_name(format!("{name}.png")), false)?;
         browser.screenshot(&file.with_file_name(format!("{name}-whole.png")), true)?;
+
+        choose(browser, "law", "hertz")?;
+        choose(browser, "damping", "viscoelastic")?;
+        browser.value("document.getElementById('errors').open = true")?;
+        drop_file(browser, "own.csv", "half width;solid;k;speed\n2,5;2600;75;2,8\n")?;
+        choose(browser, "column-radius_m", "half width")?;
+        browser.wait_for(READY)?;
+        browser.screenshot(&file.with_file_name(format!("{name}-other.png")), true)?;
     }
     Ok(())
 }
