@@ -53,23 +53,23 @@ const ERRORS = [
 
 const INPUTS = [...PARTICLE, ...SURFACE, ...MOTION, ...ERRORS];
 
-// Columns of a file for which the page offers a choice, with what they hold, and the model that reads them if it is one; the
-// others are read by their names.
+// Columns of a file for which the page offers a choice, with what they hold, its symbol, and the model that reads them if it is
+// one; the others are read by their names.
 const OFFERED = [
-    ["radius_m", "radius r"],
-    ["density_kg_m3", "density ρ"],
-    ["speed_normal_m_s", "approach speed v_n"],
-    ["speed_tangential_m_s", "tangential velocity v_t"],
-    ["spin_rad_s", "spin ω"],
-    ["friction", "friction f"],
-    ["stiffness_pa", "stiffness K", "simulation"],
-    ["adhesion_n_m", "strength of adhesion f₀", "simulation"],
-    ["zeta_h", "damping ζ_H", "simulation"],
-    ["zeta_a", "damping of adhesion ζ_A", "simulation"],
-    ["law", "law of contact", "simulation"],
-    ["work_of_adhesion_j_m2", "work of adhesion G", "simulation"],
-    ["restitution", "restitution R", "rigid-body"],
-    ["restitution_speed_m_s", "k of R = k/(k + v)", "rigid-body"],
-    ["adhesion_coefficient", "adhesion coefficient ρ", "rigid-body"],
-    ["work_of_adhesion_j", "work of adhesion W_A", "rigid-body"],
+    ["radius_m", "radius", "r"],
+    ["density_kg_m3", "density", "ρ"],
+    ["speed_normal_m_s", "approach speed", "v_n"],
+    ["speed_tangential_m_s", "tangential velocity", "v_t"],
+    ["spin_rad_s", "spin", "ω"],
+    ["friction", "friction", "f"],
+    ["stiffness_pa", "stiffness", "K", "simulation"],
+    ["adhesion_n_m", "strength of adhesion", "f₀", "simulation"],
+    ["zeta_h", "damping in the materials", "ζ_H", "simulation"],
+    ["zeta_a", "damping of adhesion", "ζ_A", "simulation"],
+    ["law", "law of contact", "", "simulation"],
+    ["work_of_adhesion_j_m2", "work of adhesion per area", "G", "simulation"],
+    ["restitution", "restitution without adhesion", "R", "rigid-body"],
+    ["restitution_speed_m_s", "speed k of R = k/(k + v)", "", "rigid-body"],
+    ["adhesion_coefficient", "adhesion coefficient", "ρ", "rigid-body"],
+    ["work_of_adhesion_j", "work of adhesion", "W_A", "rigid-body"],
 ];

@@ -47,18 +47,18 @@ class TableOfImpacts {
 
     showColumns() {
         const model = this.section.querySelector("#model").value;
-        const offered = OFFERED.filter(([, , only]) => !only || model === "both" || only === model);
-        this.section.querySelector("#columns div").replaceChildren(...offered.map(([column, label]) => this.choice(column, label)));
+        const offered = OFFERED.filter(([, , , only]) => !only || model === "both" || only === model);
+        this.section.querySelector("#columns div").replaceChildren(...offered.map(([column, words, mark]) => this.choice(column, words, mark)));
     }
 
     // The choice of the heading that holds a column, and of its unit; a heading that names the column has its unit.
-    choice(column, label) {
+    choice(column, words, mark) {
         const own = this.headings.find(([, named]) => named === column)?.[0] ?? "";
         const chosen = this.chosen.get(column) ?? { heading: own, name: column };
         const heading = element("select", { id: `column-${column}` }, element("option", { value: "" }, "– none –"));
         for (const [text] of this.headings) heading.append(element("option", { value: text }, text || "(without a name)"));
         heading.value = chosen.heading;
-        const unit = element("select", { id: `unit-${column}`, ariaLabel: `Unit of ${label}` });
+        const unit = element("select", { id: `unit-${column}`, ariaLabel: `Unit of ${words}` });
         for (const [name, symbol] of this.units[column] ?? []) unit.append(element("option", { value: name }, symbol));
         unit.value = chosen.name;
         const show = () => unit.hidden = unit.options.length < 2 || heading.value === "" || heading.value === own;
@@ -69,7 +69,8 @@ class TableOfImpacts {
             });
         }
         show();
-        return element("div", { className: "choice" }, element("label", { htmlFor: heading.id }, label), element("span", { className: "pair" }, heading, unit));
+        const label = element("label", { htmlFor: heading.id }, `${words} `, ...symbol(mark));
+        return element("div", { className: "choice" }, label, element("span", { className: "pair" }, heading, unit));
     }
 
     // The headings that get another text, by turns with that text.
