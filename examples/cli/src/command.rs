@@ -192,7 +192,7 @@ impl TableOptions {
             names.push("error".into());
             names
         };
-        let mut sheet = self.reading.open(command, source, &work.inputs(), &computed, streams.errors)?;
+        let mut sheet = self.reading.open(command, source, &work.inputs(), computed, streams.errors)?;
         let (frame, mut reader) = sheet.split();
         let names = computed(&frame.header());
         let columns = names.len() - 1;

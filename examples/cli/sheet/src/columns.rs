@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use rustc_hash::FxHashMap;
+
 use crate::catalogue::Column;
 use crate::header::Heading;
 
@@ -110,13 +112,15 @@ fn has_one(header: &[&str], columns: &[&str]) -> bool {
 #[derive(Clone, Copy)]
 pub struct Header<'a> {
     pub(crate) names: &'a [String],
+    /// The place of each name, of a table that is read.
+    pub(crate) places: Option<&'a FxHashMap<String, usize>>,
 }
 
 impl<'a> Header<'a> {
     /// A header of these columns.
     #[must_use]
     pub fn of(names: &'a [String]) -> Self {
-        Self { names }
+        Self { names, places: None }
     }
 
     /// The names in their order.
@@ -126,7 +130,10 @@ impl<'a> Header<'a> {
 
     /// Whether the table has a column.
     pub fn has(&self, column: &str) -> bool {
-        self.names.iter().any(|name| name == column)
+        match self.places {
+            Some(places) => places.contains_key(column),
+            None => self.names.iter().any(|name| name == column),
+        }
     }
 }
 

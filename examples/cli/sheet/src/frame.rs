@@ -42,7 +42,7 @@ impl Frame {
     /// The names of the columns.
     #[must_use]
     pub fn header(&self) -> Header<'_> {
-        Header { names: &self.names }
+        Header { names: &self.names, places: Some(&self.places) }
     }
 
     /// A row of this table, whose number is that of the first row below the header counted as 1.

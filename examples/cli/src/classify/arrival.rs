@@ -142,12 +142,14 @@ impl<T: Scalar> Arrival<T> {
         if in_space {
             refuse(row, &PLANAR, "the velocity is given in space; remove its cells")?;
         } else {
-            let columns = [SPIN, NORMAL, WALL_VELOCITY].concat();
-            refuse(row, &columns, "it goes with velocity_x_m_s, velocity_y_m_s and velocity_z_m_s; give them")?;
+            for columns in [SPIN, NORMAL, WALL_VELOCITY] {
+                refuse(row, &columns, "it goes with velocity_x_m_s, velocity_y_m_s and velocity_z_m_s; give them")?;
+            }
         }
         let Some(radius_2) = row.number::<T>(RADIUS_2)? else {
-            let columns = [&[DENSITY_2, GYRATION_2], &VELOCITY_2[..], &SPIN_2].concat();
-            refuse(row, &columns, "radius_2_m is missing; give it too")?;
+            for columns in [&[DENSITY_2, GYRATION_2][..], &VELOCITY_2, &SPIN_2] {
+                refuse(row, columns, "radius_2_m is missing; give it too")?;
+            }
             return if in_space { Self::at_wall(row, sphere) } else { Self::in_plane(row, sphere) };
         };
         refuse(row, &WALL_VELOCITY, "two spheres meet without a wall; give velocity_2_x_m_s, _y_ and _z_ instead,")?;

@@ -128,9 +128,14 @@ impl Kind {
         SHARED.iter().chain(own)
     }
 
+    /// Whether a table has a column of standard errors.
+    fn is_given(&self, header: &Header<'_>) -> bool {
+        self.quantities().any(|quantity| header.has(quantity.error))
+    }
+
     /// The columns that a table gets: none without a column of standard errors.
     pub fn columns(&self, header: &Header<'_>) -> impl Iterator<Item = String> {
-        let given = self.quantities().any(|quantity| header.has(quantity.error));
+        let given = self.is_given(header);
         COLUMNS.iter().filter(move |_| given).map(|column| (*column).to_owned())
     }
 }
@@ -185,6 +190,9 @@ pub struct Probabilities {
 impl<'a, 'b> Deviations<'a, 'b> {
     /// The standard errors of a row; `None` if it has none.
     pub fn read<T: Number>(row: &'a Row<'b>, kind: &Kind) -> Result<Option<Self>, String> {
+        if !kind.is_given(&row.header()) {
+            return Ok(None);
+        }
         let mut numbers = Vec::new();
         for Quantity { column, error: name, parameter, is_zero_if_empty } in kind.quantities() {
             let Some(error) = row.number::<T>(name)? else { continue };
