@@ -15,7 +15,7 @@ const PICTURES: [(&str, (u32, u32), &str); 4] = [
 ];
 
 /// Writes pictures of the page at the width of a phone and of a desktop, and checks that nothing is wider than the window.
-pub fn write(browser: &mut Browser, file: &Path, table: &str) -> Result<(), String> {
+pub fn write(browser: &mut Browser, file: &Path, table: &[u8]) -> Result<(), String> {
     for (name, size, scheme) in PICTURES {
         browser.open(file, size, scheme)?;
         browser.wait_for(READY)?;
@@ -33,7 +33,7 @@ pub fn write(browser: &mut Browser, file: &Path, table: &str) -> Result<(), Stri
         choose(browser, "law", "hertz")?;
         choose(browser, "damping", "viscoelastic")?;
         browser.value("document.getElementById('errors').open = true")?;
-        drop_file(browser, "own.csv", "half width;solid;k;speed\n2,5;2600;75;2,8\n")?;
+        drop_file(browser, "own.csv", b"half width;solid;k;speed\n2,5;2600;75;2,8\n")?;
         choose(browser, "column-radius_m", "half width")?;
         browser.wait_for(READY)?;
         browser.screenshot(&file.with_file_name(format!("{name}-other.png")), true)?;

@@ -26,8 +26,7 @@ pub fn page(file: &Path, permission: Permission) -> Result<(), String> {
     browser.open(file, (1280, 900), "light")?;
     browser.wait_for(READY)?;
 
-    let cases = repository().join("host-tests/data/cases.csv");
-    let cases = fs::read_to_string(&cases).map_err(|error| format!("{}: {error}", cases.display()))?;
+    let cases = data("cases.csv")?;
     sliders::units(&mut browser)?;
     sliders::first_answer(&mut browser)?;
     sliders::keyboard(&mut browser)?;
@@ -36,6 +35,7 @@ pub fn page(file: &Path, permission: Permission) -> Result<(), String> {
     sliders::refusal(&mut browser)?;
     tables::cases(&mut browser, &cases)?;
     tables::mapping(&mut browser)?;
+    tables::workbook(&mut browser)?;
     screenshots::write(&mut browser, file, &cases)?;
 
     let own = |url: &String| ["file:", "blob:", "data:", "about:"].iter().any(|scheme| url.starts_with(scheme));
@@ -45,12 +45,18 @@ pub fn page(file: &Path, permission: Permission) -> Result<(), String> {
     if browser.exceptions.is_empty() { Ok(()) } else { Err(browser.exceptions.join("\n")) }
 }
 
+/// A file of the tests.
+fn data(name: &str) -> Result<Vec<u8>, String> {
+    let file = repository().join("host-tests/data").join(name);
+    fs::read(&file).map_err(|error| format!("{}: {error}", file.display()))
+}
+
 /// What the program writes for a table; `arguments` are its command and options.
-fn program(arguments: &[&str], table: &str) -> Result<String, String> {
+fn program(arguments: &[&str], table: &[u8]) -> Result<String, String> {
     let parsed = Arguments::try_parse_from([&["microimpact"], arguments].concat());
     let parsed = parsed.map_err(|error| error.to_string())?;
     let (mut output, mut errors) = (Vec::new(), Vec::new());
-    let streams = &mut Streams { input: &mut table.as_bytes(), output: &mut output, errors: &mut errors };
+    let streams = &mut Streams { input: &mut { table }, output: &mut output, errors: &mut errors };
     if parsed.run(streams) > 1 {
         return Err(String::from_utf8_lossy(&errors).into_owned());
     }

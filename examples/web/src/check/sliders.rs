@@ -61,7 +61,7 @@ fn reset(browser: &mut Browser) -> Result<(), String> {
 /// The answer of the sliders where they start is that of the program to the same row.
 pub fn first_answer(browser: &mut Browser) -> Result<(), String> {
     let table = browser.text("table(scene.columns())")?;
-    let classified = program(&["classify", "-", "--model", "simulation", "--format", "csv"], &table)?;
+    let classified = program(&["classify", "-", "--model", "simulation", "--format", "csv"], table.as_bytes())?;
     let class = format!("{}, {}", first_row(&classified, "outcome")?, first_row(&classified, "motion")?);
     let shown = browser.text("document.getElementById('class').textContent")?;
     same("the class", &shown.to_lowercase(), &class)?;
@@ -163,14 +163,14 @@ pub fn refusal(browser: &mut Browser) -> Result<(), String> {
     browser.wait_for(READY)?;
     let reason = browser.text("document.getElementById('margin').textContent")?;
     let table = browser.text("table(scene.columns())")?;
-    let classified = program(&["classify", "-", "--model", "simulation", "--format", "csv"], &table)?;
+    let classified = program(&["classify", "-", "--model", "simulation", "--format", "csv"], table.as_bytes())?;
     same("the reason", &reason, &first_row(&classified, "error")?)?;
 
     browser.value(&enter("speed_normal_m_s", "1.5"))?;
     browser.value(&enter("speed_normal_error_m_s", "5"))?;
     browser.wait_for(READY)?;
     let table = browser.text("table(scene.columns())")?;
-    let classified = program(&["classify", "-", "--model", "simulation", "--format", "csv"], &table)?;
+    let classified = program(&["classify", "-", "--model", "simulation", "--format", "csv"], table.as_bytes())?;
     let rolling: f64 = first_row(&classified, "probability_rebound_rolling")?.parse().map_err(|_| "no probability")?;
     let shown = browser.text("document.getElementById('margin').textContent")?;
     if !shown.contains(&format!("rebound, rolling {rolling:.3}")) {
