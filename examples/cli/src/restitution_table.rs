@@ -62,12 +62,6 @@ pub fn write(
     law: AnyLaw<f64>,
     materials: String,
 ) -> Result<(), Box<dyn Error>> {
-    NormalMotion::new(options.fastest)?;
-    let tolerance = options.restitution_error;
-    if !(ERRORS.0..=ERRORS.1).contains(&tolerance) {
-        let (least, most) = ERRORS;
-        return Err(format!("--restitution-error {tolerance} is refused: enter a number from {least} to {most}").into());
-    }
     let count = options.radii.unwrap_or(if program.is_for_one_radius() { 1 } else { RADII });
     if count > 1 && program.is_for_one_radius() {
         return Err(format!(
@@ -76,29 +70,9 @@ pub fn write(
         )
         .into());
     }
-    // A table whose curves end at their critical speeds would take any number for the fastest speed.
-    NormalMotion::new(options.fastest)?;
     let ratio = (largest / smallest).powf(1.0 / f64::from(count.max(2) - 1));
-    let spheres = |places: &[f64]| {
-        let radii = places.iter().map(|place| smallest * ratio.powf(*place));
-        radii.map(|radius| Spheres::new(radius, density, law)).collect::<Result<Vec<_>, _>>()
-    };
-    let rows: Vec<_> = (0..count).map(f64::from).collect();
-    let rows = spheres(&rows)?;
-    let curve = |k: usize| {
-        // Between two radii both curves are read at the same multiple of the critical speed.
-        let neighbours = [k.wrapping_sub(1), k + 1].into_iter().filter_map(|other| rows.get(other));
-        let beyond = neighbours.map(|other| rows[k].critical_speed / other.critical_speed);
-        let beyond = beyond.filter(|beyond| beyond.is_finite()).fold(1.0, f64::max);
-        rows[k].curve((options.fastest * beyond).min(FASTEST), tolerance)
-    };
-    let curves = (0..rows.len()).map(curve).collect::<Result<_, _>>()?;
-    let mut table = Table { subject: materials, tolerance, curves, between_radii: None };
-    let halves: Vec<_> = (1..count).map(|k| f64::from(k) - 0.5).collect();
-    for spheres in spheres(&halves)? {
-        let found = table.difference(&spheres.curve(options.fastest, tolerance)?);
-        table.between_radii = Some(table.between_radii.map_or(found, |other| other.max(found)));
-    }
+    let spheres = |place: f64| Spheres::new(smallest * ratio.powf(place), density, law);
+    let table = table(count, spheres, options, materials)?;
     match program {
         Program::Fluent => fluent::write(to, &table),
         Program::AcuTrace => acutrace::write(to, &table),
@@ -107,6 +81,38 @@ pub fn write(
         Program::Any => csv::write(to, &table),
     }?;
     Ok(())
+}
+
+/// The table of some radii, and its error halfway between them; `spheres` gives those at a place between the radii, the first of
+/// which is at 0 and the next at 1.
+fn table(
+    count: u32,
+    spheres: impl Fn(f64) -> Result<Spheres, Box<dyn Error>>,
+    options: &RestitutionOptions,
+    subject: String,
+) -> Result<Table, Box<dyn Error>> {
+    let RestitutionOptions { fastest, restitution_error: tolerance, .. } = *options;
+    if !(ERRORS.0..=ERRORS.1).contains(&tolerance) {
+        let (least, most) = ERRORS;
+        return Err(format!("--restitution-error {tolerance} is refused: enter a number from {least} to {most}").into());
+    }
+    // A curve that ends at its critical speed would take any number.
+    NormalMotion::new(fastest)?;
+    let rows = (0..count).map(|k| spheres(f64::from(k))).collect::<Result<Vec<_>, _>>()?;
+    let curve = |k: usize| {
+        // Between two radii both curves are read at the same multiple of the critical speed.
+        let neighbours = [k.wrapping_sub(1), k + 1].into_iter().filter_map(|other| rows.get(other));
+        let beyond = neighbours.map(|other| rows[k].critical_speed / other.critical_speed);
+        let beyond = beyond.filter(|beyond| beyond.is_finite()).fold(1.0, f64::max);
+        rows[k].curve((fastest * beyond).min(FASTEST), tolerance)
+    };
+    let curves = (0..rows.len()).map(curve).collect::<Result<_, _>>()?;
+    let mut table = Table { subject, tolerance, curves, between_radii: None };
+    for k in 1..count {
+        let found = table.difference(&spheres(f64::from(k) - 0.5)?.curve(fastest, tolerance)?);
+        table.between_radii = Some(table.between_radii.map_or(found, |other| other.max(found)));
+    }
+    Ok(table)
 }
 
 /// Spheres of one radius.

@@ -94,7 +94,7 @@ function margin({ columns, row, found, critical }) {
             : `There is no critical speed: the sphere ${found.critical} from 10⁻¹² to 10⁶ m/s.`,
     ];
     if (row.probability_error !== undefined) {
-        const named = CLASSES.map((name) => [name, row[`probability_${name.replace(", ", "_").replace("capture_", "captured_")}`]]);
+        const named = CLASSES.map((name) => [name, row[`probability_${name.replace(", ", "_")}`]]);
         const most = named.filter(([, value]) => Number(value) >= 0.0005).sort(([, a], [, b]) => b - a);
         const list = most.map(([name, value]) => `${name} ${Number(value).toFixed(3)}`).join("; ");
         parts.push(element("br"), `Probability: ${list}; each within ${digits(row.probability_error)}.`);

@@ -80,8 +80,9 @@ pub fn rename(source: impl Read, names: &[(String, String)], mut sink: impl Writ
         }
     });
     let terminator = if dialect.carriage_return { csv::Terminator::CRLF } else { csv::Terminator::Any(b'\n') };
-    let writer = csv::WriterBuilder::new().delimiter(dialect.delimiter).terminator(terminator).from_writer(Vec::new());
-    let mut writer = writer;
+    let mut variant = csv::WriterBuilder::new();
+    variant.delimiter(dialect.delimiter).terminator(terminator);
+    let mut writer = variant.from_writer(Vec::new());
     writer.write_record(renamed.map(String::into_bytes)).map_err(|error| error.to_string())?;
     let header = writer.into_inner().map_err(|error| error.to_string())?;
     let mark = if byte_order_mark { BYTE_ORDER_MARK } else { b"" };
