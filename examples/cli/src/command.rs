@@ -2,7 +2,7 @@
 
 use std::error::Error;
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Write};
+use std::io::{self, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -10,11 +10,12 @@ use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 use microimpact::contact::{Adaptive, AdaptiveNodes};
 use microimpact::measure::NormalDistribution;
 use microimpact::{InputError, Real};
-use sheet::{Decimal, Header, Input, LABEL, Row, Scalar, Sheet};
+use sheet::{Decimal, Header, Input, RowWriter, Scalar, Shape, Sheet, Value};
 
 use crate::Streams;
 use crate::classify::OfferedNodes;
-use crate::contact_law::LAW_HELP;
+use crate::progress::Progress;
+use crate::rows::{Computed, Task, Work};
 
 /// A number type that all commands can compute in.
 pub trait Number: Scalar + AdaptiveNodes + OfferedNodes + NormalDistribution + Into<f64> + 'static {}
@@ -24,12 +25,12 @@ impl<T: Scalar + AdaptiveNodes + OfferedNodes + NormalDistribution + Into<f64> +
 /// Options of a command that reads a table and adds columns to it.
 #[derive(Args)]
 pub struct TableOptions {
-    /// CSV file to read; `-` for standard input. Without a file the command reads its bundled table.
+    /// CSV or xlsx file; `-` for standard input [default: bundled impacts of the paper]
     file: Option<PathBuf>,
-    /// Format of the result: a summary to read, or CSV with all columns.
+    /// Format of the result: the first rows to read, or all rows and columns
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
-    /// Number type of the computation.
+    /// Number type of the computation
     #[arg(long, value_enum, default_value_t = ScalarType::F64)]
     scalar: ScalarType,
     #[command(flatten)]
@@ -39,13 +40,17 @@ pub struct TableOptions {
 /// How a command reads a table.
 #[derive(Args)]
 pub struct Reading {
-    /// Decimal mark of the table. Without it the command judges the mark from the columns that it reads, in the first 1000
-    /// rows, and writes no result before it has read them.
+    /// Decimal mark of the table [default: judged from its first 1000 rows]
     #[arg(long, value_enum)]
     decimal: Option<Decimal>,
 }
 
 impl Reading {
+    /// Reads tables with this decimal mark.
+    pub fn with(decimal: Decimal) -> Self {
+        Self { decimal: Some(decimal) }
+    }
+
     /// Opens a table, and says on standard error which of its columns a command reads. `computed` are the columns that it will
     /// add to it.
     ///
@@ -54,11 +59,11 @@ impl Reading {
     pub fn open<'a>(
         &self,
         command: &str,
-        source: impl BufRead + 'a,
+        source: impl Read + 'a,
         inputs: &[Input],
         computed: impl Fn(&Header<'_>) -> Vec<String>,
         errors: &mut dyn Write,
-    ) -> Result<Sheet<Box<dyn BufRead + 'a>>, String> {
+    ) -> Result<Sheet<'a>, String> {
         let sheet = Sheet::open(source, inputs, self.decimal)?;
         // If standard error is closed, nobody wants to know.
         let _ = write!(errors, "{command}: {}", sheet.columns_in_words(&computed(&sheet.header())));
@@ -66,31 +71,29 @@ impl Reading {
     }
 }
 
-/// What the help of each command that reads a table says at its end.
-pub const TABLE_HELP: &str = "\
-CSV files may use commas, semicolons or tabs, and decimal points or decimal commas: one mark in the
-whole file. A number such as 2.600 is refused unless other cells, commas that separate cells, or
---decimal settle whether its mark is decimal; thousands separators are not read. The result has the
-decimal mark of the file. The command copies all other columns. If an input column has the name of
-a computed column, its copy is named input_NAME. Standard error lists the columns that the command
-uses, the defaults of those that are absent, and the columns that it does not read.
+/// What the manual of each command that reads a table says of tables.
+pub const TABLE_MANUAL: &str = "\
+CSV files may use commas, semicolons or tabs, and decimal points or decimal commas: one mark in the whole file. A number such as \
+2.600 is refused unless other cells, commas that separate cells, or --decimal settle whether its mark is decimal; thousands \
+separators are not read. Lines before the header that begin with # or state sep=; are skipped, and so are empty rows. The first \
+sheet of an xlsx workbook is read in the same way. UTF-16 is read.
 
-Exit status: 0 on success; 1 if a row is bad (the column `error` gives the reason); 2 if the command
-fails, for example because it cannot read the table.";
+A column has its unit at the end of its name (radius_um, density_g_cm3), in brackets (Radius [um]), or in a row of units below the \
+header. `microimpact columns` lists all columns with their units, ranges and defaults.
 
-/// What the help of each command that reads a table and simulates contacts says at its end.
-pub fn simulation_help() -> String {
-    format!("{LAW_HELP}\n\n{TABLE_HELP}")
-}
+The result has the decimal mark and the separator of the file. The command copies all columns. If an input column has the name of \
+a computed column, its copy is named input_NAME. Standard error lists the columns that the command uses, the defaults of those that \
+are absent, and the columns that it does not read.";
+
+/// Exit status of each command that reads a table.
+pub const STATUS: &str = "\
+Exit status: 0 on success; 1 if a row is bad (the column `error` says why); 2 if nothing could be read.";
 
 /// Options of a command that simulates contacts.
-#[derive(Args)]
+#[derive(Args, Default)]
 pub struct SimulationOptions {
-    /// Tolerance of the simulation [default: 1e-9 in f64, 1e-6 in f32].
-    ///
-    /// It bounds the error of the squared restitution, and the relative error of a critical speed. Rounding limits it: it must
-    /// be at least 1e-13 in f64, and 1e-6 in f32.
-    #[arg(long)]
+    /// Largest error of e^2 and of a critical speed [default: 1e-9 in f64, 1e-6 in f32]
+    #[arg(long, value_name = "X")]
     tolerance: Option<f64>,
 }
 
@@ -117,12 +120,11 @@ impl SimulationOptions {
 }
 
 /// Format of a result.
-#[derive(Clone, Copy, ValueEnum)]
-enum Format {
-    /// A summary to read.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
     Table,
-    /// All columns, for a spreadsheet.
     Csv,
+    Json,
 }
 
 /// Number type of the computation.
@@ -141,6 +143,9 @@ pub trait TableCommand {
     fn options(&self) -> &TableOptions;
 
     /// Runs in numbers of type `T`.
+    ///
+    /// # Errors
+    /// Why the command failed: the options, the table or a stream.
     fn run_in<T: Number>(&self, streams: &mut Streams<'_>) -> BadRows;
 
     /// Runs the command; its exit status.
@@ -153,61 +158,123 @@ pub trait TableCommand {
     }
 }
 
-/// What a command computes from each row of a table.
-pub trait Work {
-    /// The numbers that it reads.
-    fn inputs(&self) -> Vec<Input>;
-
-    /// Columns that are computed for a table, in the order in which they are written; the column `error` follows them.
-    fn columns(&self, header: &Header<'_>) -> Vec<String>;
-
-    /// The computed cells of a row.
-    fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow>;
-
-    /// Column heads of the summary.
-    fn heads(&self, header: &Header<'_>) -> Vec<&'static str>;
-
-    /// How many columns of the summary, from the left, hold words: two unless given.
-    fn words(&self) -> usize {
-        2
-    }
-
-    /// A line of the summary.
-    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String>;
-}
-
-/// A row that could not be computed, or only in part.
-pub struct BadRow {
-    /// Why.
-    pub reason: String,
-    /// The cells that could be computed; cells that are missing at the end are left empty.
-    pub cells: Vec<String>,
-}
-
-impl From<String> for BadRow {
-    fn from(reason: String) -> Self {
-        Self { reason, cells: Vec::new() }
-    }
-}
-
 /// The number of bad rows, or why the command failed.
 pub type BadRows = Result<usize, Box<dyn Error>>;
+
+/// A table to read, and the progress through it.
+pub struct Origin<'a> {
+    pub source: Box<dyn Read + 'a>,
+    pub progress: Progress,
+}
+
+impl<'a> Origin<'a> {
+    /// A file, standard input if the file is `-`, or a bundled table if there is no file.
+    pub fn of(file: Option<&Path>, bundled: &'a str, input: &'a mut dyn io::BufRead) -> Result<Self, String> {
+        let Some(path) = file else {
+            return Ok(Self { source: Box::new(bundled.as_bytes()), progress: Progress::new(None) });
+        };
+        if path.as_os_str() == "-" {
+            return Ok(Self { source: Box::new(input), progress: Progress::new(None) });
+        }
+        let file = open(path)?;
+        let length = file.get_ref().metadata().ok().map(|known| known.len());
+        let progress = Progress::new(length);
+        Ok(Self { source: Box::new(progress.over(file)), progress })
+    }
+}
 
 impl TableOptions {
     /// Computes all rows of a file, of standard input if the file is `-`, or of a bundled table if there is no file.
     pub fn work(&self, command: &str, bundled: &str, work: &impl Work, streams: &mut Streams<'_>) -> BadRows {
-        let source: Box<dyn BufRead> = match &self.file {
-            None => Box::new(bundled.as_bytes()),
-            Some(path) if path.as_os_str() == "-" => Box::new(&mut *streams.input),
-            Some(path) => Box::new(open(path)?),
+        let Origin { source, progress } = Origin::of(self.file.as_deref(), bundled, streams.input)?;
+        let computed = |header: &Header<'_>| {
+            let mut names = work.columns(header);
+            names.push("error".into());
+            names
         };
-        let computed = |header: &Header<'_>| work.columns(header);
-        let sheet = self.reading.open(command, source, &work.inputs(), computed, streams.errors)?;
-        match self.format {
-            Format::Csv => write_csv(sheet, &mut *streams.output, work),
-            Format::Table => write_table(sheet, &mut *streams.output, work),
+        let mut sheet = self.reading.open(command, source, &work.inputs(), computed, streams.errors)?;
+        let (frame, mut reader) = sheet.split();
+        let names = computed(&frame.header());
+        let columns = names.len() - 1;
+        let mut output = BufWriter::new(&mut *streams.output);
+        let Some(shape) = self.format.shape() else {
+            let task = Task { work, frame, writer: None, shown: SHOWN, columns };
+            let computed = task.run(&mut reader, &progress, &mut output)?;
+            write_table(&mut output, work, &frame.header(), &computed)?;
+            output.flush()?;
+            return Ok(computed.bad_rows);
+        };
+        let writer = RowWriter::new(frame, shape, &names);
+        writer.begin(&mut output)?;
+        let task = Task { work, frame, writer: Some(&writer), shown: 0, columns };
+        let computed = task.run(&mut reader, &progress, &mut output)?;
+        writer.end(&mut output)?;
+        output.flush()?;
+        Ok(computed.bad_rows)
+    }
+}
+
+/// Rows that a summary shows.
+const SHOWN: usize = 100;
+
+impl Format {
+    /// How a table of this format is written for programs; `None` for a summary to read.
+    fn shape(self) -> Option<Shape> {
+        match self {
+            Self::Table => None,
+            Self::Csv => Some(Shape::Csv),
+            Self::Json => Some(Shape::Json),
         }
     }
+}
+
+/// Writes records; a summary shows the first of them. The first columns, so many as `words`, hold words.
+pub fn write_records(
+    format: Format,
+    names: &[&str],
+    words: usize,
+    records: impl IntoIterator<Item = Vec<Value>>,
+    to: &mut dyn Write,
+) -> io::Result<()> {
+    let mut records = records.into_iter();
+    let Some(shape) = format.shape() else {
+        let line = |record: Vec<Value>| record.iter().map(in_summary).collect();
+        let lines: Vec<Vec<String>> = records.by_ref().take(SHOWN).map(line).collect();
+        let (shown, others) = (lines.len(), records.count());
+        writeln!(to, "{}", table_of(names.to_vec(), words, lines))?;
+        if others > 0 {
+            writeln!(to, "The first {shown} of {} rows; --format csv writes all.", shown + others)?;
+        }
+        return Ok(());
+    };
+    sheet::write_records(shape, names, records, to)
+}
+
+/// A value with the digits that are read, not all of them.
+fn in_summary(value: &Value) -> String {
+    match value {
+        Value::Double(number) if *number != 0.0 && !(1e-3..1e5).contains(&number.abs()) => format!("{number:.4e}"),
+        Value::Double(number) => format!("{}", (number * 1e6).round() / 1e6),
+        other => other.text(Decimal::Point),
+    }
+}
+
+/// The table of one row, from its columns as `NAME=VALUE`; `None` if there are none.
+pub fn one_row(given: &[String]) -> Result<Option<String>, Box<dyn Error>> {
+    if given.is_empty() {
+        return Ok(None);
+    }
+    let mut cells = Vec::new();
+    for pair in given {
+        let Some((name, value)) = pair.split_once('=') else {
+            return Err(format!("--given: \"{pair}\" is refused: enter NAME=VALUE, as density_kg_m3=2600").into());
+        };
+        cells.push((name.trim(), value.trim()));
+    }
+    let mut table = csv::Writer::from_writer(Vec::new());
+    table.write_record(cells.iter().map(|(name, _)| name))?;
+    table.write_record(cells.iter().map(|(_, value)| value))?;
+    Ok(Some(String::from_utf8(table.into_inner()?)?))
 }
 
 /// Opens a file to read.
@@ -238,46 +305,26 @@ fn is_broken_pipe(error: &(dyn Error + 'static)) -> bool {
     io_error.is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
 }
 
-fn write_csv(mut sheet: Sheet<Box<dyn BufRead + '_>>, sink: impl Write, work: &impl Work) -> BadRows {
-    let mut columns = work.columns(&sheet.header());
-    let computed = columns.len();
-    columns.push("error".into());
-    let mut writer = sheet.writer(io::BufWriter::new(sink), &columns)?;
-    let mut bad_rows = 0;
-    while let Some(row) = sheet.next_row()? {
-        let (mut cells, reason) = match row.check().map_err(BadRow::from).and_then(|()| work.cells(&row)) {
-            Ok(cells) => (cells, String::new()),
-            Err(bad) => {
-                bad_rows += 1;
-                (bad.cells, bad.reason)
-            }
-        };
-        cells.resize(computed, String::new());
-        cells.push(reason);
-        writer.write(&row, &cells)?;
-    }
-    writer.finish()?;
-    Ok(bad_rows)
-}
-
-fn write_table(mut sheet: Sheet<Box<dyn BufRead + '_>>, mut sink: impl Write, work: &impl Work) -> BadRows {
+/// A table to read, whose first columns, so many as `words`, hold words.
+pub fn table_of(heads: Vec<&str>, words: usize, lines: impl IntoIterator<Item = Vec<String>>) -> Table {
     let mut table = Table::new();
     table.load_preset(presets::UTF8_FULL_CONDENSED).set_content_arrangement(ContentArrangement::Dynamic);
-    table.set_header(work.heads(&sheet.header()));
-    for column in table.column_iter_mut().skip(work.words()) {
+    table.set_header(heads).add_rows(lines);
+    for column in table.column_iter_mut().skip(words) {
         column.set_cell_alignment(CellAlignment::Right);
     }
-    let mut bad_rows = 0;
-    while let Some(row) = sheet.next_row()? {
-        let name = row.text(LABEL).unwrap_or_else(|| format!("row {}", row.index()));
-        match row.check().and_then(|()| work.line(&row, name.clone())) {
-            Ok(line) => table.add_row(line),
-            Err(reason) => {
-                bad_rows += 1;
-                table.add_row(vec![name, format!("bad row: {reason}")])
-            }
-        };
+    table
+}
+
+/// Writes the summary, and says what it leaves out.
+fn write_table(to: &mut impl Write, work: &impl Work, header: &Header<'_>, computed: &Computed) -> io::Result<()> {
+    let Computed { rows, lines, unshown, .. } = computed;
+    writeln!(to, "{}", table_of(work.heads(header), work.words(), lines.iter().cloned()))?;
+    if *rows > lines.len() {
+        writeln!(to, "The first {} of {rows} rows; --format csv writes all.", lines.len())?;
     }
-    writeln!(sink, "{table}")?;
-    Ok(bad_rows)
+    if let Some((number, reason)) = unshown {
+        writeln!(to, "The first bad row below these is row {number}: {reason}")?;
+    }
+    Ok(())
 }

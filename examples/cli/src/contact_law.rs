@@ -27,21 +27,6 @@ pub const LAW_INPUTS: [Input; 10] = [
     Input::optional(&["end_rule"], "no-indentation; snap-off with jkr"),
 ];
 
-/// What the help of a command says of the columns that choose a law.
-pub const LAW_HELP: &str = "\
-Columns that choose the law of contact of a row. Brackets give what an empty or absent cell means.
-  law: hertz, ring, dmt or jkr [ring if adhesion_n_m is not 0, otherwise hertz]
-  work_of_adhesion_j_m2: work of adhesion per area G, J/m^2; dmt and jkr require it
-  zeta_h: c_H/C, for the damping constant c_H in s/m (the elastic force is multiplied by 1 + c_H v)
-    and C = (m/(r^3 K sqrt(v)))^(2/5), at the approach speed v
-  damping: none, hysteretic, viscoelastic or constant, where zeta_h is empty [hysteretic by zeta_h]
-  damping_value: zeta_h of hysteretic damping, relaxation time of viscoelastic damping in s, or
-    nominal restitution of constant damping, 0.001 to 1
-  end_rule, where contact ends: no-indentation or no-force with hertz, no-indentation with ring and
-    dmt, snap-off or pull-off with jkr [no-indentation; snap-off with jkr]
-Only the ring takes adhesion_n_m, zeta_a and peeling_n_m. Neither jkr nor no-force takes an external
-force.";
-
 /// Law of the elastic force and of adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum LawName {
@@ -56,6 +41,16 @@ impl LawName {
     fn of<T: Scalar>(row: &Row<'_>) -> Result<Self, String> {
         let without_word = if row.or_zero::<T>("adhesion_n_m")? == T::ZERO { Self::Hertz } else { Self::Ring };
         Ok(word(row, "law", Self::value_variants())?.unwrap_or(without_word))
+    }
+
+    /// Its word in a table.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Hertz => "hertz",
+            Self::Ring => "ring",
+            Self::Dmt => "dmt",
+            Self::Jkr => "jkr",
+        }
     }
 
     /// How its contact can end; first the rule of a row that gives none.

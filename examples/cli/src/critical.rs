@@ -6,12 +6,14 @@
 use clap::Args;
 use microimpact::contact::{Adaptive, Contact};
 use microimpact::{CriticalSpeed, Sphere};
-use sheet::{Header, Input, Row};
+use sheet::{Header, Input, Row, Value};
 
 use crate::Streams;
-use crate::command::{BadRow, BadRows, Number, SimulationOptions, TableCommand, TableOptions, Work, simulation_help};
+use crate::columns::Used;
+use crate::command::{BadRows, Number, STATUS, SimulationOptions, TABLE_MANUAL, TableCommand, TableOptions};
 use crate::contact_law::{LAW_INPUTS, LawName, RowLaw};
-use crate::inputs::DENSITY_INPUT;
+use crate::inputs::{DENSITY_INPUT, SIZE_INPUT, radius};
+use crate::rows::{BadRow, Work};
 use crate::words::name_of;
 
 /// Spheres of the paper's figure 6 and Table 1. Its program halves the printed damping of adhesion.
@@ -27,27 +29,37 @@ Figure 6: 13 um,6.5e-6,2600,7.5e10,250,10.5,6.25
 \"50 um, no adhesion\",2.5e-5,2600,7.5e10,0,10.5,0
 ";
 
-/// Find the critical speed, which separates capture from rebound, by the contact simulation. Without a table, find it for
-/// spheres of the paper.
-///
-/// Input columns, in SI units. Brackets give the value that an empty or absent cell has; the other columns are required.
-///   radius_m, density_kg_m3, stiffness_pa (K),
-///   adhesion_n_m (f0) [0], zeta_h [0], zeta_a [0], external_force_n (positive out of the surface) [0],
-///   law, work_of_adhesion_j_m2, damping, damping_value, end_rule (below).
-///
-/// Computed columns:
-///   critical_speed_m_s: spheres are captured at this speed and below. With a force out of the surface it is the largest
-///     speed at which spheres are captured: the force turns back the slowest spheres before adhesion can hold them.
-///   critical: `speed` if there is such a speed. `always rebounds` or `never rebounds` if there is none from 1e-12 to
-///     1e6 m/s; critical_speed_m_s is then empty.
-///   law: hertz, ring, dmt or jkr.
+/// Find the critical speed, at and below which spheres are captured, by the contact simulation
 #[derive(Args)]
-#[command(verbatim_doc_comment, after_long_help = simulation_help())]
+#[command(after_help = format!("{EXAMPLE}\n{STATUS}"), after_long_help = format!("{EXAMPLE}\n\n{MANUAL}\n\n{TABLE_MANUAL}\n\n{STATUS}"))]
 pub struct Options {
     #[command(flatten)]
     simulation: SimulationOptions,
     #[command(flatten)]
     table: TableOptions,
+}
+
+const EXAMPLE: &str = "\
+Example: the critical speeds of spheres of the paper
+  cargo microimpact critical
+`cargo microimpact columns critical` lists the columns that it reads and writes.";
+
+const MANUAL: &str = "\
+With a force out of the surface the critical speed is the largest speed at which spheres are captured: the force turns back the \
+slowest spheres before adhesion can hold them. critical_speed_m_s is empty if there is no critical speed from 1e-12 to 1e6 m/s.";
+
+/// The columns of the command.
+pub fn columns() -> Used {
+    let outputs = COLUMNS.iter().chain(&["error"]).map(|name| (*name).to_owned()).collect();
+    Used { inputs: inputs(), outputs }
+}
+
+/// The computed columns.
+const COLUMNS: [&str; 3] = ["critical_speed_m_s", "critical", "law"];
+
+/// The columns that the command reads.
+fn inputs() -> Vec<Input> {
+    [&[SIZE_INPUT, DENSITY_INPUT], &LAW_INPUTS[..]].concat()
 }
 
 impl TableCommand for Options {
@@ -69,8 +81,7 @@ struct Critical<T> {
 
 impl<T: Number> Critical<T> {
     fn find(&self, row: &Row<'_>) -> Result<(LawName, CriticalSpeed<T>), String> {
-        let sphere = Sphere::solid(row.required("radius_m")?, row.required("density_kg_m3")?)
-            .map_err(|error| row.reason(error))?;
+        let sphere = Sphere::solid(radius(row)?, row.required("density_kg_m3")?).map_err(|error| row.reason(error))?;
         let law = RowLaw::read(row)?;
         let critical = law.law().and_then(|law| Contact::new(sphere, law).critical_speed(&self.method));
         Ok((law.name, critical.map_err(|error| row.reason(error))?))
@@ -78,31 +89,33 @@ impl<T: Number> Critical<T> {
 }
 
 impl<T: Number> Work for Critical<T> {
+    type Notes = ();
+
     fn inputs(&self) -> Vec<Input> {
-        [&[Input::required(&["radius_m"]), DENSITY_INPUT], &LAW_INPUTS[..]].concat()
+        inputs()
     }
 
     fn columns(&self, _header: &Header<'_>) -> Vec<String> {
-        ["critical_speed_m_s", "critical", "law"].map(String::from).into()
+        COLUMNS.map(String::from).into()
     }
 
-    fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
+    fn cells(&self, row: &Row<'_>, (): &mut ()) -> Result<Vec<Value>, BadRow> {
         let (law, critical) = self.find(row)?;
-        let speed = if let CriticalSpeed::At(speed) = critical { row.cell(speed) } else { String::new() };
-        Ok(vec![speed, in_words(&critical).into(), name_of(&law)])
+        let speed = if let CriticalSpeed::At(speed) = critical { speed.value() } else { Value::Empty };
+        Ok(vec![speed, in_words(&critical).into(), name_of(&law).into()])
     }
 
     fn heads(&self, _header: &Header<'_>) -> Vec<&'static str> {
         vec!["sphere", "law", "radius\nm", "critical speed\nm/s"]
     }
 
-    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
+    fn line(&self, row: &Row<'_>, name: String, (): &mut ()) -> Result<Vec<String>, String> {
         let (law, critical) = self.find(row)?;
         let speed = match &critical {
-            CriticalSpeed::At(speed) => row.cell(*speed),
+            CriticalSpeed::At(speed) => row.text_of(*speed),
             none => in_words(none).into(),
         };
-        Ok(vec![name, name_of(&law), row.text("radius_m").unwrap_or_default(), speed])
+        Ok(vec![name, name_of(&law), row.text_of(radius::<T>(row)?), speed])
     }
 }
 

@@ -11,6 +11,9 @@ use plotters::prelude::*;
 /// A file, or a part of it, that holds one chart.
 pub type Panel<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
+/// The colour of a line that is the only one.
+pub const LINE: RGBColor = RED;
+
 /// A line of a chart with its colour.
 pub type Line = (RGBColor, Vec<(f64, f64)>);
 

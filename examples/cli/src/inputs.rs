@@ -18,6 +18,19 @@ pub const POWER_INPUT: Input = Input::optional(&["restitution_power"], "1");
 /// Coulomb's friction, which both models have.
 pub const FRICTION_INPUT: Input = Input::optional(&["friction"], "0");
 
+/// The size of a sphere.
+pub const SIZE_INPUT: Input = Input::required(&["radius_m", "diameter_m"]);
+
+/// The radius of the sphere of a row.
+pub fn radius<T: Scalar>(row: &Row<'_>) -> Result<T, String> {
+    match (row.number("radius_m")?, row.number::<T>("diameter_m")?) {
+        (Some(radius), None) => Ok(radius),
+        (None, Some(diameter)) => Ok(T::constant(0.5) * diameter),
+        (None, None) => Err("radius_m: missing; give radius_m or diameter_m".into()),
+        (Some(_), Some(_)) => Err("size: given twice, as radius_m and diameter_m; leave one of them empty".into()),
+    }
+}
+
 /// The density of a sphere.
 pub const DENSITY_INPUT: Input = Input::required(&["density_kg_m3"]);
 

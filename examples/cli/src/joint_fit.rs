@@ -7,45 +7,47 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use comfy_table::Table;
 use joint_fit::{Impact, JointFit, Known, NAMES};
 use microimpact::Parameter;
-use sheet::Input;
+use sheet::{Input, Value};
 
 use crate::Streams;
-use crate::command::{Reading, exit_status, open};
+use crate::command::{Format, Origin, Reading, exit_status, write_records};
 
 pub mod figures;
 
-/// Fit f0, zeta_H, zeta_A, and mean and spread of the diameters to a table of approach speeds and restitutions.
-///
-/// Input columns: speed_normal_m_s (approach speed), restitution (overall; 0 for a capture). Each row needs both.
-///
-/// Exit status: 0 on success; 2 if there is no fit (standard error gives the reason).
+/// Fit f0, zeta_H, zeta_A, and mean and spread of the diameters to approach speeds and restitutions
 #[derive(Args)]
-#[command(verbatim_doc_comment)]
+#[command(after_help = "\
+Example: impacts of spheres of 8.6 um
+  cargo microimpact joint-fit impacts.csv --diameter 8.6e-6 --diameter-error 2e-7
+Each row needs speed_normal_m_s and overall_restitution, which is 0 for a capture.
+Exit status: 0 on success; 2 if there is no fit (standard error says why).")]
 pub struct Options {
-    /// CSV file of impacts.
+    /// CSV or xlsx file of impacts; `-` for standard input
     file: PathBuf,
-    /// Hertz stiffness, Pa.
+    /// Hertz stiffness, Pa
     #[arg(long, default_value_t = 7.5e10)]
     stiffness: f64,
-    /// Density, kg/m^3.
+    /// Density, kg/m^3
     #[arg(long, default_value_t = 2600.0)]
     density: f64,
-    /// Standard error of a restitution.
+    /// Standard error of a restitution
     #[arg(long, default_value_t = 0.01)]
     noise: f64,
-    /// Mean diameter from another measurement, m. Impacts alone determine only f0 over the diameter.
+    /// Mean diameter from another measurement, m; impacts alone give only f0 over the diameter
     #[arg(long)]
     diameter: f64,
-    /// Standard error of the mean diameter, m.
+    /// Standard error of the mean diameter, m
     #[arg(long)]
     diameter_error: f64,
-    /// Values of f0, zeta_H, zeta_A and the relative spread at which the fit starts.
+    /// Values of f0, zeta_H, zeta_A and the relative spread at which the fit starts
     #[arg(long, num_args = 4, default_values_t = [250.0, 10.0, 6.0, 0.1])]
     first: Vec<f64>,
-    /// SVG file to draw the fit in.
+    /// Format of the result
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+    /// SVG file to draw the fit in
     #[arg(long)]
     figure: Option<PathBuf>,
     #[command(flatten)]
@@ -53,7 +55,7 @@ pub struct Options {
 }
 
 /// The numbers of an impact.
-const INPUTS: [Input; 2] = [Input::required(&["speed_normal_m_s"]), Input::required(&["restitution"])];
+pub const INPUTS: [Input; 2] = [Input::required(&["speed_normal_m_s"]), Input::required(&["overall_restitution"])];
 
 const NAME: &str = "joint-fit";
 
@@ -65,7 +67,7 @@ impl Options {
 }
 
 fn run(options: &Options, streams: &mut Streams<'_>) -> Result<(), Box<dyn Error>> {
-    let impacts = read(options, streams.errors)?;
+    let impacts = read(options, streams)?;
     let known = Known {
         stiffness: options.stiffness,
         density: options.density,
@@ -76,20 +78,16 @@ fn run(options: &Options, streams: &mut Streams<'_>) -> Result<(), Box<dyn Error
         return Err("--first needs four numbers".into());
     };
     let fit = JointFit::of(&known, &impacts, [f0, zeta_h, zeta_a, options.diameter, spread])?;
-    let mut table = Table::new();
-    table.set_header(["parameter", "value", "95 % from", "to", "unit"]);
-    for (index, (name, unit)) in NAMES.into_iter().enumerate() {
+    let records = NAMES.into_iter().enumerate().map(|(index, (name, unit))| {
         let (low, high) = fit.interval(index);
-        let cells = [fit.parameters[index], low, high].map(|number| format!("{number:.4e}"));
-        table.add_row([[name.to_owned()].as_slice(), &cells, &[unit.to_owned()]].concat());
-    }
-    writeln!(streams.output, "{table}")?;
+        let numbers = [fit.parameters[index], low, high].map(Value::Double);
+        [Value::from(name)].into_iter().chain(numbers).chain([unit.into()]).collect()
+    });
+    write_records(options.format, &["parameter", "value", "low", "high", "unit"], 1, records, streams.output)?;
     let mean_square = fit.residuals().map(|(_, residual)| residual * residual).sum::<f64>() / impacts.len() as f64;
-    writeln!(
-        streams.output,
-        "impacts: {}, mean square of the residuals in their variance: {mean_square:.3}",
-        impacts.len()
-    )?;
+    let of_table = options.format == Format::Table;
+    let remarks: &mut dyn Write = if of_table { &mut *streams.output } else { &mut *streams.errors };
+    writeln!(remarks, "impacts: {}, mean square of the residuals in their variance: {mean_square:.3}", impacts.len())?;
     if let Some(figure) = &options.figure {
         figures::draw(&fit, figure)?;
     }
@@ -97,8 +95,9 @@ fn run(options: &Options, streams: &mut Streams<'_>) -> Result<(), Box<dyn Error
 }
 
 /// The impacts of a table.
-fn read(options: &Options, errors: &mut dyn Write) -> Result<Vec<Impact>, String> {
-    let mut sheet = options.reading.open(NAME, open(&options.file)?, &INPUTS, |_| Vec::new(), errors)?;
+fn read(options: &Options, streams: &mut Streams<'_>) -> Result<Vec<Impact>, String> {
+    let Origin { source, progress: _progress } = Origin::of(Some(&options.file), "", streams.input)?;
+    let mut sheet = options.reading.open(NAME, source, &INPUTS, |_| Vec::new(), streams.errors)?;
     let mut impacts = Vec::new();
     while let Some(row) = sheet.next_row()? {
         let within = |parameter: Parameter, column: &str| {
@@ -106,7 +105,7 @@ fn read(options: &Options, errors: &mut dyn Write) -> Result<Vec<Impact>, String
         };
         let impact = row.check().and_then(|()| {
             let speed = within(Parameter::ApproachSpeed, "speed_normal_m_s")?;
-            Ok(Impact { speed, restitution: within(Parameter::Restitution, "restitution")? })
+            Ok(Impact { speed, restitution: within(Parameter::Restitution, "overall_restitution")? })
         });
         impacts.push(impact.map_err(|reason| format!("row {}: {reason}", row.index()))?);
     }

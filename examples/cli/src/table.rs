@@ -1,7 +1,8 @@
 //! Makes a table of critical speeds by the contact simulation, for firmware that does not compute it itself.
 //!
 //! `cargo microimpact table` writes a Rust constant for the paper's surface;
-//! `cargo microimpact table --format c` an array for C, with the function that reads it.
+//! `cargo microimpact table --format c` an array for C, with the function that reads it;
+//! `cargo microimpact table --format fluent`, or another simulation program, the restitution against the approach speed.
 
 use std::error::Error;
 use std::io::{self, Write};
@@ -10,18 +11,24 @@ use clap::{Args, ValueEnum};
 use microimpact::contact::{AnyLaw, Collocation, Contact};
 use microimpact::table::BoundaryTable;
 use microimpact::{InputError, Sphere, Stiffness};
+use sheet::Value;
 
 use crate::Streams;
-use crate::command::exit_status;
+use crate::command::{Format, exit_status, write_records};
+use crate::restitution_table::{self, Program, RestitutionOptions};
 
-/// Make a table of critical speeds, which classifies spheres of one material on one surface as captured or rebounding.
+/// Make a table of critical speeds for firmware, or of restitution for programs that simulate particles
 ///
 /// Options default to the values of the paper (zeta_A = 6.25 is half of the printed value, as in the paper's program). Cells
 /// divide each octave of radii into four; the table starts with the cell that contains the smallest radius.
-///
-/// Exit status: 0 on success; 2 if there is no such table (standard error gives the reason).
 #[derive(Args)]
-#[command(allow_negative_numbers = true)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
+Example: a table for C
+  cargo microimpact table --format c
+Exit status: 0 on success; 2 if there is no such table (standard error says why)."
+)]
 pub struct Options {
     /// Smallest radius, m
     #[arg(long, default_value_t = 1e-6)]
@@ -45,23 +52,64 @@ pub struct Options {
     #[arg(long, default_value_t = 6.25)]
     zeta_a: f64,
     /// Language of the table
-    #[arg(long, value_enum, default_value_t = Format::Rust)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = Language::Rust)]
+    format: Language,
+    #[command(flatten)]
+    restitution: RestitutionOptions,
 }
 
 /// Language of the table.
 #[derive(Clone, Copy, ValueEnum)]
-enum Format {
-    /// A constant
+enum Language {
+    // A constant.
     Rust,
-    /// Constants and a function for C99
+    // Constants and a function for C99.
     C,
-    /// A row for each cell
+    // A row for each cell, in one of the formats of the other commands.
+    Table,
     Csv,
+    Json,
+    // Restitution against approach speed.
+    Fluent,
+    Acutrace,
+    Comsol,
+    Openfoam,
+    RestitutionCsv,
+}
+
+/// What a format holds.
+enum Content {
+    CriticalSpeeds(Written),
+    Restitution(Program),
+}
+
+/// How a table of critical speeds is written.
+enum Written {
+    Rust,
+    C,
+    Rows(Format),
+}
+
+impl Language {
+    fn content(self) -> Content {
+        match self {
+            Self::Rust => Content::CriticalSpeeds(Written::Rust),
+            Self::C => Content::CriticalSpeeds(Written::C),
+            Self::Table => Content::CriticalSpeeds(Written::Rows(Format::Table)),
+            Self::Csv => Content::CriticalSpeeds(Written::Rows(Format::Csv)),
+            Self::Json => Content::CriticalSpeeds(Written::Rows(Format::Json)),
+            Self::Fluent => Content::Restitution(Program::Fluent),
+            Self::Acutrace => Content::Restitution(Program::AcuTrace),
+            Self::Comsol => Content::Restitution(Program::Comsol),
+            Self::Openfoam => Content::Restitution(Program::OpenFoam),
+            Self::RestitutionCsv => Content::Restitution(Program::Any),
+        }
+    }
 }
 
 /// Eight octaves.
 const MOST_CELLS: usize = 32;
+const CELLS_OF_OCTAVE: f64 = 4.0;
 
 /// The parts of a table whose length was chosen at run time.
 struct Parts {
@@ -77,10 +125,13 @@ impl Options {
         exit_status("table", run(self, streams.output).map(|()| 0), streams.errors)
     }
 
+    fn law(&self) -> Result<AnyLaw<f64>, InputError> {
+        AnyLaw::ring(Stiffness::new(self.stiffness)?, self.adhesion, self.zeta_a)?.with_damping(self.zeta_h)
+    }
+
     fn parts<const N: usize>(&self) -> Result<Parts, InputError> {
         let method = Collocation::<9, f64>::new(1e-9)?;
-        let law =
-            AnyLaw::ring(Stiffness::new(self.stiffness)?, self.adhesion, self.zeta_a)?.with_damping(self.zeta_h)?;
+        let law = self.law()?;
         let table = BoundaryTable::<N>::new(self.smallest_radius, |radius| {
             let sphere = Sphere::solid(radius, self.density)?;
             Contact::new(sphere, law).critical_speed(&method)
@@ -102,24 +153,29 @@ impl Options {
         of_length!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31)
     }
 
-    /// Materials and error of the table, in a line.
-    fn subject(&self, parts: &Parts) -> String {
+    /// The materials in words.
+    fn materials(&self) -> String {
         let Self { density, stiffness, adhesion, zeta_h, zeta_a, .. } = self;
-        let margin = parts.relative_margin;
-        format!(
-            "density {density} kg/m^3, K {stiffness:e} Pa, f0 {adhesion} N/m, zeta_H {zeta_h}, zeta_A {zeta_a}; \
-             greatest relative error {margin:.1e}"
-        )
+        format!("density {density} kg/m^3, K {stiffness:e} Pa, f0 {adhesion} N/m, zeta_H {zeta_h}, zeta_A {zeta_a}")
     }
 }
 
 fn run(options: &Options, to: &mut dyn Write) -> Result<(), Box<dyn Error>> {
+    let written = match options.format.content() {
+        Content::CriticalSpeeds(written) => written,
+        Content::Restitution(program) => {
+            let octaves = f64::from(options.cells) / CELLS_OF_OCTAVE;
+            let radii = [options.smallest_radius, options.smallest_radius * octaves.exp2()];
+            let (law, materials) = (options.law()?, options.materials());
+            return restitution_table::write(to, program, &options.restitution, radii, options.density, law, materials);
+        }
+    };
     let parts = options.table()?;
-    let subject = options.subject(&parts);
-    match options.format {
-        Format::Rust => rust(to, &parts, &subject),
-        Format::C => c(to, &parts, &subject),
-        Format::Csv => csv(to, &parts),
+    let subject = format!("{}; greatest relative error {:.1e}", options.materials(), parts.relative_margin);
+    match written {
+        Written::Rust => rust(to, &parts, &subject),
+        Written::C => c(to, &parts, &subject),
+        Written::Rows(format) => rows(to, &parts, format),
     }?;
     Ok(())
 }
@@ -188,12 +244,15 @@ static inline enum boundary_verdict boundary_classify(float radius, float speed)
 }
 ";
 
-fn csv(to: &mut dyn Write, parts: &Parts) -> io::Result<()> {
-    writeln!(to, "radius_from_m,radius_to_m,constant,linear,square,cube,margin")?;
-    for (k, [constant, linear, square, cube]) in parts.cells.iter().enumerate() {
+/// The columns of a cell of the table.
+const COLUMNS: [&str; 7] = ["radius_from_m", "radius_to_m", "constant", "linear", "square", "cube", "margin"];
+
+fn rows(to: &mut dyn Write, parts: &Parts, format: Format) -> io::Result<()> {
+    let records = parts.cells.iter().enumerate().map(|(k, cell)| {
         // Each cell spans 2^21 steps of the bits of a radius.
-        let radius = |k: usize| f32::from_bits(parts.smallest.to_bits() + ((k as u32) << 21));
-        writeln!(to, "{:e},{:e},{constant},{linear},{square},{cube},{}", radius(k), radius(k + 1), parts.margin)?;
-    }
-    Ok(())
+        let radius = |k: usize| Value::Single(f32::from_bits(parts.smallest.to_bits() + ((k as u32) << 21)));
+        let coefficients = cell.map(|coefficient| Value::Double(coefficient.into()));
+        [radius(k), radius(k + 1)].into_iter().chain(coefficients).chain([Value::Count(parts.margin.into())]).collect()
+    });
+    write_records(format, &COLUMNS, 0, records, to)
 }

@@ -21,6 +21,9 @@ pub fn word<V: ValueEnum>(row: &Row<'_>, column: &str, allowed: &[V]) -> Result<
     })
 }
 
+/// Least probability of a class that is named, where no other is given.
+pub const LEVEL: f64 = 0.9;
+
 /// A probability in an option.
 pub fn probability(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number| (0.0..=1.0).contains(number));

@@ -117,7 +117,7 @@ fn impossible_rows_say_why() {
             "out too fast,1e-5,2600,130,0.02,2.8,1,0,2,-1e300,",
             "speed_tangential_out_m_s: \"-1e300\" is refused: tangential velocity must be -1e7 to 1e7 m/s",
         ),
-        ("no size,,2600,130,0.02,2.8,0,,2,0,", "diameter_m: missing"),
+        ("no size,,2600,130,0.02,2.8,0,,2,0,", "radius_m: missing; give radius_m or diameter_m"),
         ("error of a sign,1e-5,2600,130,-0.02,2.8,0,,2,0,", "velocity_error_m_s"),
         ("half of the spins,1e-5,2600,130,0.02,2.8,0,,2,0,10", "spin_out_rad_s: not without spin_rad_s"),
         ("words,1e-5,heavy,130,0.02,2.8,0,,2,0,", "density_kg_m3: \"heavy\" is not a number"),

@@ -148,14 +148,18 @@ fn run_on(name: &str, table: &[u8]) -> Output {
 
 #[test]
 fn tables_that_cannot_be_read_say_where() {
-    let header = "Speed_normal_m_s;restitution\n";
+    let header = "Speed_normal_m_s;overall_restitution\n";
     for (name, table, sign) in [
         ("empty", String::new(), "the table is empty"),
-        ("columns", "a,b\n1,2\n".into(), "lacks required columns: speed_normal_m_s, restitution; the header is: a, b"),
-        ("cell", format!("{header}2,5;0,5\n3,5;\n"), "row 2: restitution: missing"),
-        ("marks", format!("{header}2,5;0,5\n3,5;0.5\n"), "restitution: \"0.5\" in row 2 has a decimal point"),
+        (
+            "columns",
+            "a,b\n1,2\n".into(),
+            "lacks required columns: speed_normal_m_s, overall_restitution; the header is: a, b",
+        ),
+        ("cell", format!("{header}2,5;0,5\n3,5;\n"), "row 2: overall_restitution: missing"),
+        ("marks", format!("{header}2,5;0,5\n3,5;0.5\n"), "overall_restitution: \"0.5\" in row 2 has a decimal point"),
         ("ambiguous", format!("{header}2;1\n2.500;1\n"), "speed_normal_m_s: \"2.500\" is ambiguous in row 2"),
-        ("word", format!("{header}2,5;0,5\n\"3\";half\n"), "row 2: restitution: \"half\" is not a number"),
+        ("word", format!("{header}2,5;0,5\n\"3\";half\n"), "row 2: overall_restitution: \"half\" is not a number"),
         ("rows", header.into(), "the table has no rows below its header"),
         ("range", format!("{header}2,5;0,5\n1e300;0,5\n"), "row 2: speed_normal_m_s: \"1e300\" is refused"),
         ("few", format!("{header}2,5;0,5\n"), "needs 15 impacts"),
@@ -171,7 +175,7 @@ fn tables_that_cannot_be_read_say_where() {
 fn from_a_table() {
     use std::fmt::Write;
     let (_, impacts) = cloud(&mut StdRng::seed_from_u64(21), 40);
-    let mut table = String::from("speed_normal_m_s,restitution\n");
+    let mut table = String::from("speed_normal_m_s,overall_restitution\n");
     for impact in &impacts {
         writeln!(table, "{},{}", impact.speed, impact.restitution.max(0.0)).unwrap();
     }

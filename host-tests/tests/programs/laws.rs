@@ -37,7 +37,7 @@ fn impact(cells: &[(&str, &str)]) -> Written {
 
 /// The results in which two tables of one row must agree.
 fn results(written: &Written) -> Vec<String> {
-    ["outcome", "restitution", "max_indentation_m", "contact_time_s", "work_material_j", "group_a", "group_h"]
+    ["outcome", "overall_restitution", "max_indentation_m", "contact_time_s", "work_material_j", "group_a", "group_h"]
         .map(|column| written.text(0, column).to_owned())
         .into()
 }
@@ -56,7 +56,7 @@ fn reference_impacts() {
         assert_eq!(found.text(row, "law"), law, "{name}");
         assert_eq!(found.text(row, "outcome"), given.text(row, "outcome"), "{name}");
         if !given.text(row, "restitution").is_empty() {
-            let square = |table: &Written| table.number(row, "restitution").powi(2);
+            let square = |table: &Written| table.overall_restitution(row).powi(2);
             let error = (square(&found) - square(&given)).abs();
             assert!(error <= 1e-11, "{name}: e^2 {error:e}");
         }
@@ -153,12 +153,12 @@ fn words_change_the_result() {
         ended(dampings[2], "no-force"),
     ];
     let mut restitutions: Vec<_> =
-        impacts.iter().map(|cells| impact(cells).text(0, "restitution").to_owned()).collect();
+        impacts.iter().map(|cells| impact(cells).text(0, "overall_restitution").to_owned()).collect();
     restitutions.sort_unstable();
     restitutions.dedup();
     assert_eq!(restitutions.len(), impacts.len(), "{restitutions:?}");
     let [hysteretic, without_tension] = ["no-indentation", "no-force"].map(|rule| impact(&ended(dampings[0], rule)));
-    let [e, other] = [&hysteretic, &without_tension].map(|impact| impact.number(0, "restitution"));
+    let [e, other] = [&hysteretic, &without_tension].map(|impact| impact.number(0, "overall_restitution"));
     assert!(e < 0.999 && (e - other).abs() < 1e-8, "{e} {other}");
     // The name of the law goes into the summary too.
     for (command, model) in [("classify", &["--model", "simulation"][..]), ("critical", &[])] {
@@ -258,7 +258,7 @@ fn refused_rows_say_why() {
         let written = Written::read(&output.stdout, b',');
         let error = written.text(0, "error");
         assert!(output.status == 1 && error.starts_with(reason), "{cells:?}: {error}");
-        assert_eq!((written.text(0, "outcome"), written.text(0, "restitution")), ("", ""), "{cells:?}");
+        assert_eq!((written.text(0, "outcome"), written.text(0, "overall_restitution")), ("", ""), "{cells:?}");
         // A critical speed has no surface along which the moment acts.
         let critical = run("critical", &table, &[]);
         let written = Written::read(&critical.stdout, b',');
@@ -301,7 +301,7 @@ fn methods_of_a_law() {
                 continue;
             };
             assert_eq!((found.text(0, "error"), found.text(0, "outcome")), ("", "rebound"), "{method}");
-            let error = (found.number(0, "restitution") - exact.number(0, "restitution")).abs();
+            let error = (found.number(0, "overall_restitution") - exact.number(0, "overall_restitution")).abs();
             assert!(error <= allowed, "{method}: {error:e} {table}");
         }
     }

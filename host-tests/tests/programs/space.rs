@@ -257,7 +257,7 @@ fn compliance() {
     let without = run("zeta_h", "3", &[]);
     assert_eq!((without.text(0, "error"), without.text(0, "law"), without.text(0, "phases")), ("", "hertz", "3"));
     let zero = run("zeta_h,adhesion_n_m,zeta_a", "3,0,0", &[]);
-    for column in ["error", "law", "restitution", "impulse_ratio_out", "phases"] {
+    for column in ["error", "law", "overall_restitution", "impulse_ratio_out", "phases"] {
         assert_eq!(zero.text(0, column), without.text(0, column), "{column}");
     }
     assert_eq!(

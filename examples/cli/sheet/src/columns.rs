@@ -2,6 +2,11 @@
 
 use std::fmt::Write;
 
+use rustc_hash::FxHashMap;
+
+use crate::catalogue::Column;
+use crate::header::Heading;
+
 /// The column that names a row. It is a label, and never read as a number.
 pub const LABEL: &str = "name";
 
@@ -57,11 +62,25 @@ impl Input {
         Self { replaces: Some((column, words)), ..self }
     }
 
-    pub(crate) fn columns(&self) -> &'static [&'static str] {
+    /// The columns that can give it.
+    #[must_use]
+    pub fn columns(&self) -> &'static [&'static str] {
         self.columns
     }
 
-    fn is_in(&self, header: &[String]) -> bool {
+    /// What is used where no column gives it, in words; `None` if it is required, empty if nothing is.
+    #[must_use]
+    pub fn default(&self) -> Option<&'static str> {
+        self.default
+    }
+
+    /// Whether a table needs it only beside certain other columns.
+    #[must_use]
+    pub fn is_conditional(&self) -> bool {
+        !self.with.is_empty()
+    }
+
+    fn is_in(&self, header: &[&str]) -> bool {
         has_one(header, self.columns)
     }
 
@@ -70,7 +89,7 @@ impl Input {
     }
 
     /// The columns that are absent, with what is used in their place; `None` if there are none, or nothing is said of them.
-    fn absent(&self, header: &[String]) -> Option<String> {
+    fn absent(&self, header: &[&str]) -> Option<String> {
         if self.is_in(header) {
             let component = self.component?;
             let absent = self.columns.iter().filter(|column| !has_one(header, &[column]));
@@ -85,20 +104,36 @@ impl Input {
 }
 
 /// Whether a header has one of some columns.
-fn has_one(header: &[String], columns: &[&str]) -> bool {
-    columns.iter().any(|column| header.iter().any(|name| name == column))
+fn has_one(header: &[&str], columns: &[&str]) -> bool {
+    columns.iter().any(|column| header.contains(column))
 }
 
 /// The names of the columns of a table.
 #[derive(Clone, Copy)]
 pub struct Header<'a> {
     pub(crate) names: &'a [String],
+    /// The place of each name, of a table that is read.
+    pub(crate) places: Option<&'a FxHashMap<String, usize>>,
 }
 
-impl Header<'_> {
+impl<'a> Header<'a> {
+    /// A header of these columns.
+    #[must_use]
+    pub fn of(names: &'a [String]) -> Self {
+        Self { names, places: None }
+    }
+
+    /// The names in their order.
+    pub fn names(&self) -> impl Iterator<Item = &'a str> + use<'a> {
+        self.names.iter().map(String::as_str)
+    }
+
     /// Whether the table has a column.
     pub fn has(&self, column: &str) -> bool {
-        self.names.iter().any(|name| name == column)
+        match self.places {
+            Some(places) => places.contains_key(column),
+            None => self.names.iter().any(|name| name == column),
+        }
     }
 }
 
@@ -146,6 +181,12 @@ fn has_words_of(column: &str, name: &str) -> bool {
         && name.split('_').all(|word| column.split('_').any(|other| other == word))
 }
 
+/// Whether a name is that of a column up to its unit, and none of another column.
+fn has_another_unit(column: &str, name: &str) -> bool {
+    let end = Column::named(column).and_then(|column| name.strip_prefix(column.base())?.strip_prefix('_'));
+    end.is_some_and(|end| !end.is_empty()) && Column::named(name).is_none()
+}
+
 /// Columns of different quantities whose names are alike, so that neither is a misspelling of the other.
 const ALIKE: [&str; 5] =
     ["work_of_adhesion_j", "work_of_adhesion_j_m2", "adhesion_n_m", "adhesion_speed_m_s", "adhesion_power"];
@@ -166,27 +207,45 @@ fn likeness(name: &str, column: &str) -> Option<f64> {
         return Some(2.0);
     }
     // Words that agree are a better guess than a similar beginning.
-    if has_words_of(column, name) {
+    if has_words_of(column, name) || has_another_unit(column, name) {
         return Some(1.0 + similarity);
     }
     (similarity > NEAR).then_some(similarity)
 }
 
-/// The likeliest of some names or columns.
-fn likeliest<'a>(others: impl Iterator<Item = &'a str>, likeness: impl Fn(&'a str) -> Option<f64>) -> Option<&'a str> {
-    let likely = others.filter_map(|other| Some((likeness(other)?, other)));
+/// The likeliest of some names or columns, each with the text by which it is compared.
+fn likeliest<'a>(
+    others: impl Iterator<Item = (&'a str, &'a str)>,
+    likeness: impl Fn(&'a str) -> Option<f64>,
+) -> Option<&'a str> {
+    let likely = others.filter_map(|(other, compared)| Some((likeness(compared)?, other)));
     likely.reduce(|best, next| if next.0 > best.0 { next } else { best }).map(|(_, other)| other)
 }
 
-/// Checks that a header has all required columns.
+/// Checks that a header has all required columns, and none twice.
 ///
 /// # Errors
 /// Those that are absent, each with the likeliest name in the header, and the header.
-pub(crate) fn check(header: &[String], inputs: &[Input]) -> Result<(), String> {
-    let unread = || header.iter().map(String::as_str).filter(|name| *name != LABEL && !is_read(name, inputs));
-    let absent = inputs.iter().filter(|input| input.default.is_none() && !input.is_in(header)).map(|input| {
-        let near = input.columns.iter().find_map(|column| likeliest(unread(), |name| likeness(name, column)));
-        let near = near.map_or_else(String::new, |near| format!(" (did you mean it by `{near}`?)"));
+pub(crate) fn check(headings: &[Heading], inputs: &[Input]) -> Result<(), String> {
+    let header = names(headings);
+    if header.iter().all(|name| name.is_empty()) {
+        return Err("the table is empty; its first row must name the columns".into());
+    }
+    for (index, heading) in headings.iter().enumerate().filter(|(_, heading)| !heading.name.is_empty()) {
+        if let Some(other) = headings[..index].iter().find(|other| other.name == heading.name) {
+            let units =
+                if other.text == heading.text { "" } else { &format!(", as {} and {}", other.text, heading.text) };
+            return Err(format!("the header names the column {} twice{units}; rename or remove one", heading.name));
+        }
+    }
+    let unread = || headings.iter().filter(|heading| heading.name != LABEL && !is_read(&heading.name, inputs));
+    let absent = inputs.iter().filter(|input| input.default.is_none() && !input.is_in(&header)).map(|input| {
+        let near = input.columns.iter().find_map(|column| {
+            likeliest(unread().map(|heading| (heading.text.as_str(), heading.given.as_str())), |name| {
+                likeness(name, column)
+            })
+        });
+        let near = near.map_or_else(String::new, |near| format!(" (did you mean it by `{}`?)", near.to_lowercase()));
         format!("{}{near}", input.in_words())
     });
     let absent: Vec<_> = absent.collect();
@@ -196,29 +255,38 @@ pub(crate) fn check(header: &[String], inputs: &[Input]) -> Result<(), String> {
     Err(format!("the table lacks required columns: {}; the header is: {}", absent.join(", "), header.join(", ")))
 }
 
+/// The names of columns.
+fn names(headings: &[Heading]) -> Vec<&str> {
+    headings.iter().map(|heading| heading.name.as_str()).collect()
+}
+
 fn is_read(name: &str, inputs: &[Input]) -> bool {
     inputs.iter().any(|input| input.columns.contains(&name))
 }
 
 /// Which columns are used, which are absent and what is used instead, and which are not read. `computed` are names that a
 /// command gives to its own columns, which nobody writes by mistake for another.
-pub(crate) fn in_words(header: &[String], inputs: &[Input], computed: &[String]) -> String {
-    let used = header.iter().filter(|name| is_read(name, inputs)).map(|name| {
-        let input = inputs.iter().find(|input| has_one(std::slice::from_ref(name), input.columns));
-        match input.and_then(|input| input.replaces).filter(|(replaced, _)| has_one(header, &[replaced])) {
-            Some((_, words)) => format!("{name} ({words})"),
-            None => name.clone(),
+pub(crate) fn in_words(headings: &[Heading], inputs: &[Input], computed: &[String]) -> String {
+    let header = names(headings);
+    let used = headings.iter().filter(|heading| is_read(&heading.name, inputs)).map(|heading| {
+        let input = inputs.iter().find(|input| has_one(&[&heading.name], input.columns));
+        match input.and_then(|input| input.replaces).filter(|(replaced, _)| has_one(&header, &[replaced])) {
+            Some((_, words)) => format!("{} ({words})", heading.in_words()),
+            None => heading.in_words(),
         }
     });
-    let defaulted = inputs.iter().filter_map(|input| input.absent(header));
+    let defaulted = inputs.iter().filter_map(|input| input.absent(&header));
     let absent = || {
         let columns = inputs.iter().flat_map(|input| input.columns).copied();
-        columns.filter(|column| !header.iter().any(|name| name == column))
+        columns.filter(|column| !header.contains(column)).map(|column| (column, column))
     };
-    let unread = header.iter().filter(|name| !name.is_empty() && *name != LABEL && !is_read(name, inputs));
-    let unread = unread.map(|name| match likeliest(absent(), |column| likeness(name, column)) {
-        Some(near) if !computed.contains(name) => format!("{name} (did you mean `{near}`?)"),
-        _ => name.clone(),
+    let unread =
+        |heading: &&Heading| !heading.name.is_empty() && heading.name != LABEL && !is_read(&heading.name, inputs);
+    let unread = headings.iter().filter(unread).map(|heading| {
+        match likeliest(absent(), |column| likeness(&heading.given, column)) {
+            Some(near) if !computed.contains(&heading.name) => format!("{} (did you mean `{near}`?)", heading.name),
+            _ => heading.name.clone(),
+        }
     });
     let mut words = format!("columns used: {}\n", used.collect::<Vec<_>>().join(", "));
     for (title, names) in

@@ -1,5 +1,7 @@
 //! The decimal mark of a table: one for the whole file, judged from the cells that are read as numbers.
 
+use std::borrow::Cow;
+
 use clap::ValueEnum;
 
 /// Rows from which the decimal mark of a table is judged.
@@ -23,14 +25,6 @@ impl Decimal {
         match self {
             Self::Point => "decimal point",
             Self::Comma => "decimal comma",
-        }
-    }
-
-    /// A number that was written with a decimal point, with this mark.
-    pub fn mark(self, number: String) -> String {
-        match self {
-            Self::Point => number,
-            Self::Comma => number.replace('.', ","),
         }
     }
 }
@@ -112,14 +106,18 @@ impl Convention {
     ///
     /// # Errors
     /// The mark of the cell is not that of the table, or may separate thousands.
-    pub fn with_point(&self, cell: &Cell<'_>) -> Result<String, String> {
-        let mark = Mark::of(cell.text);
+    pub fn with_point<'a>(&self, cell: &Cell<'a>) -> Result<Cow<'a, str>, String> {
         let settled = !matches!(self.origin, Origin::Mixed(_) | Origin::Unmarked);
+        let has_comma = cell.text.as_bytes().contains(&b',');
+        if self.decimal == Decimal::Point && settled && !has_comma {
+            return Ok(Cow::Borrowed(cell.text));
+        }
+        let mark = Mark::of(cell.text);
         match mark {
             Some(mark) if mark.decimal != self.decimal => Err(self.contradiction(cell, &mark)),
             Some(mark) if mark.ambiguous && !settled => Err(cell.ambiguous(UNSETTLED)),
-            Some(_) if self.decimal == Decimal::Comma => Ok(cell.text.replace(',', ".")),
-            _ => Ok(cell.text.to_owned()),
+            Some(_) if self.decimal == Decimal::Comma => Ok(Cow::Owned(cell.text.replace(',', "."))),
+            _ => Ok(Cow::Borrowed(cell.text)),
         }
     }
 

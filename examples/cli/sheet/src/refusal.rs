@@ -3,43 +3,21 @@
 use microimpact::{Fault, ImpactError, Parameter};
 
 use crate::Row;
+use crate::catalogue::{COLUMNS, Range};
 
 /// The columns that can give a parameter.
-fn columns(parameter: Parameter) -> &'static [&'static str] {
-    match parameter {
-        Parameter::Radius => &["radius_m", "diameter_m"],
-        Parameter::Density => &["density_kg_m3"],
-        Parameter::GyrationRatio => &["gyration_ratio"],
-        Parameter::Stiffness => &["stiffness_pa"],
-        Parameter::ApproachSpeed => &["speed_normal_m_s"],
-        Parameter::TangentialVelocity => &["speed_tangential_m_s", "speed_tangential_out_m_s"],
-        Parameter::Spin | Parameter::PeripheralVelocity => &["spin_rad_s", "spin_out_rad_s"],
-        Parameter::VelocityComponent => &["velocity_x_m_s", "velocity_y_m_s", "velocity_z_m_s"],
-        Parameter::NormalLength => &["normal_x", "normal_y", "normal_z"],
-        Parameter::ReboundSpeed => &["rebound_speed_m_s"],
-        Parameter::VelocityError => &["velocity_error_m_s"],
-        Parameter::Restitution => &["restitution"],
-        Parameter::RestitutionSpeed => &["restitution_speed_m_s"],
-        Parameter::RestitutionPower => &["restitution_power"],
-        Parameter::YieldSpeed => &["yield_speed_m_s"],
-        Parameter::YieldPressure => &["yield_pressure_pa"],
-        Parameter::AdhesionSpeed => &["adhesion_speed_m_s"],
-        Parameter::AdhesionPower => &["adhesion_power"],
-        Parameter::AdhesionCoefficient => &["adhesion_coefficient"],
-        Parameter::WorkOfAdhesion => &["work_of_adhesion_j"],
-        Parameter::Friction => &["friction"],
-        Parameter::StiffnessRatio => &["stiffness_ratio"],
-        Parameter::ImpulseRatio => &["impulse_ratio"],
-        Parameter::RollingArm => &["rolling_arm_m"],
-        Parameter::ExternalForce => &["external_force_n"],
-        Parameter::MaterialDamping => &["zeta_h", "damping_value"],
-        Parameter::RelaxationTime | Parameter::NominalRestitution => &["damping_value"],
-        Parameter::AdhesionEnergy => &["work_of_adhesion_j_m2"],
-        Parameter::AdhesionStrength => &["adhesion_n_m"],
-        Parameter::AdhesionDamping => &["zeta_a"],
-        Parameter::PeelingMoment => &["peeling_n_m"],
+fn columns(parameter: Parameter) -> Vec<&'static str> {
+    let parameter = match parameter {
+        Parameter::PeripheralVelocity => Parameter::Spin,
+        parameter => parameter,
+    };
+    let by_range = COLUMNS.iter().filter(|column| column.range == Range::Of(parameter)).map(|column| column.name);
+    let others: &[&str] = match parameter {
+        Parameter::Radius => &["diameter_m"],
+        Parameter::MaterialDamping | Parameter::RelaxationTime | Parameter::NominalRestitution => &["damping_value"],
         _ => &[],
-    }
+    };
+    by_range.chain(others.iter().copied()).collect()
 }
 
 impl Row<'_> {
@@ -56,26 +34,31 @@ impl Row<'_> {
             return format!("{}: {message}", columns(input.parameter).join(", "));
         }
         if input.fault == Fault::Receding {
-            let velocity = columns(Parameter::VelocityComponent).iter().copied();
-            let given: Vec<_> = velocity.filter(|column| self.text(column).is_some()).collect();
-            let given = if given.is_empty() { columns(input.parameter).to_vec() } else { given };
+            let velocity = columns(Parameter::VelocityComponent).into_iter();
+            let given: Vec<_> = velocity.filter(|column| self.has(column)).collect();
+            let given = if given.is_empty() { columns(input.parameter) } else { given };
             return format!("{}: {message}", given.join(", "));
         }
-        let read = |column: &&str| self.inputs.iter().any(|input| input.columns().contains(column));
-        let given = columns(input.parameter).iter().copied().filter(read).filter_map(|column| {
+        let read = |column: &&str| self.frame.inputs.iter().any(|input| input.columns().contains(column));
+        let given = columns(input.parameter).into_iter().filter(read).filter_map(|column| {
             let number = self.number::<f64>(column).ok()??;
-            Some((number.abs(), column, self.text(column)?))
+            Some((number.abs(), column, self.text(column)?.into_owned()))
         });
         // A range that two columns share is symmetric, so that the larger number is the one outside it.
         let largest = given.max_by(|(a, ..), (b, ..)| a.total_cmp(b));
         let (Some((_, column, text)), Some((_, demand))) = (largest, message.split_once(", but must ")) else {
             return message;
         };
-        let name = input.parameter.name();
+        let (name, header) = (input.parameter.name(), self.name_in_header(column));
+        let range = demand.split_once(';').map_or(demand, |(range, _)| range);
+        // The remedy has the number of the library, which is that of the radius, and in its own unit.
         if column == "diameter_m" {
-            // The remedy for a radius in micrometres has the number of the radius.
-            let range = demand.split_once(';').map_or(demand, |(range, _)| range);
-            return format!("{column}: \"{text}\" is refused: half of it, the {name}, must {range}");
+            return format!("{header}: \"{text}\" is refused: half of it, the {name}, must {range}");
+        }
+        if header != column {
+            let turned = text.strip_prefix('-').filter(|_| input.parameter == Parameter::ApproachSpeed);
+            let remedy = turned.map_or_else(String::new, |turned| format!("; enter {text} as {turned}"));
+            return format!("{header}: \"{text}\" is refused: {name} must {range}{remedy}");
         }
         format!("{column}: \"{text}\" is refused: {name} must {demand}")
     }

@@ -8,7 +8,10 @@ use sheet::{Input, Row};
 
 use super::verdict::{POSSIBLE, Verdict};
 use crate::command::Number;
-use crate::inputs::{AnyRestitution, DENSITY_INPUT, GYRATION_INPUT, POWER_INPUT, RESTITUTION_COLUMNS, restitution_law};
+use crate::inputs::{
+    AnyRestitution, DENSITY_INPUT, GYRATION_INPUT, POWER_INPUT, RESTITUTION_COLUMNS, SIZE_INPUT, radius,
+    restitution_law,
+};
 
 /// Results with their derivatives by the six measured velocities: normal, tangential and peripheral, before and after.
 pub type Inputs<T> = Dual<T, 6>;
@@ -29,7 +32,7 @@ pub struct Measured<T: Real> {
 
 /// The numbers of a measured impact.
 pub const INPUTS: [Input; 13] = [
-    Input::required(&["diameter_m", "radius_m"]),
+    SIZE_INPUT,
     DENSITY_INPUT,
     GYRATION_INPUT,
     Input::optional(&RESTITUTION_COLUMNS, "not known"),
@@ -190,14 +193,7 @@ fn possible<T: Number>(measured: Inputs<T>, largest: Inputs<T>, errors: &[T; 6])
 }
 
 fn sphere<T: Number>(row: &Row<'_>) -> Result<Sphere<Inputs<T>>, String> {
-    let radius = match (row.number("radius_m")?, row.number::<T>("diameter_m")?) {
-        (Some(radius), None) => radius,
-        (None, Some(diameter)) => T::constant(0.5) * diameter,
-        (None, None) => return Err("diameter_m: missing; give diameter_m or radius_m".into()),
-        (Some(_), Some(_)) => {
-            return Err("size: given twice, as radius_m and diameter_m; leave one of them empty".into());
-        }
-    };
+    let radius = radius::<T>(row)?;
     let kappa = row.number("gyration_ratio")?.unwrap_or(T::constant(0.4));
     Sphere::new(Dual::fixed(radius), Dual::fixed(row.required("density_kg_m3")?), Dual::fixed(kappa))
         .map_err(|error| row.reason(error))

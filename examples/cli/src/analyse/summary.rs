@@ -32,6 +32,19 @@ pub struct Point {
     errors: (f64, f64),
 }
 
+/// What the statistics take of an impact.
+pub struct Note {
+    class: String,
+    point: Option<Point>,
+}
+
+impl Note {
+    /// The note of an impact.
+    pub fn of<T: Number>(measured: &Measured<T>, level: f64) -> Self {
+        Self { class: measured.verdict.class(level), point: Point::of(measured) }
+    }
+}
+
 /// Counts of classes and a sample of the impacts.
 #[derive(Default)]
 pub struct Summary {
@@ -43,15 +56,15 @@ pub struct Summary {
 
 impl Summary {
     /// Counts an impact. Each has the same chance to be in the sample (Vitter's algorithm R).
-    pub fn add<T: Number>(&mut self, measured: &Measured<T>, level: f64) {
-        *self.classes.entry(measured.verdict.class(level)).or_default() += 1;
+    pub fn add(&mut self, note: Note) {
+        *self.classes.entry(note.class).or_default() += 1;
         self.seen += 1;
         let place = if self.seen <= SAMPLE {
             self.sample.len()
         } else {
             self.random.get_or_insert_with(|| fastrand::Rng::with_seed(1)).usize(..self.seen)
         };
-        let Some(point) = Point::of(measured) else {
+        let Some(point) = note.point else {
             return;
         };
         if let Some(old) = self.sample.get_mut(place) {

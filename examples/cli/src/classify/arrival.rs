@@ -2,9 +2,9 @@
 
 use microimpact::space::{Departing, Pair, PairIncidence, SpatialMotion, Wall, WallIncidence};
 use microimpact::{InputError, NormalMotion, Oblique, PlanarMotion, Sphere, SurfaceMotion};
-use sheet::{Header, Input, Row, Scalar};
+use sheet::{Header, Input, Row, Scalar, Value};
 
-use crate::inputs::{DENSITY_INPUT, GYRATION_INPUT, MOTION_INPUTS};
+use crate::inputs::{DENSITY_INPUT, GYRATION_INPUT, MOTION_INPUTS, SIZE_INPUT, radius};
 
 /// The columns of a vector.
 type Columns = [&'static str; 3];
@@ -51,7 +51,7 @@ const HEADS: [&str; 4] = ["velocity after\nm/s", "spin after\nrad/s", "energy be
 pub const INPUTS: [Input; 15] = {
     let [_, tangential, spin] = MOTION_INPUTS;
     [
-        Input::required(&["radius_m"]),
+        SIZE_INPUT,
         DENSITY_INPUT,
         GYRATION_INPUT,
         Input::required(&["speed_normal_m_s", VELOCITY[0], VELOCITY[1], VELOCITY[2]]),
@@ -124,7 +124,7 @@ fn planar<T: Scalar>(row: &Row<'_>, motion: &impl Oblique<T>) -> Result<PlanarMo
 /// Refuses a row with a number in one of these columns.
 fn refuse(row: &Row<'_>, columns: &[&'static str], reason: &str) -> Result<(), String> {
     for column in columns {
-        if row.text(column).is_some() {
+        if row.has(column) {
             return Err(format!("{column}: {reason} or leave the cell empty"));
         }
     }
@@ -136,22 +136,24 @@ impl<T: Scalar> Arrival<T> {
     pub fn read(row: &Row<'_>) -> Result<Self, String> {
         let gyration = |column| Ok::<T, String>(row.number(column)?.unwrap_or(T::constant(0.4)));
         let density: T = row.required("density_kg_m3")?;
-        let sphere = Sphere::new(row.required("radius_m")?, density, gyration("gyration_ratio")?);
+        let sphere = Sphere::new(radius(row)?, density, gyration("gyration_ratio")?);
         let sphere = sphere.map_err(|error| row.reason(error))?;
-        let in_space = VELOCITY.iter().any(|column| row.text(column).is_some());
+        let in_space = VELOCITY.iter().any(|column| row.has(column));
         if in_space {
             refuse(row, &PLANAR, "the velocity is given in space; remove its cells")?;
         } else {
-            let columns = [SPIN, NORMAL, WALL_VELOCITY].concat();
-            refuse(row, &columns, "it goes with velocity_x_m_s, velocity_y_m_s and velocity_z_m_s; give them")?;
+            for columns in [SPIN, NORMAL, WALL_VELOCITY] {
+                refuse(row, &columns, "it goes with velocity_x_m_s, velocity_y_m_s and velocity_z_m_s; give them")?;
+            }
         }
-        let Some(radius) = row.number::<T>(RADIUS_2)? else {
-            let columns = [&[DENSITY_2, GYRATION_2], &VELOCITY_2[..], &SPIN_2].concat();
-            refuse(row, &columns, "radius_2_m is missing; give it too")?;
+        let Some(radius_2) = row.number::<T>(RADIUS_2)? else {
+            for columns in [&[DENSITY_2, GYRATION_2][..], &VELOCITY_2, &SPIN_2] {
+                refuse(row, columns, "radius_2_m is missing; give it too")?;
+            }
             return if in_space { Self::at_wall(row, sphere) } else { Self::in_plane(row, sphere) };
         };
         refuse(row, &WALL_VELOCITY, "two spheres meet without a wall; give velocity_2_x_m_s, _y_ and _z_ instead,")?;
-        let second = Sphere::new(radius, row.number(DENSITY_2)?.unwrap_or(density), gyration(GYRATION_2)?);
+        let second = Sphere::new(radius_2, row.number(DENSITY_2)?.unwrap_or(density), gyration(GYRATION_2)?);
         Self::of_pair(row, [sphere, second.map_err(of_second)?], in_space)
     }
 
@@ -254,16 +256,19 @@ impl<T: Scalar> Arrival<T> {
     }
 
     /// The cells of the motions after an impact, for the columns of a table; empty where they are not known.
-    pub fn cells(&self, row: &Row<'_>, impact: Option<&impl Departing<T>>) -> Vec<String> {
+    pub fn cells(&self, row: &Row<'_>, impact: Option<&impl Departing<T>>) -> Vec<Value> {
+        if !is_in_space(&row.header()) {
+            return Vec::new();
+        }
         let after = self.after(impact);
-        let bodies = usize::from(is_in_space(&row.header())) + usize::from(is_of_two(&row.header()));
+        let bodies = 1 + usize::from(is_of_two(&row.header()));
         let cells = |body: usize| match (self.bodies.get(body), after.get(body)) {
             (Some((sphere, before)), Some(after)) => {
                 let energies = [before.energy(sphere), after.energy(sphere)];
                 let numbers = [&after.velocity()[..], &after.spin(), &energies].concat();
-                numbers.into_iter().map(|number| row.cell(number)).collect()
+                numbers.into_iter().map(Scalar::value).collect()
             }
-            _ => vec![String::new(); AFTER.len()],
+            _ => vec![Value::Empty; AFTER.len()],
         };
         (0..bodies).flat_map(cells).collect()
     }

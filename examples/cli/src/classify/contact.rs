@@ -8,14 +8,15 @@ use microimpact::measure::ClassProbabilities;
 use microimpact::rigid::{Departure, EnergyLedger};
 use microimpact::space::Departing;
 use microimpact::{Approach, Class, Hertz, Oblique, Outcome, PlanarMotion, SurfaceMotion};
-use sheet::{Header, Input, Row};
+use sheet::{Header, Input, Row, Value};
 
 use super::arrival::{self, Arrival};
 use super::method::{Outputs, Simulator};
 use super::uncertain::{Deviations, Inputs, Kind, Probabilities, Reason, Values};
-use crate::command::{BadRow, Number, Work};
+use crate::command::Number;
 use crate::contact_law::{LAW_INPUTS, LawName, RowLaw};
 use crate::inputs::{FRICTION_INPUT, PEELING_INPUT, YIELD_INPUT};
+use crate::rows::{BadRow, Work};
 use crate::words::{motion_name, name_of, outcome_name};
 
 /// The stiffness of the contact along the surface over that along the normal.
@@ -106,10 +107,10 @@ impl<T: Number> Simulated<T> {
     }
 
     /// The cells of the columns that the model computes.
-    fn cells(&self, row: &Row<'_>) -> Vec<String> {
+    fn cells(&self, row: &Row<'_>) -> Vec<Value> {
         let Self { outcome, normal, times, impulses, works, slip, groups, law, speed_over_yield, .. } = self;
         let (followed, to_end) = (self.followed(), self.followed_to_end());
-        let optional = |value: Option<T>| value.map(|value| row.cell(value)).unwrap_or_default();
+        let optional = |value: Option<T>| Value::from(value);
         let at_end = |value: T| optional(to_end.then_some(value));
         let motion = (*outcome != Outcome::Undecided).then(|| self.motion());
         // The slip of a captured sphere may end after it was followed; then the time is not known.
@@ -123,13 +124,13 @@ impl<T: Number> Simulated<T> {
         let compliant = self.tangential.compliant.filter(|_| followed);
         let compliance = [
             optional(compliant.map(|(ratio, _)| ratio)),
-            compliant.map_or_else(String::new, |(_, phases)| phases.to_string()),
+            compliant.map_or(Value::Empty, |(_, phases)| Value::Count(phases.into())),
         ];
-        let compliance = if row.header().has(STIFFNESS_RATIO) { &compliance[..] } else { &[] };
-        let in_plane = vec![
+        let in_plane = [
             outcome_name(*outcome).into(),
-            motion.map_or_else(String::new, |motion| motion_name(motion).into()),
+            motion.map_or(Value::Empty, |motion| motion_name(motion).into()),
             optional(self.restitution()),
+            optional(self.restitution().map(|_| normal.rebound_speed())),
             optional(normal.peak_indentation()),
             optional(normal.turning_indentation().filter(|_| followed)),
             optional(times.peak),
@@ -147,10 +148,15 @@ impl<T: Number> Simulated<T> {
             optional(groups.map(|groups| groups.adhesion)),
             optional(groups.map(|groups| groups.material_damping)),
             optional(groups.map(|groups| groups.adhesion_damping)),
-            name_of(law),
+            law.word().into(),
             optional(*speed_over_yield),
         ];
-        [&in_plane, compliance, &in_space].concat()
+        let mut cells = Vec::from(in_plane);
+        if row.header().has(STIFFNESS_RATIO) {
+            cells.extend(compliance);
+        }
+        cells.extend(in_space);
+        cells
     }
 
     /// How the contact point moves after the impact.
@@ -187,6 +193,16 @@ impl<T: Number> Simulated<T> {
     }
 }
 
+/// What arrives, the law of contact and the scene of a row.
+pub fn scene<T: Number>(row: &Row<'_>) -> Result<(Arrival<T>, RowLaw<T>, AnyScene<T>), String> {
+    let arrival = Arrival::read(row)?;
+    arrival.refuse(row, &["peeling_n_m"], &["external_force_n"])?;
+    let row_law = RowLaw::read(row)?;
+    let law = row_law.law().map_err(|error| row.reason(error))?;
+    let scene = Contact::new(arrival.sphere, law).with_friction(row.or_zero("friction")?);
+    Ok((arrival, row_law, scene.map_err(|error| row.reason(error))?))
+}
+
 /// Random rows that are simulated for standard errors too large for an expansion.
 const DRAWS: u32 = 5_000;
 
@@ -212,7 +228,7 @@ impl<T: Number> SimulationModel<T> {
     /// The probabilities of the classes of a row; `None` if it has no standard errors.
     pub fn probabilities(&self, row: &Row<'_>) -> Result<Option<Probabilities>, String> {
         let Some(deviations) = Deviations::read::<T>(row, &Kind::Simulation)? else { return Ok(None) };
-        let is_empty = |column: &&str| row.text(column).is_none();
+        let is_empty = |column: &&str| !row.has(column);
         let is_known = deviations.are_small() && ["peeling_n_m", STIFFNESS_RATIO].iter().all(is_empty);
         let probabilities = match self.simulator.control.as_ref().filter(|_| is_known) {
             Some(method) => deviations.expanded(|inputs, row_of| expand(row, inputs, row_of, method)),
@@ -228,24 +244,22 @@ impl<T: Number> SimulationModel<T> {
     }
 
     /// The computed cells of a row, from its impact.
-    pub fn cells_of(&self, row: &Row<'_>, simulated: &Simulated<T>) -> Result<Vec<String>, BadRow> {
-        let cells = simulated.cells(row);
+    pub fn cells_of(&self, row: &Row<'_>, simulated: &Simulated<T>) -> Result<Vec<Value>, BadRow> {
+        let mut cells = simulated.cells(row);
         match self.probabilities(row) {
-            Ok(found) => Ok([cells, found.map_or_else(Vec::new, |found| found.cells(row, self.level))].concat()),
+            Ok(found) => {
+                cells.extend(found.iter().flat_map(|found| found.cells(self.level)));
+                Ok(cells)
+            }
             Err(reason) => Err(BadRow { reason, cells }),
         }
     }
 
     /// Builds the scene of a row and simulates its impact.
     pub fn compute(&self, row: &Row<'_>) -> Result<Simulated<T>, String> {
-        let arrival = Arrival::read(row)?;
-        arrival.refuse(row, &["peeling_n_m"], &["external_force_n"])?;
+        let (arrival, row_law, scene) = scene(row)?;
         let (sphere, before) = (arrival.sphere, arrival.motion);
-        let row_law = RowLaw::read(row)?;
-        let law = row_law.law().map_err(|error| row.reason(error))?;
         let friction = row.or_zero("friction")?;
-        let scene = Contact::new(sphere, law).with_friction(friction);
-        let scene = scene.map_err(|error| row.reason(error))?;
         let yield_pressure = row.number("yield_pressure_pa")?;
         let yield_speed = yield_pressure.map(|pressure| Hertz::yield_speed(&sphere, row_law.stiffness, pressure));
         let yield_speed = yield_speed.transpose().map_err(|error| row.reason(error))?;
@@ -320,6 +334,8 @@ impl<T: Number> SimulationModel<T> {
 }
 
 impl<T: Number> Work for SimulationModel<T> {
+    type Notes = ();
+
     fn inputs(&self) -> Vec<Input> {
         let compliance = Input::further(&[STIFFNESS_RATIO]);
         let own = [PEELING_INPUT, YIELD_INPUT, compliance];
@@ -330,7 +346,8 @@ impl<T: Number> Work for SimulationModel<T> {
         let in_plane = [
             "outcome",
             "motion",
-            "restitution",
+            "overall_restitution",
+            "rebound_speed_m_s",
             "max_indentation_m",
             "turning_indentation_m",
             "time_peak_s",
@@ -356,7 +373,7 @@ impl<T: Number> Work for SimulationModel<T> {
         in_plane.chain(arrival::columns(header)).chain(Kind::Simulation.columns(header)).collect()
     }
 
-    fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
+    fn cells(&self, row: &Row<'_>, (): &mut ()) -> Result<Vec<Value>, BadRow> {
         self.cells_of(row, &self.compute(row)?)
     }
 
@@ -381,7 +398,7 @@ impl<T: Number> Work for SimulationModel<T> {
         3
     }
 
-    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
+    fn line(&self, row: &Row<'_>, name: String, (): &mut ()) -> Result<Vec<String>, String> {
         let simulated = self.compute(row)?;
         let mut line = simulated.line(&row.header(), name);
         line[1] = self.class_in_words(row, simulated.class)?;
@@ -418,7 +435,7 @@ radius_m,density_kg_m3,stiffness_pa,adhesion_n_m,zeta_h,zeta_a,friction,speed_no
         let rebound = model.compute(&row).unwrap();
         let filled = |simulated: &Simulated<f64>| {
             let cells = simulated.cells(&row);
-            let named = model.columns(&row.header()).into_iter().zip(cells).filter(|(_, cell)| !cell.is_empty());
+            let named = model.columns(&row.header()).into_iter().zip(cells).filter(|(_, cell)| *cell != Value::Empty);
             named.map(|(column, _)| column).collect::<Vec<_>>()
         };
         assert_eq!(
@@ -428,7 +445,7 @@ radius_m,density_kg_m3,stiffness_pa,adhesion_n_m,zeta_h,zeta_a,friction,speed_no
         );
 
         let undecided = Simulated { outcome: Outcome::Undecided, class: Class::Undecided, ..rebound };
-        assert_eq!(undecided.cells(&row)[0], "undecided");
+        assert_eq!(undecided.cells(&row)[0], Value::Word("undecided"));
         assert_eq!(
             filled(&undecided),
             ["outcome", "max_indentation_m", "time_peak_s", "group_a", "group_b", "group_h", "group_g", "law"]

@@ -14,23 +14,19 @@ use crate::command::{Number, SimulationOptions};
 use crate::words::name_of;
 
 /// Options of the simulation's method.
-#[derive(Args)]
+#[derive(Args, Default)]
 pub struct MethodOptions {
-    /// Method of the simulation [default: adaptive].
+    /// Method of the simulation [default: adaptive]
     #[arg(long, value_enum)]
     method: Option<MethodName>,
-    /// Nodes of each interval of collocation, 5 to 14 [default: 9], or of each phase of fixed-cost, 5 to 9 [default: 7].
-    ///
-    /// The least tolerance of collocation depends on its nodes: 3e-4 with 5 nodes, 1e-5 with 6, 1e-7 with 7, 1e-9 with 8, 1e-11
-    /// with 9. With 10 or more, only rounding limits it.
-    #[arg(long)]
+    /// Nodes of collocation, 5 to 14 [default: 9], or of fixed-cost, 5 to 9 [default: 7]
+    #[arg(long, value_name = "N")]
     nodes: Option<u32>,
-    /// Iterations of fixed-cost for each phase, 1 to 40 [default: 3].
-    #[arg(long)]
+    /// Iterations of fixed-cost for each phase, 1 to 40 [default: 3]
+    #[arg(long, value_name = "N")]
     iterations: Option<u32>,
-    /// Time steps of runge-kutta-gill in the duration of an impact without adhesion and damping, 16 to 1000000 [default:
-    /// 2000].
-    #[arg(long, value_parser = clap::value_parser!(u32).range(16..=1_000_000))]
+    /// Time steps of runge-kutta-gill in an undamped impact, 16 to 1000000 [default: 2000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=1_000_000))]
     steps: Option<u32>,
     #[command(flatten)]
     simulation: SimulationOptions,
@@ -39,15 +35,15 @@ pub struct MethodOptions {
 /// Method of the simulation.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum MethodName {
-    /// Chooses nodes and intervals that keep the tolerance.
+    // Chooses nodes and intervals that keep the tolerance.
     Adaptive,
-    /// As many intervals as the tolerance needs, with a fixed number of nodes in each.
+    // As many intervals as the tolerance needs, with a fixed number of nodes in each.
     Collocation,
-    /// For firmware: a fixed number of nodes and iterations. It does not follow a captured sphere beyond its peak, and cannot
-    /// represent the law jkr and the end rule no-force.
+    // For firmware: a fixed number of nodes and iterations. It does not follow a captured sphere beyond its peak, and cannot
+    // represent the law jkr and the end rule no-force.
     FixedCost,
-    /// The paper's own: fixed steps in time. It does not follow a captured sphere to its turning point, and cannot represent
-    /// the law jkr.
+    // The paper's own: fixed steps in time. It does not follow a captured sphere to its turning point, and cannot represent
+    // the law jkr.
     RungeKuttaGill,
 }
 
@@ -70,11 +66,14 @@ pub type Outputs<T> =
     ((ContactTimes<T>, ContactImpulses<T>, ContactWorks<T>), (SlipHistory<T>, Option<EnergyLedger<T>>));
 
 /// Simulates an impact by a method.
-type Simulate<T> = Box<dyn Fn(&AnyContact<T>, &PlanarMotion<T>) -> Result<Solution<T>, InputError>>;
+type Simulate<T> = Box<dyn Fn(&AnyContact<T>, &PlanarMotion<T>) -> Result<Solution<T>, InputError> + Send + Sync>;
 
 /// Simulates an impact with compliance along the surface.
-type SimulateCompliant<T> =
-    Box<dyn Fn(&CompliantContact<T>, &PlanarMotion<T>) -> Result<Solution<T, CompliantVelocities<T>>, InputError>>;
+type SimulateCompliant<T> = Box<
+    dyn Fn(&CompliantContact<T>, &PlanarMotion<T>) -> Result<Solution<T, CompliantVelocities<T>>, InputError>
+        + Send
+        + Sync,
+>;
 
 /// A method of the simulation, in numbers of type `T`.
 pub struct Simulator<T> {
@@ -187,12 +186,12 @@ impl MethodOptions {
 }
 
 /// Simulates by a method.
-fn by<T: Number>(method: impl Method<T> + 'static) -> Simulate<T> {
+fn by<T: Number>(method: impl Method<T> + Send + Sync + 'static) -> Simulate<T> {
     Box::new(move |scene, before| scene.solve_for(before, &method, ((Times, Impulses, Works), (Slip, Energy))))
 }
 
 /// Simulates by a method, with compliance along the surface.
-fn compliant_by<T: Number>(method: impl Method<T> + 'static) -> SimulateCompliant<T> {
+fn compliant_by<T: Number>(method: impl Method<T> + Send + Sync + 'static) -> SimulateCompliant<T> {
     Box::new(move |scene, before| scene.solve_for(before, &method, ((Times, Impulses, Works), (Slip, Energy))))
 }
 

@@ -7,12 +7,13 @@ use microimpact::rigid::ReboundAdhesion;
 use microimpact::{
     Class, Classification, ContactClass, Impact, ImpactError, RigidBody, Sphere, SurfaceMotion, TangentialImpact,
 };
-use sheet::{Header, Input, Row};
+use sheet::{Header, Input, Row, Value};
 
 use super::arrival::{self, Arrival};
 use super::uncertain::{Deviations, Inputs, Kind, Probabilities, Reason, Values};
-use crate::command::{BadRow, Number, Work};
+use crate::command::Number;
 use crate::inputs::{AnyRestitution, FRICTION_INPUT, POWER_INPUT, RESTITUTION_INPUT, restitution_law};
+use crate::rows::{BadRow, Work};
 use crate::words::{motion_name, outcome_name};
 
 /// The numbers that only this model reads.
@@ -66,7 +67,7 @@ impl<T: Number> RigidBodyModel<T> {
     /// The probabilities of the classes of a row; `None` if it has no standard errors.
     pub fn probabilities(&self, row: &Row<'_>) -> Result<Option<Probabilities>, String> {
         let Some(deviations) = Deviations::read::<T>(row, &Kind::RigidBody)? else { return Ok(None) };
-        let is_empty = |column: &&str| row.text(column).is_none();
+        let is_empty = |column: &&str| !row.has(column);
         let is_expanded = deviations.are_small() && ["impulse_ratio", "rolling_arm_m"].iter().all(is_empty);
         let probabilities = if is_expanded {
             deviations.expanded::<T>(|inputs, row_of| expand(row, inputs, row_of))
@@ -77,31 +78,34 @@ impl<T: Number> RigidBodyModel<T> {
     }
 
     /// The computed cells of a row, from its impact.
-    pub fn cells_of(&self, row: &Row<'_>, classified: &Classified<T>) -> Result<Vec<String>, BadRow> {
+    pub fn cells_of(&self, row: &Row<'_>, classified: &Classified<T>) -> Result<Vec<Value>, BadRow> {
         let Classified { sphere, impact, classification, .. } = classified;
         let Impact { normal, tangential } = impact;
         let ledger = impact.energy(sphere);
-        let optional = |value: Option<T>| value.map(|value| row.cell(value)).unwrap_or_default();
-        let in_plane = vec![
+        let in_plane = [
             outcome_name(classification.outcome).into(),
             motion_name(classified.motion()).into(),
-            row.cell(normal.overall_restitution()),
-            row.cell(normal.rebound_speed()),
-            row.cell(tangential.velocity()),
-            row.cell(tangential.spin(sphere)),
-            row.cell(tangential.impulse_ratio()),
-            row.cell(tangential.rolling_ratio()),
-            optional(classification.speed_over_critical),
-            optional(classification.contact.friction_over_limit),
-            row.cell(classified.arrival.energy_before().unwrap_or(ledger.before)),
-            row.cell(ledger.material),
-            row.cell(ledger.adhesion),
-            row.cell(ledger.friction),
-            row.cell(ledger.rolling),
+            normal.overall_restitution().value(),
+            normal.rebound_speed().value(),
+            tangential.velocity().value(),
+            tangential.spin(sphere).value(),
+            tangential.impulse_ratio().value(),
+            tangential.rolling_ratio().value(),
+            classification.speed_over_critical.into(),
+            classification.contact.friction_over_limit.into(),
+            classified.arrival.energy_before().unwrap_or(ledger.before).value(),
+            ledger.material.value(),
+            ledger.adhesion.value(),
+            ledger.friction.value(),
+            ledger.rolling.value(),
         ];
-        let cells = [in_plane, classified.arrival.cells(row, Some(impact))].concat();
+        let mut cells = Vec::from(in_plane);
+        cells.extend(classified.arrival.cells(row, Some(impact)));
         match self.probabilities(row) {
-            Ok(found) => Ok([cells, found.map_or_else(Vec::new, |found| found.cells(row, self.level))].concat()),
+            Ok(found) => {
+                cells.extend(found.iter().flat_map(|found| found.cells(self.level)));
+                Ok(cells)
+            }
             Err(reason) => Err(BadRow { reason, cells }),
         }
     }
@@ -146,7 +150,7 @@ fn expand<'a, T: Number>(
     inputs: &Inputs<T>,
     row_of: &dyn Fn(Values<T>) -> Row<'a>,
 ) -> Result<ClassProbabilities<T>, String> {
-    let given = |column: &str| row.text(column).is_some();
+    let given = |column: &str| row.has(column);
     if given("adhesion_coefficient") {
         expand_with(row, inputs, row_of, |row, scene| {
             let rho = row.required("adhesion_coefficient")?;
@@ -215,7 +219,7 @@ fn with_adhesion<T: Number>(
 
 /// Why the impulse ratio of a row is refused: no friction of a rigid body has it.
 fn out_of_bounds<T: Number>(row: &Row<'_>, rolling_ratio: T) -> String {
-    let (text, end) = (row.text("impulse_ratio").unwrap_or_default(), row.cell(rolling_ratio));
+    let (text, end) = (row.text("impulse_ratio").unwrap_or_default(), row.text_of(rolling_ratio));
     format!(
         "impulse_ratio: \"{text}\" is refused: it must be 0 to mu_0, here {end}, at which the slip ends: the friction of a rigid body \
          neither increases nor reverses the slip; enter such a ratio, or leave the cell empty and give friction"
@@ -223,6 +227,8 @@ fn out_of_bounds<T: Number>(row: &Row<'_>, rolling_ratio: T) -> String {
 }
 
 impl<T: Number> Work for RigidBodyModel<T> {
+    type Notes = ();
+
     fn inputs(&self) -> Vec<Input> {
         [&arrival::INPUTS[..], &[FRICTION_INPUT], &INPUTS, &Kind::RigidBody.inputs()].concat()
     }
@@ -249,7 +255,7 @@ impl<T: Number> Work for RigidBodyModel<T> {
         known.chain(Kind::RigidBody.columns(header)).collect()
     }
 
-    fn cells(&self, row: &Row<'_>) -> Result<Vec<String>, BadRow> {
+    fn cells(&self, row: &Row<'_>, (): &mut ()) -> Result<Vec<Value>, BadRow> {
         self.cells_of(row, &self.compute(row)?)
     }
 
@@ -270,7 +276,7 @@ impl<T: Number> Work for RigidBodyModel<T> {
         [&in_plane, arrival::heads(header)].concat()
     }
 
-    fn line(&self, row: &Row<'_>, name: String) -> Result<Vec<String>, String> {
+    fn line(&self, row: &Row<'_>, name: String, (): &mut ()) -> Result<Vec<String>, String> {
         let classified = self.compute(row)?;
         let Classified { sphere, impact, classification, arrival } = &classified;
         let Impact { normal, tangential } = impact;

@@ -9,7 +9,7 @@ use microimpact::{Class, Fault, InputError, Parameter};
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rand_distr::{Distribution, StandardNormal};
-use sheet::{Header, Input, Row};
+use sheet::{Header, Input, Row, Scalar, Value};
 
 use crate::command::Number;
 use crate::words::{CANNOT_TELL, moving};
@@ -128,9 +128,14 @@ impl Kind {
         SHARED.iter().chain(own)
     }
 
+    /// Whether a table has a column of standard errors.
+    fn is_given(&self, header: &Header<'_>) -> bool {
+        self.quantities().any(|quantity| header.has(quantity.error))
+    }
+
     /// The columns that a table gets: none without a column of standard errors.
     pub fn columns(&self, header: &Header<'_>) -> impl Iterator<Item = String> {
-        let given = self.quantities().any(|quantity| header.has(quantity.error));
+        let given = self.is_given(header);
         COLUMNS.iter().filter(move |_| given).map(|column| (*column).to_owned())
     }
 }
@@ -185,6 +190,9 @@ pub struct Probabilities {
 impl<'a, 'b> Deviations<'a, 'b> {
     /// The standard errors of a row; `None` if it has none.
     pub fn read<T: Number>(row: &'a Row<'b>, kind: &Kind) -> Result<Option<Self>, String> {
+        if !kind.is_given(&row.header()) {
+            return Ok(None);
+        }
         let mut numbers = Vec::new();
         for Quantity { column, error: name, parameter, is_zero_if_empty } in kind.quantities() {
             let Some(error) = row.number::<T>(name)? else { continue };
@@ -199,7 +207,7 @@ impl<'a, 'b> Deviations<'a, 'b> {
                 numbers.push(Deviating { column, parameter: *parameter, value, error });
             }
         }
-        let given = kind.quantities().any(|quantity| row.text(quantity.error).is_some());
+        let given = kind.quantities().any(|quantity| row.has(quantity.error));
         Ok(given.then_some(Self { row, numbers }))
     }
 
@@ -276,7 +284,7 @@ impl Probabilities {
     }
 
     /// The cells of the computed columns.
-    pub fn cells(&self, row: &Row<'_>, level: f64) -> Vec<String> {
+    pub fn cells(&self, level: f64) -> Vec<Value> {
         let [rebound_sliding, rebound_rolling, captured_sliding, captured_rolling] = self.classes;
         let numbers = [
             captured_sliding + captured_rolling,
@@ -288,8 +296,8 @@ impl Probabilities {
             captured_rolling,
             self.error,
         ];
-        let cells = numbers.into_iter().map(|number| row.cell(number));
-        cells.chain([self.by.to_owned(), self.class(level)]).collect()
+        let cells = numbers.into_iter().map(Scalar::value);
+        cells.chain([self.by.into(), self.class(level).into()]).collect()
     }
 }
 

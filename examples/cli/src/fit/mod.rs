@@ -16,6 +16,7 @@ use impact_fit::{Law, ScatterModel, compete};
 use crate::Streams;
 use crate::command::{Reading, exit_status, open};
 use answer::Answer;
+pub use rows::INPUTS;
 
 /// Fit restitution laws and laws of contact to measured impacts: the law, its parameters and the critical speed with intervals
 /// of 95 %, or that no law fits, or that the data are not enough.
@@ -35,7 +36,7 @@ use answer::Answer;
 /// speed, or impacts rebound far below its critical speed (p < 0.001). Where several laws fit and Akaike's criterion differs by
 /// less than 6, the data do not tell them apart; the paper's speed-restitution is stated if it is one of them.
 #[derive(Args)]
-#[command(verbatim_doc_comment, after_long_help = HELP)]
+#[command(verbatim_doc_comment, after_help = EXAMPLE, after_long_help = format!("{EXAMPLE}\n{HELP}"))]
 pub struct Options {
     /// CSV file of impacts; `-` for standard input.
     file: PathBuf,
@@ -55,12 +56,14 @@ pub struct Options {
     reading: Reading,
 }
 
-const HELP: &str = "\
+const EXAMPLE: &str = "\
 Example:
   printf 'speed_normal_m_s,overall_restitution\\n1.9,0.30\\n2,0.44\\n2.2,0.56\\n2.5,0.68\\n3,0.79\\n3.5,0.83\\n4,0.87\\n5,0.89\\n\
 6,0.91\\n7,0.91\\n8,0.91\\n9,0.92\\n10,0.91\\n12,0.90\\n' |
   cargo microimpact fit - --format json
+";
 
+const HELP: &str = "\
 JSON: law (none if no law fits), fits (true, false, or null with a reason), p_value, parameters (each with value, low and high;
 high is null where the data set no bound), candidates (all laws, with the difference of Akaike's criterion and p), told_apart and
 indistinguishable_laws, assumptions. With different diameters, work and critical speed are those of the median diameter.

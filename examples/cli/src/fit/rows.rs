@@ -12,7 +12,7 @@ use crate::command::Reading;
 use crate::words::word;
 
 /// The columns that a fit reads.
-const INPUTS: [Input; 10] = [
+pub const INPUTS: [Input; 10] = [
     Input::required(&["speed_normal_m_s"]),
     Input::required(&["rebound_speed_m_s", "overall_restitution"]),
     Input::optional(&["outcome"], "capture where the rebound speed is exactly 0, otherwise rebound"),

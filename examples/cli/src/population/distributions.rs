@@ -82,7 +82,7 @@ pub(super) fn inputs(model: Model, samples: &SampleFiles) -> Vec<Input> {
 impl Quantity {
     /// The distribution that a row or the samples state; `None` if neither does.
     pub(super) fn read(&self, row: &Row<'_>, samples: &SampleFiles) -> Result<Option<Distribution>, String> {
-        let filled: Vec<_> = self.columns.iter().filter(|column| row.text(column).is_some()).collect();
+        let filled: Vec<_> = self.columns.iter().filter(|column| row.has(column)).collect();
         let sampled = samples.of(self);
         if filled.len() + usize::from(sampled.is_some()) > 1 {
             let mut ways: Vec<_> = filled.iter().map(|column| (**column).to_owned()).collect();
@@ -123,7 +123,7 @@ impl Quantity {
             }
         };
         for other in self.deviations.iter().filter(|other| Some(**other) != deviation && distribution.is_some()) {
-            if row.text(other).is_some() {
+            if row.has(other) {
                 return Err(format!("{other}: it goes with another way to give the quantity; leave the cell empty"));
             }
         }
@@ -169,6 +169,11 @@ pub(super) fn angles(row: &Row<'_>, samples: &SampleFiles) -> Result<Distributio
 pub(super) struct SampleFiles(Vec<(String, Vec<f64>)>);
 
 impl SampleFiles {
+    /// No samples.
+    pub(super) fn none() -> Self {
+        Self(Vec::new())
+    }
+
     /// Reads the files of options `NAME=FILE`.
     pub(super) fn read(options: &[String], model: Model) -> Result<Self, String> {
         let mut files: Vec<(String, Vec<f64>)> = Vec::new();

@@ -10,15 +10,13 @@ mod results;
 mod scenes;
 
 use std::error::Error;
-use std::io::BufRead;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use sheet::{Decimal, Input, LABEL, Row, Sheet};
+use sheet::{Decimal, Input, Row};
 
 use crate::Streams;
-use crate::command::{Reading, SimulationOptions, exit_status, open};
-use crate::contact_law::LAW_HELP;
+use crate::command::{Format, Origin, Reading, STATUS, SimulationOptions, TABLE_MANUAL, exit_status, one_row};
 use distributions::SampleFiles;
 use results::{Questions, Results};
 
@@ -28,74 +26,38 @@ const NAME: &str = "population";
 /// adhesion.
 const BUNDLED: &str = include_str!("populations.csv");
 
-/// Compute what a population of spheres does: the probability of each class, the capture efficiency by size, the bounce
-/// fraction by speed, and the moments of the restitution e. Without a table, compute populations of the paper's spheres.
-///
-/// Each row of the table is a population. Its quantities are independent of each other. Columns, in SI units; brackets give
-/// the value that an empty or absent cell has; the other columns are required.
-///   Diameter, in one of these ways:
-///     diameter_m, one value; diameter_median_m with diameter_geometric_deviation, a log-normal distribution;
-///     diameter_mean_m with diameter_deviation_m, a normal one.
-///   Speed along the path in the same ways:
-///     speed_m_s; speed_median_m_s with speed_geometric_deviation; speed_mean_m_s with speed_deviation_m_s.
-///   Angle between the path and the normal of the surface, degrees: angle_deg, or angle_mean_deg with angle_deviation_deg [0].
-///   Adhesion: adhesion_n_m, work_of_adhesion_j_m2 or work_of_adhesion_j (below), each with _median and _geometric_deviation,
-///     or with _mean and _deviation before its unit, as in adhesion_median_n_m.
-///   density_kg_m3; gyration_ratio (k^2/r^2) [0.4, a solid sphere]; friction (Coulomb's coefficient f) [0].
-/// The simulation also reads
-///   stiffness_pa (K), adhesion_n_m (f0) [0], zeta_h [0], zeta_a [0], external_force_n (positive out of the surface) [0],
-///   law, work_of_adhesion_j_m2, damping, damping_value, end_rule (below).
-/// The rigid-body model also reads
-///   restitution (R), or restitution_speed_m_s and restitution_power (k and p of R = k^p/(k^p + v^p)) [p = 1],
-///   or yield_speed_m_s (elastic-plastic, Thornton 1997),
-///   work_of_adhesion_j, the same for all diameters, or adhesion_coefficient (rho), or adhesion_speed_m_s and adhesion_power
-///   (l and q of rho = l^q/(l^q + v^q)) [no adhesion; q = 1].
-///
-/// Normal distributions of diameter, speed and adhesion begin at a thousandth of their mean, those of angles at 0; angles end
-/// at 89.9 degrees; what lies beyond is left out. Distributions are cut off at six standard deviations. Spheres do not spin
-/// before the impact.
-///
-/// Result: probabilities of the classes by number and by mass; a capture that rests counts as rolling. The capture efficiency
-/// is the part of the spheres, or of their mass, in a range of diameters that is captured. The bounce fraction is the
-/// probability of a rebound at one speed, with the interval of Wilson for as many particles as --particles. Moments of e
-/// are those of the rebounds, and those of all impacts, where a capture has e = 0. Each number has the error of the
-/// quadrature, from two orders; of a simulation also that of interpolation between its impacts. The distributions count as
-/// exact. A simulated population takes seconds, and minutes where all four quantities vary.
-/// With --format csv the result has a row for each number: population, model, quantity, from and to (range of diameters in m,
-/// or speed in m/s), value, error, low and high (interval), and reason (of a bad row).
+/// Compute what populations of spheres do: classes, capture efficiency by size, bounce fraction by speed
 #[derive(Args)]
-#[command(verbatim_doc_comment, after_long_help = format!("{EXAMPLE}\n\n{LAW_HELP}\n\n{STATUS}"))]
+#[command(after_help = format!("{EXAMPLE}\n{STATUS}"), after_long_help = format!("{EXAMPLE}\n\n{MANUAL}\n\n{TABLE_MANUAL}\n\n{STATUS}"))]
 pub struct Options {
-    /// CSV file of populations; `-` for standard input.
+    /// CSV or xlsx file of populations; `-` for standard input [default: populations of the paper]
     #[arg(conflicts_with = "given")]
     file: Option<PathBuf>,
-    /// One population by its columns, each as NAME=VALUE, instead of a file.
+    /// One population by its columns, instead of a file
     #[arg(long, num_args = 1.., value_name = "NAME=VALUE")]
     given: Vec<String>,
-    /// Measured values of a quantity, NAME=FILE: a CSV file with the column NAME, which is diameter_m, speed_m_s, angle_deg or
-    /// the column of adhesion. All populations have them.
+    /// File with measured values of a quantity, in the column NAME, for all populations
     #[arg(long, value_name = "NAME=FILE")]
     samples: Vec<String>,
-    /// Model that computes the impacts.
+    /// Model that computes the impacts
     #[arg(long, value_enum, default_value_t = Model::Simulation)]
     model: Model,
-    /// Number of ranges of diameters, from quantile 0.001 to 0.999 of the diameters. With samples, from the smallest to the
-    /// largest.
+    /// Number of ranges of diameters
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=200))]
     bins: u32,
-    /// Edges of the ranges of diameters instead, m, in increasing order.
+    /// Edges of the ranges of diameters instead, m
     #[arg(long, value_delimiter = ',', conflicts_with = "bins")]
     edges: Vec<f64>,
-    /// Speeds of the bounce fraction, m/s [default: ten, from quantile 0.01 to 0.99 of the speeds].
+    /// Speeds of the bounce fraction, m/s [default: ten of the distribution]
     #[arg(long, value_delimiter = ',')]
     speeds: Vec<f64>,
-    /// Number of particles that are observed at each speed, for the intervals of the bounce fraction.
+    /// Particles observed at each speed, for the intervals of the bounce fraction
     #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..))]
     particles: u32,
-    /// Format of the result.
+    /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
-    /// SVG file to draw the capture efficiency and the bounce fraction of a population in.
+    /// SVG file to draw the capture efficiency and the bounce fraction in
     #[arg(long)]
     figure: Option<PathBuf>,
     #[command(flatten)]
@@ -106,30 +68,46 @@ pub struct Options {
 
 const EXAMPLE: &str = "\
 Example: glass spheres of 8.6 um with a geometric standard deviation of 1.2 on steel, at 1.9 m/s
-  cargo microimpact population --given diameter_median_m=8.6e-6 diameter_geometric_deviation=1.2 \\
-    speed_median_m_s=1.9 speed_geometric_deviation=1.3 density_kg_m3=2600 stiffness_pa=7.5e10 \\
-    adhesion_n_m=250 zeta_h=10.5 zeta_a=6.25 friction=0.1 --figure population.svg";
+  cargo microimpact population --given diameter_median_um=8.6 diameter_geometric_deviation=1.2 \\
+    speed_m_s=1.9 density_kg_m3=2600 stiffness_gpa=75 adhesion_n_m=250 zeta_h=10.5 zeta_a=6.25
+`cargo microimpact columns population` lists the columns that it reads and writes.";
 
-const STATUS: &str = "\
-Exit status: 0 on success; 1 if a row is bad (its reason is in the result); 2 if the command fails, for
-example because it cannot read the table.";
+const MANUAL: &str = "\
+Each row of the table is a population, whose quantities are independent of each other. Diameter, speed, angle and adhesion each have \
+one value, a log-normal distribution by median and geometric deviation, or a normal one by mean and deviation. Normal distributions \
+of diameter, speed and adhesion begin at a thousandth of their mean, those of angles at 0; angles end at 89.9 degrees; what lies \
+beyond is left out. Distributions are cut off at six standard deviations. Spheres do not spin before the impact. The work of \
+adhesion of a rigid body is the same for all diameters. --samples takes measured values: diameter_m=FILE, speed_m_s=FILE, \
+angle_deg=FILE, or the column of adhesion.
+
+Result: probabilities of the classes by number and by mass; a capture that rests counts as rolling. The capture efficiency is the part \
+of the spheres, or of their mass, in a range of diameters that is captured; the ranges go from quantile 0.001 to 0.999 of the \
+diameters, or from the smallest to the largest sample. The bounce fraction is the probability of a rebound at one speed, with the \
+interval of Wilson for as many particles as --particles. Moments of e are those of the rebounds, and those of all impacts, where a \
+capture has e = 0. Each number has the error of the quadrature, from two orders; of a simulation also that of interpolation between \
+its impacts. The distributions count as exact. A simulated population takes seconds, and minutes where all four quantities vary. The \
+formats csv and json have a row or an object for each number.";
+
+/// The columns that the command writes.
+pub const COLUMNS: [&str; 10] =
+    ["population", "model", "quantity", "from", "to", "value", "numerical_error", "low", "high", "error"];
+
+/// The columns that some models read.
+pub fn inputs(models: &[Model]) -> Vec<Input> {
+    let none = SampleFiles::none();
+    let mut inputs = Vec::new();
+    for model in models.iter().copied() {
+        let read = distributions::inputs(model, &none).into_iter().chain(scenes::inputs(model));
+        inputs.extend(read.filter(|input| !inputs.contains(input)).collect::<Vec<_>>());
+    }
+    inputs
+}
 
 /// Model that computes the impacts.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Model {
+pub enum Model {
     RigidBody,
     Simulation,
-}
-
-/// Format of the result.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// Tables to read.
-    Table,
-    /// A row for each number.
-    Csv,
-    /// An object for each population.
-    Json,
 }
 
 /// A population by name with its statistics, or why there are none.
@@ -186,27 +164,21 @@ fn run(options: &Options, streams: &mut Streams<'_>) -> Result<usize, Box<dyn Er
     let questions = options.questions()?;
     let samples = SampleFiles::read(&options.samples, options.model)?;
     let inputs = options.inputs(&samples);
-    let given = one_population(&options.given)?;
-    let mut sheet = match (&options.file, &given) {
-        (_, Some(text)) => Sheet::open(text.as_bytes(), &inputs, Some(Decimal::Point))?,
-        (file, None) => {
-            let source: Box<dyn BufRead> = match file {
-                None => Box::new(BUNDLED.as_bytes()),
-                Some(path) if path.as_os_str() == "-" => Box::new(&mut *streams.input),
-                Some(path) => Box::new(open(path)?),
-            };
-            options.reading.open(NAME, source, &inputs, |_| Vec::new(), streams.errors)?
+    let given = one_row(&options.given)?;
+    let Origin { source, progress } = Origin::of(options.file.as_deref(), BUNDLED, streams.input)?;
+    let mut sheet = match &given {
+        Some(text) => {
+            let reading = Reading::with(Decimal::Point);
+            reading.open(NAME, text.as_bytes(), &inputs, |_| Vec::new(), streams.errors)?
         }
+        None => options.reading.open(NAME, source, &inputs, |_| Vec::new(), streams.errors)?,
     };
-    if given.is_some() {
-        // If standard error is closed, nobody wants to know.
-        let _ = write!(streams.errors, "{NAME}: {}", sheet.columns_in_words(&[]));
-    }
     let mut answers: Vec<Answer> = Vec::new();
     while let Some(row) = sheet.next_row()? {
-        let name = row.text(LABEL).unwrap_or_else(|| format!("row {}", row.index()));
-        answers.push((name, options.answer(&row, &samples, &questions)));
+        answers.push((row.label(), options.answer(&row, &samples, &questions)));
+        progress.bar().inc(1);
     }
+    drop(progress);
     match options.format {
         Format::Table => output::tables(&answers, streams.output)?,
         Format::Csv => output::csv(&answers, streams.output)?,
@@ -220,22 +192,4 @@ fn run(options: &Options, streams: &mut Streams<'_>) -> Result<usize, Box<dyn Er
         }
     }
     Ok(answers.iter().filter(|(_, answer)| answer.is_err()).count())
-}
-
-/// The table of one population, from its columns as `NAME=VALUE`.
-fn one_population(given: &[String]) -> Result<Option<String>, Box<dyn Error>> {
-    if given.is_empty() {
-        return Ok(None);
-    }
-    let mut cells = Vec::new();
-    for pair in given {
-        let Some((name, value)) = pair.split_once('=') else {
-            return Err(format!("--given: \"{pair}\" is refused: enter NAME=VALUE, as density_kg_m3=2600").into());
-        };
-        cells.push((name.trim(), value.trim()));
-    }
-    let mut table = csv::Writer::from_writer(Vec::new());
-    table.write_record(cells.iter().map(|(name, _)| name))?;
-    table.write_record(cells.iter().map(|(_, value)| value))?;
-    Ok(Some(String::from_utf8(table.into_inner()?)?))
 }

@@ -102,10 +102,10 @@ struct Line<'a> {
     from: Option<f64>,
     to: Option<f64>,
     value: Option<f64>,
-    error: Option<f64>,
+    numerical_error: Option<f64>,
     low: Option<f64>,
     high: Option<f64>,
-    reason: &'a str,
+    error: &'a str,
 }
 
 /// Writes a row for each number.
@@ -115,7 +115,7 @@ pub(super) fn csv(answers: &[Answer], to: &mut dyn Write) -> Result<(), Box<dyn 
         let results = match answer {
             Ok(results) => results,
             Err(reason) => {
-                writer.serialize(Line { population, quantity: "error".into(), reason, ..Line::default() })?;
+                writer.serialize(Line { population, error: reason, ..Line::default() })?;
                 continue;
             }
         };
@@ -124,7 +124,7 @@ pub(super) fn csv(answers: &[Answer], to: &mut dyn Write) -> Result<(), Box<dyn 
             model: results.model,
             quantity,
             value: Some(value),
-            error: Some(error),
+            numerical_error: Some(error),
             ..Line::default()
         };
         for (by, classes) in [("", &results.classes_by_number), ("_by_mass", &results.classes_by_mass)] {
@@ -147,9 +147,9 @@ pub(super) fn csv(answers: &[Answer], to: &mut dyn Write) -> Result<(), Box<dyn 
         for bounce in &results.bounces {
             let (speed, [low, high]) = (Some(bounce.speed_m_s), bounce.interval);
             let ends = Line { from: speed, to: speed, low: Some(low), high: Some(high), ..Line::default() };
-            let Line { population, model, quantity, value, error, .. } =
+            let Line { population, model, quantity, value, numerical_error, .. } =
                 line("bounce_fraction".into(), bounce.bounce_fraction);
-            writer.serialize(Line { population, model, quantity, value, error, ..ends })?;
+            writer.serialize(Line { population, model, quantity, value, numerical_error, ..ends })?;
         }
         let spreads =
             [("restitution", Some(results.restitution)), ("restitution_of_rebounds", results.restitution_of_rebounds)];

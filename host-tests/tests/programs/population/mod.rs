@@ -173,10 +173,10 @@ fn draws_a_population() {
 fn the_example_of_the_help_runs() {
     let help = run(&["--help"], "").complaint();
     let (_, example) = help.split_once("cargo microimpact population ").expect("an example");
-    let (arguments, _) = example.split_once("population.svg").expect("its figure");
+    let (arguments, _) = example.split_once('`').expect("what follows it");
     let path = file("example.svg");
     let words = arguments.split_whitespace().filter(|word| *word != "\\");
-    let output = run(&words.chain(path.to_str()).collect::<Vec<_>>(), "");
+    let output = run(&words.chain(["--figure"]).chain(path.to_str()).collect::<Vec<_>>(), "");
     assert_eq!(output.status, 0, "{}", output.complaint());
     assert!(String::from_utf8_lossy(&output.stdout).contains("Largest error"));
     std::fs::remove_file(path).unwrap();

@@ -1,0 +1,66 @@
+//! What all rows of a table share: its columns, its decimal mark, and its variant of CSV.
+
+use csv::ByteRecord;
+use rustc_hash::FxHashMap;
+
+use crate::columns::{self, Header, Input};
+use crate::decimal::{Cell, Convention};
+use crate::dialect::Dialect;
+use crate::header::Heading;
+use crate::row::Row;
+
+/// What all rows of a table share.
+pub struct Frame {
+    pub(crate) headings: Vec<Heading>,
+    /// Names of the columns, for [`Header`].
+    pub(crate) names: Vec<String>,
+    places: FxHashMap<String, usize>,
+    pub(crate) inputs: Vec<Input>,
+    pub(crate) convention: Convention,
+    pub(crate) dialect: Dialect,
+    pub(crate) byte_order_mark: bool,
+}
+
+impl Frame {
+    pub(crate) fn new(
+        headings: Vec<Heading>,
+        inputs: &[Input],
+        convention: Convention,
+        dialect: Dialect,
+        byte_order_mark: bool,
+    ) -> Self {
+        let names: Vec<_> = headings.iter().map(|heading| heading.name.clone()).collect();
+        let places = names.iter().cloned().enumerate().map(|(index, name)| (name, index)).collect();
+        Self { headings, names, places, inputs: inputs.to_vec(), convention, dialect, byte_order_mark }
+    }
+
+    /// The place of a column.
+    pub(crate) fn place(&self, column: &str) -> Option<usize> {
+        self.places.get(column).copied()
+    }
+
+    /// The names of the columns.
+    #[must_use]
+    pub fn header(&self) -> Header<'_> {
+        Header { names: &self.names, places: Some(&self.places) }
+    }
+
+    /// A row of this table, whose number is that of the first row below the header counted as 1.
+    #[must_use]
+    pub fn row<'a>(&'a self, cells: &'a ByteRecord, number: usize) -> Row<'a> {
+        Row { frame: self, cells, number, replaced: Vec::new() }
+    }
+
+    /// Which columns are used, which are absent and what is used instead, and which are not read, in one to three lines.
+    /// `computed` are the names of columns that will be added.
+    #[must_use]
+    pub fn columns_in_words(&self, computed: &[String]) -> String {
+        columns::in_words(&self.headings, &self.inputs, computed)
+    }
+
+    /// A cell, for a message about its decimal mark.
+    pub(crate) fn cell<'a>(&'a self, index: usize, row: usize, text: &'a str) -> Cell<'a> {
+        let column = self.headings.get(index).map_or("", |heading| heading.text.as_str());
+        Cell { row, column, text }
+    }
+}

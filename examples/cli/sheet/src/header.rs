@@ -1,0 +1,156 @@
+//! Which column of a header is which, and in which unit.
+
+use crate::Input;
+use crate::catalogue::Column;
+use crate::units::{Unit, is_unit, unit_by_suffix, unit_in, units_of};
+
+/// A cell of a header.
+#[derive(Clone, Debug)]
+pub(crate) struct Heading {
+    /// The text as it is written, and without space around it.
+    pub(crate) raw: String,
+    pub(crate) text: String,
+    /// The same in lower case, with underscores for spaces.
+    pub(crate) given: String,
+    /// The column of the catalogue that it is, if the command reads that; otherwise the text in lower case.
+    pub(crate) name: String,
+    /// The unit of its numbers, if the command reads the column and the unit is not that in which it computes.
+    pub(crate) unit: Option<Unit>,
+}
+
+impl Heading {
+    /// The heading of a column that a command reads, or of another.
+    ///
+    /// # Errors
+    /// The unit in brackets is none of the column's quantity.
+    pub(crate) fn of(cell: &str, inputs: &[Input]) -> Result<Self, String> {
+        let text = cell.trim().trim_start_matches('\u{feff}');
+        let (words, brackets) = split(text);
+        let lower = |text: &str| text.trim().to_lowercase().replace(['µ', 'μ'], "u").replace([' ', '-'], "_");
+        let base = lower(words);
+        let columns = || inputs.iter().flat_map(|input| input.columns()).copied();
+        let mut heading = Self {
+            name: text.to_lowercase(),
+            given: lower(text),
+            raw: cell.to_owned(),
+            text: text.to_owned(),
+            unit: None,
+        };
+        if let Some(unit) = brackets {
+            if let Some((name, unit)) = in_brackets(columns(), &base, unit)? {
+                heading.name = name.to_owned();
+                heading.unit = unit;
+            }
+        } else if let Some(name) = columns().find(|column| *column == base) {
+            heading.name = name.to_owned();
+        } else if let Some((name, unit)) = columns().find_map(|name| Some((name, by_suffix(name, &base)?))) {
+            heading.name = name.to_owned();
+            heading.unit = (!unit.is_si()).then_some(unit);
+        }
+        Ok(heading)
+    }
+
+    /// Gives a heading without a unit that of a row of units.
+    ///
+    /// # Errors
+    /// The unit is none of the column's quantity, or contradicts that of the header.
+    pub(crate) fn add_unit(&mut self, unit: &str, inputs: &[Input]) -> Result<(), String> {
+        let (words, brackets) = split(&self.text);
+        if unit.is_empty() || brackets.is_some() {
+            return Ok(());
+        }
+        let unit = unit.trim_matches(['[', ']', '(', ')']);
+        let is_read = inputs.iter().any(|input| input.columns().contains(&self.name.as_str()));
+        match Self::of(&format!("{words} [{unit}]"), inputs) {
+            Ok(with_unit) if !is_read => *self = with_unit,
+            Ok(with_unit) if with_unit.name == self.name && with_unit.unit == self.unit => {}
+            Err(reason) if !is_read => return Err(reason),
+            _ => {
+                return Err(format!(
+                    "{}: the row below the header says \"{unit}\", which is not the unit in the name; correct one of them",
+                    self.text
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the catalogue has numbers in this column.
+    pub(crate) fn is_number(&self) -> bool {
+        self.unit.is_some() || Column::named(&self.name).is_some_and(|column| !column.unit.is_empty())
+    }
+
+    /// Whether it is a column of these inputs, or its name without a unit.
+    fn may_be_read(&self, inputs: &[Input]) -> bool {
+        let mut columns = inputs.iter().flat_map(|input| input.columns()).copied();
+        columns.any(|name| name == self.name || Column::named(name).is_some_and(|column| column.base() == self.given))
+    }
+
+    /// The heading as a message names it: the name as it was given, with the unit that its numbers have.
+    pub(crate) fn in_words(&self) -> String {
+        match &self.unit {
+            Some(unit) => format!("{} ({} in {})", self.text, self.name, unit.symbol),
+            None => self.name.clone(),
+        }
+    }
+}
+
+/// The words before brackets at the end of a header, and what stands in the brackets.
+fn split(text: &str) -> (&str, Option<&str>) {
+    for (open, close) in [('[', ']'), ('(', ')')] {
+        if let Some((words, unit)) = text.trim().strip_suffix(close).and_then(|text| text.rsplit_once(open)) {
+            return (words.trim(), Some(unit.trim()));
+        }
+    }
+    (text, None)
+}
+
+/// The unit that the end of a name states, if the rest of it is that of a column.
+fn by_suffix(column: &str, name: &str) -> Option<Unit> {
+    let column = Column::named(column)?;
+    let suffix = name.strip_prefix(column.base())?.strip_prefix('_')?;
+    unit_by_suffix(units_of(column.unit), suffix)
+}
+
+/// The column with a base name, or a full name, and a unit in brackets.
+fn in_brackets(
+    columns: impl Iterator<Item = &'static str>,
+    base: &str,
+    unit: &str,
+) -> Result<Option<(&'static str, Option<Unit>)>, String> {
+    let mut refused = None;
+    for name in columns {
+        let Some(column) = Column::named(name).filter(|column| column.base() == base || column.name == base) else {
+            continue;
+        };
+        // A number without a unit may have an empty pair of brackets, or a dash.
+        if column.unit == "1" && matches!(unit, "" | "-" | "–") {
+            return Ok(Some((name, None)));
+        }
+        if let Some(unit) = unit_in(units_of(column.unit), unit) {
+            if column.name == base && !unit.is_si() && column.unit != "1" {
+                return Err(format!("{base}: the unit in brackets is not that in the name; correct one of them"));
+            }
+            return Ok(Some((name, (!unit.is_si()).then_some(unit))));
+        }
+        refused.get_or_insert_with(|| {
+            let units: Vec<_> = units_of(column.unit).iter().map(|unit| unit.symbol).collect();
+            let units = if units.is_empty() { "no unit".to_owned() } else { units.join(", ") };
+            format!("{base}: the unit \"{unit}\" is refused; give one of {units}")
+        });
+    }
+    refused.map_or(Ok(None), Err)
+}
+
+/// Whether cells are the units of the columns above them: no numbers, one unit at least, and nothing else below a column that
+/// the command may read.
+pub(crate) fn is_unit_row(headings: &[Heading], cells: &[String], inputs: &[Input]) -> bool {
+    let unit = |cell: &str| is_unit(cell) && cell != "1";
+    let possible = |(index, cell): (usize, &String)| match cell.as_str() {
+        "" | "-" | "–" | "1" | "[]" | "[-]" => true,
+        cell if unit(cell) => true,
+        cell if cell.replace(',', ".").parse::<f64>().is_ok() => false,
+        _ => headings.get(index).is_none_or(|heading| !heading.may_be_read(inputs)),
+    };
+    cells.iter().enumerate().all(possible) && cells.iter().any(|cell| unit(cell))
+}

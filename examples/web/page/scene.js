@@ -1,0 +1,129 @@
+// The sliders, and the table of one row that they make.
+
+// Steps of a slider from end to end, and digits of the number that it sets.
+const STEPS = 400, DIGITS = 3;
+
+const isLogarithmic = (input) => input.least > 0;
+
+// The value at a position of a slider, and the position of a value.
+const valueAt = (input, step) => {
+    const part = step / STEPS, { least, most } = input;
+    const value = isLogarithmic(input) ? least * (most / least) ** part : least + (most - least) * part;
+    return Number(value.toPrecision(DIGITS));
+};
+const stepOf = (input, value) => {
+    const { least, most } = input;
+    const part = isLogarithmic(input) ? Math.log(value / least) / Math.log(most / least) : (value - least) / (most - least);
+    return Math.min(Math.max(Math.round(STEPS * part), 0), STEPS) || 0;
+};
+
+const keyOf = (input) => input.key ?? input.column;
+const element = (name, properties = {}, ...children) => {
+    const made = Object.assign(document.createElement(name), properties);
+    made.append(...children);
+    return made;
+};
+
+// A symbol as HTML: what follows an underscore is a subscript.
+function symbol(text = "") {
+    const [main, index] = text.split("_");
+    return index ? [element("i", {}, main), element("sub", {}, index)] : [element("i", {}, main)];
+}
+
+class Scene {
+    constructor(form, changed) {
+        this.values = Object.fromEntries(INPUTS.map((input) => [keyOf(input), input.start]));
+        this.rows = new Map();
+        for (const [id, inputs] of Object.entries({ particle: PARTICLE, surface: SURFACE, motion: MOTION, errors: ERRORS })) {
+            for (const input of inputs) {
+                const { row, show } = input.choices ? this.choice(input) : this.number(input);
+                this.rows.set(input, { row, show });
+                document.getElementById(id).append(row);
+            }
+        }
+        this.changed = () => {
+            this.showTerms();
+            changed();
+        };
+        form.addEventListener("submit", (event) => event.preventDefault());
+        form.addEventListener("reset", (event) => {
+            event.preventDefault();
+            for (const input of INPUTS) this.values[keyOf(input)] = input.start;
+            for (const { show } of this.rows.values()) show();
+            this.changed();
+        });
+        this.showTerms();
+    }
+
+    choice(input) {
+        const key = keyOf(input);
+        const select = element("select", { id: key });
+        for (const [value, text] of Object.entries(input.choices)) select.append(element("option", { value }, text));
+        const show = () => select.value = this.values[key];
+        select.addEventListener("change", () => {
+            this.values[key] = select.value;
+            this.changed();
+        });
+        show();
+        return { row: element("div", { className: "choice" }, element("label", { htmlFor: key }, input.label), select), show };
+    }
+
+    number(input) {
+        const key = keyOf(input), name = `${input.label}, ${input.symbol.replace("_", " ")}, ${input.unit}`;
+        const range = element("input", { type: "range", min: 0, max: STEPS, ariaLabel: `${name}, slider` });
+        const field = element("input", { type: "number", step: "any", id: key, ariaLabel: name, inputMode: "decimal" });
+        const show = () => {
+            const value = this.values[key];
+            range.value = stepOf(input, value);
+            range.ariaValueText = `${value} ${input.unit}`;
+            field.value = value;
+        };
+        range.addEventListener("input", () => {
+            this.values[key] = valueAt(input, Number(range.value));
+            show();
+            this.changed();
+        });
+        field.addEventListener("input", () => {
+            if (field.value === "") return;
+            this.values[key] = Number(field.value);
+            range.value = stepOf(input, this.values[key]);
+            range.ariaValueText = `${field.value} ${input.unit}`;
+            this.changed();
+        });
+        field.addEventListener("change", show);
+        show();
+        const label = element("label", { htmlFor: key }, `${input.label} `, ...symbol(input.symbol));
+        const unit = element("span", { className: "unit" }, input.unit === "1" ? "" : input.unit);
+        return { row: element("div", { className: "number" }, label, range, field, unit), show };
+    }
+
+    // Whether the scene has a term.
+    has({ where = {} }) {
+        return Object.entries(where).every(([choice, values]) => values.includes(this.values[choice]));
+    }
+
+    showTerms() {
+        for (const [input, { row }] of this.rows) row.hidden = !this.has(input);
+    }
+
+    // What the user asks for, by columns of the program, in SI units; a standard error of zero has no column.
+    columns() {
+        const columns = {};
+        for (const input of INPUTS.filter((input) => this.has(input))) {
+            const value = this.values[keyOf(input)];
+            if (input.choices) columns[input.column] = value;
+            else if (!input.of) columns[input.column] = String(Number((value * input.si).toPrecision(12)));
+            else if (value !== 0) columns[input.column] = String(Math.abs(Number(columns[input.of])) * value / 100);
+        }
+        // Hysteretic damping is given by its number alone.
+        if (columns.damping === "hysteretic") delete columns.damping;
+        return columns;
+    }
+}
+
+// A table of the program: a row for each of some approach speeds, or one row.
+function table(columns, speeds = [columns.speed_normal_m_s]) {
+    const names = Object.keys(columns);
+    const row = (speed) => names.map((name) => name === "speed_normal_m_s" ? speed : columns[name]).join(",");
+    return [names.join(","), ...speeds.map(row), ""].join("\n");
+}

@@ -1,0 +1,180 @@
+//! The answer to what the user sets by sliders, and how the page is used without a mouse.
+
+use serde_json::json;
+
+use super::{READY, choose, first_row, program, same};
+use crate::browser::Browser;
+
+/// Names and codes of keys.
+const ARROW_LEFT: (&str, u32) = ("ArrowLeft", 37);
+const TAB: (&str, u32) = ("Tab", 9);
+
+/// Steps of the slider of the approach speed from the paper's 2.8 m/s to a speed at which the sphere is captured.
+const STEPS_TO_CAPTURE: u32 = 50;
+
+/// More tab stops than the page has.
+const MOST_STOPS: u32 = 120;
+
+/// The paper's Table 1 in SI units, at which the sliders start. Its program halves the printed damping of adhesion.
+const TABLE_1: [(&str, f64); 10] = [
+    ("radius_m", 5.06e-6),
+    ("density_kg_m3", 2600.0),
+    ("stiffness_pa", 7.5e10),
+    ("adhesion_n_m", 250.0),
+    ("zeta_a", 6.25),
+    ("zeta_h", 10.5),
+    ("friction", 0.1),
+    ("speed_normal_m_s", 2.8),
+    ("speed_tangential_m_s", 0.0),
+    ("spin_rad_s", 1.46e5),
+];
+
+/// Numbers of other terms in SI units, where their sliders start: 100 mJ/m^2, 1 ns and 0.9.
+const OTHER_TERMS: [(&str, &str, &str, f64); 3] = [
+    ("law", "dmt", "work_of_adhesion_j_m2", 0.1),
+    ("damping", "viscoelastic", "damping_value", 1e-9),
+    ("damping", "constant", "damping_value", 0.9),
+];
+
+/// The sliders give the program numbers in SI units.
+pub fn units(browser: &mut Browser) -> Result<(), String> {
+    let check = |browser: &mut Browser, column: &str, expected: f64| {
+        let found = browser.text(&format!("scene.columns().{column}"))?;
+        if found.parse() == Ok(expected) { Ok(()) } else { Err(format!("{column} is {found} and not {expected}")) }
+    };
+    for (column, expected) in TABLE_1 {
+        check(browser, column, expected)?;
+    }
+    for (control, term, column, expected) in OTHER_TERMS {
+        choose(browser, control, term)?;
+        check(browser, column, expected)?;
+    }
+    reset(browser)
+}
+
+/// Returns to Table 1.
+fn reset(browser: &mut Browser) -> Result<(), String> {
+    browser.value("document.querySelector('#scene [type=reset]').click()")?;
+    browser.wait_for(READY)
+}
+
+/// The answer of the sliders where they start is that of the program to the same row.
+pub fn first_answer(browser: &mut Browser) -> Result<(), String> {
+    let table = browser.text("table(scene.columns())")?;
+    let classified = program(&["classify", "-", "--model", "simulation", "--format", "csv"], table.as_bytes())?;
+    let class = format!("{}, {}", first_row(&classified, "outcome")?, first_row(&classified, "motion")?);
+    let shown = browser.text("document.getElementById('class').textContent")?;
+    same("the class", &shown.to_lowercase(), &class)?;
+    for (row, column, unit) in
+        [("Largest indentation δ", "max_indentation_m", "m"), ("Contact time t", "contact_time_s", "s")]
+    {
+        let number = first_row(&classified, column)?;
+        let cell = browser.text(&format!(
+            "[...document.querySelectorAll('#numbers tr')].find((row) => row.textContent.startsWith({})).querySelector('td').textContent",
+            json!(row)
+        ))?;
+        same(row, &cell, &browser.text(&format!("inUnits({}, {})", json!(number), json!(unit)))?)?;
+        let shown: f64 = cell.split(' ').next().and_then(|text| text.parse().ok()).ok_or("the cell has no number")?;
+        // Both are tens of nanometres or nanoseconds.
+        let exact = number.parse::<f64>().map_err(|error| error.to_string())? * 1e9;
+        if (shown / exact - 1.0).abs() > 5e-3 {
+            return Err(format!("{row}: the page shows {cell}, the program has {number}"));
+        }
+    }
+    Ok(())
+}
+
+/// The slider of the speed is moved by the keyboard, down to capture.
+pub fn keyboard(browser: &mut Browser) -> Result<(), String> {
+    browser.value("document.querySelector('[aria-label^=\"Approach speed\"][type=range]').focus()")?;
+    for _ in 0..STEPS_TO_CAPTURE {
+        browser.press(ARROW_LEFT.0, ARROW_LEFT.1)?;
+    }
+    browser.wait_for(READY)?;
+    let speed = browser.value("scene.values.speed_normal_m_s")?;
+    let class = browser.text("document.getElementById('class').textContent")?;
+    if !class.starts_with("Captured") {
+        return Err(format!("at {speed} m/s, after {STEPS_TO_CAPTURE} steps to the left, the class is {class}"));
+    }
+    reset(browser)
+}
+
+/// Every control has a name, and shows when it has the focus.
+pub fn names_of_controls(browser: &mut Browser) -> Result<(), String> {
+    let nameless = browser.value(
+        "[...document.querySelectorAll('input, select, button')].filter((control) => \
+         !control.ariaLabel && !control.textContent.trim() && !control.labels?.length).map((control) => control.outerHTML)",
+    )?;
+    if nameless != json!([]) {
+        return Err(format!("controls without a name: {nameless}"));
+    }
+    browser.value("document.activeElement.blur(); window.stops = new Set()")?;
+    for _ in 0..MOST_STOPS {
+        browser.press(TAB.0, TAB.1)?;
+        let outlined = browser.value(
+            "(() => { const at = document.activeElement; \
+             if (at === document.body) return true; \
+             stops.add(at); \
+             const seen = at.id === 'file' ? at.nextElementSibling : at; \
+             return getComputedStyle(seen).outlineStyle !== 'none'; })()",
+        )?;
+        if outlined != json!(true) {
+            let control = browser.text("document.activeElement.outerHTML")?;
+            return Err(format!("the focus does not show on {control}"));
+        }
+    }
+    let missed = browser.value(
+        "[...document.querySelectorAll('input, select, button, summary')].filter((control) => \
+         control.checkVisibility() && !stops.has(control)).map((control) => control.outerHTML)",
+    )?;
+    if missed == json!([]) { Ok(()) } else { Err(format!("the keyboard does not reach {missed}")) }
+}
+
+/// Every law of contact with every damping has an answer, charts without gaps, and no number that is none.
+pub fn every_term(browser: &mut Browser) -> Result<(), String> {
+    for law in ["hertz", "ring", "dmt", "jkr"] {
+        for damping in ["none", "hysteretic", "viscoelastic", "constant"] {
+            choose(browser, "law", law)?;
+            choose(browser, "damping", damping)?;
+            browser.wait_for(READY)?;
+            let class = browser.text("document.getElementById('class').textContent")?;
+            let margin = browser.text("document.getElementById('margin').textContent")?;
+            if class == "No answer" {
+                return Err(format!("law {law}, damping {damping}: {margin}"));
+            }
+            let page = browser.text("document.querySelector('main').innerHTML")?;
+            if ["NaN", "Infinity", "undefined"].iter().any(|word| page.contains(word)) {
+                return Err(format!("law {law}, damping {damping}: the page shows a number that is none"));
+            }
+        }
+    }
+    reset(browser)
+}
+
+/// A number out of its range is refused in the program's words, and standard errors give probabilities.
+pub fn refusal(browser: &mut Browser) -> Result<(), String> {
+    let enter = |id: &str, number: &str| {
+        format!(
+            "(() => {{ const field = document.getElementById('{id}'); field.value = '{number}'; \
+             field.dispatchEvent(new Event('input')); }})()"
+        )
+    };
+    browser.value(&enter("speed_normal_m_s", "-2.8"))?;
+    browser.wait_for(READY)?;
+    let reason = browser.text("document.getElementById('margin').textContent")?;
+    let table = browser.text("table(scene.columns())")?;
+    let classified = program(&["classify", "-", "--model", "simulation", "--format", "csv"], table.as_bytes())?;
+    same("the reason", &reason, &first_row(&classified, "error")?)?;
+
+    browser.value(&enter("speed_normal_m_s", "1.5"))?;
+    browser.value(&enter("speed_normal_error_m_s", "5"))?;
+    browser.wait_for(READY)?;
+    let table = browser.text("table(scene.columns())")?;
+    let classified = program(&["classify", "-", "--model", "simulation", "--format", "csv"], table.as_bytes())?;
+    let rolling: f64 = first_row(&classified, "probability_rebound_rolling")?.parse().map_err(|_| "no probability")?;
+    let shown = browser.text("document.getElementById('margin').textContent")?;
+    if !shown.contains(&format!("rebound, rolling {rolling:.3}")) {
+        return Err(format!("the probability of a rolling rebound is {rolling}; the page shows {shown}"));
+    }
+    reset(browser)
+}
