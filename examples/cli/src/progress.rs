@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::io::{self, Read};
 use std::rc::Rc;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// The progress through a table.
 pub struct Progress {
@@ -51,6 +51,11 @@ impl Progress {
     /// The bar, which threads advance by the rows that they have computed.
     pub fn bar(&self) -> &ProgressBar {
         &self.bar
+    }
+
+    /// Shows nothing, where the rows themselves appear on the terminal.
+    pub fn hide(&self) {
+        self.bar.set_draw_target(ProgressDrawTarget::hidden());
     }
 
     /// Takes the rows that were read for those of the bytes that were read.
