@@ -2,7 +2,7 @@
 
 use std::error::Error;
 use std::fs::File;
-use std::io::{self, BufReader, BufWriter, Read, Write};
+use std::io::{self, BufReader, BufWriter, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -200,10 +200,14 @@ impl TableOptions {
         let Some(shape) = self.format.shape() else {
             let task = Task { work, frame, writer: None, shown: SHOWN, columns };
             let computed = task.run(&mut reader, &progress, &mut output)?;
+            drop(progress);
             write_table(&mut output, work, &frame.header(), &computed)?;
             output.flush()?;
             return Ok(computed.bad_rows);
         };
+        if io::stdout().is_terminal() {
+            progress.hide();
+        }
         let writer = RowWriter::new(frame, shape, &names);
         writer.begin(&mut output)?;
         let task = Task { work, frame, writer: Some(&writer), shown: 0, columns };

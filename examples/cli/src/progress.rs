@@ -1,10 +1,11 @@
 //! What a long command says on a terminal while it works: rows, rows a second, and the time left. Nothing in a pipe.
 
 use std::cell::Cell;
+use std::fmt;
 use std::io::{self, Read};
 use std::rc::Rc;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 /// The progress through a table.
 pub struct Progress {
@@ -29,12 +30,16 @@ impl<R: Read> Read for Counted<R> {
 }
 
 /// The line without and with the time left.
-const ROWS: &str = "{human_pos} rows, {per_sec}, {elapsed}";
-const ROWS_OF_ALL: &str = "{bar:30} {human_pos} rows, {per_sec}, {eta} left";
+const ROWS: &str = "{human_pos} rows, {rate} rows/s, {elapsed}";
+const ROWS_OF_ALL: &str = "{bar:30} {human_pos} rows, {rate} rows/s, {eta} left";
 
 fn style(template: &str) -> ProgressStyle {
     // The templates are valid; without one the bar has its own style.
-    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+    style.with_key("rate", |state: &ProgressState, to: &mut dyn fmt::Write| {
+        // A terminal that takes no text shows none.
+        let _ = write!(to, "{}", HumanCount(state.per_sec() as u64));
+    })
 }
 
 impl Progress {
@@ -51,6 +56,11 @@ impl Progress {
     /// The bar, which threads advance by the rows that they have computed.
     pub fn bar(&self) -> &ProgressBar {
         &self.bar
+    }
+
+    /// Shows nothing, where the rows themselves appear on the terminal.
+    pub fn hide(&self) {
+        self.bar.set_draw_target(ProgressDrawTarget::hidden());
     }
 
     /// Takes the rows that were read for those of the bytes that were read.

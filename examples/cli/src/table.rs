@@ -251,8 +251,12 @@ fn rows(to: &mut dyn Write, parts: &Parts, format: Format) -> io::Result<()> {
     let records = parts.cells.iter().enumerate().map(|(k, cell)| {
         // Each cell spans 2^21 steps of the bits of a radius.
         let radius = |k: usize| Value::Single(f32::from_bits(parts.smallest.to_bits() + ((k as u32) << 21)));
-        let coefficients = cell.map(|coefficient| Value::Double(coefficient.into()));
-        [radius(k), radius(k + 1)].into_iter().chain(coefficients).chain([Value::Count(parts.margin.into())]).collect()
+        let coefficients = cell.map(|coefficient| Value::Integer(coefficient.into()));
+        [radius(k), radius(k + 1)]
+            .into_iter()
+            .chain(coefficients)
+            .chain([Value::Integer(parts.margin.into())])
+            .collect()
     });
     write_records(format, &COLUMNS, 0, records, to)
 }

@@ -183,7 +183,8 @@ fn has_words_of(column: &str, name: &str) -> bool {
 
 /// Whether a name is that of a column up to its unit, and none of another column.
 fn has_another_unit(column: &str, name: &str) -> bool {
-    let end = Column::named(column).and_then(|column| name.strip_prefix(column.base())?.strip_prefix('_'));
+    let with_unit = Column::named(column).filter(|column| !matches!(column.unit, "" | "1"));
+    let end = with_unit.and_then(|column| name.strip_prefix(column.base())?.strip_prefix('_'));
     end.is_some_and(|end| !end.is_empty()) && Column::named(name).is_none()
 }
 

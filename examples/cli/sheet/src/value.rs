@@ -35,8 +35,8 @@ pub enum Value {
     Double(f64),
     /// A number in single precision.
     Single(f32),
-    /// A number of things.
-    Count(u64),
+    /// A whole number.
+    Integer(i64),
     /// A word of a fixed set.
     Word(&'static str),
     /// Any other text.
@@ -77,7 +77,7 @@ impl Value {
             Self::Empty => {}
             Self::Double(number) => write_number(*number + 0.0, zmij::Buffer::new().format(*number + 0.0), to),
             Self::Single(number) => write_number(*number + 0.0, zmij::Buffer::new().format(*number + 0.0), to),
-            Self::Count(count) => to.extend(count.to_string().bytes()),
+            Self::Integer(number) => to.extend(number.to_string().bytes()),
             Self::Word(word) => to.extend(word.bytes()),
             Self::Text(text) => to.extend(text.bytes()),
         }
@@ -91,7 +91,7 @@ impl Value {
         match self {
             Self::Double(number) if number.is_finite() => self.write(Decimal::Point, to),
             Self::Single(number) if number.is_finite() => self.write(Decimal::Point, to),
-            Self::Count(_) => self.write(Decimal::Point, to),
+            Self::Integer(_) => self.write(Decimal::Point, to),
             Self::Word(word) => write_json_text(word, to),
             Self::Text(text) => write_json_text(text, to),
             Self::Empty | Self::Double(_) | Self::Single(_) => to.extend(b"null"),

@@ -124,7 +124,7 @@ impl<T: Number> Simulated<T> {
         let compliant = self.tangential.compliant.filter(|_| followed);
         let compliance = [
             optional(compliant.map(|(ratio, _)| ratio)),
-            compliant.map_or(Value::Empty, |(_, phases)| Value::Count(phases.into())),
+            compliant.map_or(Value::Empty, |(_, phases)| Value::Integer(phases.into())),
         ];
         let in_plane = [
             outcome_name(*outcome).into(),
