@@ -291,13 +291,13 @@ impl<T: Real + NormalDistribution> Cloud<'_, T> {
             };
             if let Some(distance) = row.distance(curve, scatter) {
                 let psi = Influence::of(distance.deviates).psi;
-                let (own, explained) = (polynomials(row.x), explained(distance.slopes));
-                total = [0, 1].map(|index| psi * (own[index] * distance.unit - explained[index]));
+                let ([even, odd], [first, second]) = (polynomials(row.x), explained(distance.slopes));
+                total = [psi * (even * distance.unit - first), psi * (odd * distance.unit - second)];
             }
             if self.captures > 0 {
                 let outcome = row.outcome(curve, scatter);
-                let explained = explained(outcome.slopes);
-                total = [0, 1].map(|index| total[index] - outcome.score * explained[index]);
+                let [first, second] = explained(outcome.slopes);
+                total = [total[0] - outcome.score * first, total[1] - outcome.score * second];
             }
             variance.add(T::ONE, total);
             score = [score[0] + total[0], score[1] + total[1]];
