@@ -178,6 +178,36 @@ fn possible_within_its_error_is_possible() {
     assert!(output.status == 2 && output.complaint().contains("row 203: the rebound speed 4 m/s is refused"));
 }
 
+/// Scatter does not explain a pattern over speed, however large it is.
+#[test]
+fn a_pattern_over_speed_is_no_scatter() {
+    let mut random = StdRng::seed_from_u64(5);
+    let noise = Normal::new(0.0, 0.005).unwrap();
+    let mut table = String::from("speed_normal_m_s,overall_restitution\n");
+    for step in 0..40 {
+        let speed = 1.0 + 0.12 * f64::from(step);
+        let e = 0.5 + 0.35 * (2.0 * speed).sin() + noise.sample(&mut random);
+        writeln!(table, "{speed},{e}").unwrap();
+    }
+    for law in ["constant", "speed-restitution"] {
+        let found = answer(&table, &["--law", law]);
+        assert_eq!(found["fits"].as_bool(), Some(false), "{found}");
+    }
+}
+
+/// A rebound speed and a restitution of the same row must agree.
+#[test]
+fn contradictory_columns_are_refused() {
+    let header = "speed_normal_m_s,rebound_speed_m_s,overall_restitution,velocity_error_m_s\n";
+    let output = fit(&format!("{header}3,2.4,0.8,0.02\n2,1,0.8,0.02\n"), &[]);
+    assert_eq!(output.status, 2);
+    assert!(
+        output.complaint().contains("row 2: overall_restitution: it makes a rebound speed of 1.6"),
+        "{}",
+        output.complaint()
+    );
+}
+
 #[test]
 fn few_rebounds_are_not_enough() {
     let mut few = String::from("speed_normal_m_s,overall_restitution\n");

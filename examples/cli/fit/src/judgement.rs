@@ -1,7 +1,7 @@
 //! Whether a law fits.
 //!
-//! Scatter is free, so that its size proves nothing. A law is refuted by a trend of the residuals over speed, by rebounds and
-//! captures on the wrong side of the critical speed, and, if the errors are stated to be all of the scatter, by its size.
+//! Scatter is free, so that its size proves nothing. A law is refuted by a trend of the residuals over speed, by residuals that are
+//! alike at neighbouring speeds, by rebounds and captures on the wrong side of the critical speed, and, if the errors are stated to be all of the scatter, by its size.
 
 use fastrand::Rng;
 use rayon::prelude::*;
@@ -10,12 +10,15 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, DiscreteCDF, FisherSnedeco
 use crate::law::Coordinate;
 use crate::likelihood::{Likelihood, Nuisance};
 use crate::maximum::{Maximum, maximise};
+use crate::scatter::normal_below;
 
 /// Probabilities of data at least as far from the law as these, if the law is true.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judgement {
     /// By the trend of the residuals over speed.
     pub trend: f64,
+    /// By how much residuals at neighbouring speeds are alike.
+    pub neighbours: f64,
     /// By rebounds and captures on the wrong side of the critical speed.
     pub outcomes: f64,
     /// By the size of the residuals; `None` if the scatter is free.
@@ -26,8 +29,8 @@ impl Judgement {
     /// Probability that one of the tests finds the data as far from a true law as it does (Sidak 1967).
     #[must_use]
     pub fn p_value(&self) -> f64 {
-        let least = self.trend.min(self.outcomes).min(self.size.unwrap_or(1.0));
-        let tests = if self.size.is_some() { 3.0 } else { 2.0 };
+        let least = self.trend.min(self.neighbours).min(self.outcomes).min(self.size.unwrap_or(1.0));
+        let tests = if self.size.is_some() { 4.0 } else { 3.0 };
         // 1 - (1 - p)^tests, without cancellation.
         -(tests * (-least).ln_1p()).exp_m1()
     }
@@ -45,7 +48,8 @@ const UNLIKELY: f64 = 0.02;
 pub fn judge(likelihood: &mut Likelihood, maximum: &Maximum, scatter_is_known: bool) -> Judgement {
     let outcomes = outcomes(likelihood, maximum);
     let size = scatter_is_known.then(|| size(likelihood, maximum));
-    Judgement { trend: trend(likelihood, maximum), outcomes, size }
+    let neighbours = neighbours(likelihood, maximum);
+    Judgement { trend: trend(likelihood, maximum), neighbours, outcomes, size }
 }
 
 /// Test of polynomials that are added to the curve.
@@ -113,6 +117,31 @@ impl Gain {
         Some(Self { statistic, terms, freedom })
     }
 }
+
+/// Test of the products of residuals at neighbouring speeds: a curve of another shape makes them alike, chance does not.
+fn neighbours(likelihood: &Likelihood, maximum: &Maximum) -> f64 {
+    let mut residuals = likelihood.residuals_by_speed(&maximum.values);
+    residuals.iter_mut().for_each(|residual| *residual = residual.clamp(-LARGEST, LARGEST));
+    let count = residuals.len() as f64;
+    let mean = residuals.iter().sum::<f64>() / count;
+    let size = residuals.iter().map(|residual| (residual - mean).powi(2)).sum::<f64>() / count;
+    // Residuals much smaller than the errors are no reason to doubt a law.
+    if size.is_nan() || size < NEGLIGIBLE * NEGLIGIBLE {
+        return 1.0;
+    }
+    let (mut sum, mut variance) = (0.0, 0.0);
+    for pair in residuals.windows(2) {
+        let product = (pair[0] - mean) * (pair[1] - mean);
+        (sum, variance) = (sum + product, variance + product * product);
+    }
+    if variance > 0.0 { 1.0 - normal_below(sum / variance.sqrt()) } else { 1.0 }
+}
+
+/// Standard deviation of residuals, over that of the errors and the scatter, below which there is nothing to explain.
+const NEGLIGIBLE: f64 = 0.3;
+
+/// Largest residual that counts, so that no outlier decides.
+const LARGEST: f64 = 3.0;
 
 /// The coordinate of adhesion in use.
 pub fn adhesion(likelihood: &Likelihood) -> Coordinate {

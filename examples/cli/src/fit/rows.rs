@@ -55,7 +55,8 @@ enum Outcome {
 struct Read {
     observation: Observation,
     diameter: Option<f64>,
-    default_error: bool,
+    /// Whether the default stands for the error of the approach speed, and of the rebound speed.
+    default_errors: [bool; 2],
     without_error: bool,
 }
 
@@ -84,10 +85,16 @@ pub fn read(
         ));
     }
     let mut assumptions = Vec::new();
-    let default_error = rows.iter().any(|row| row.default_error);
+    let assumed = [0, 1].map(|speed| rows.iter().any(|row| row.default_errors[speed]));
+    let default_error = assumed.contains(&true);
+    let speeds = match assumed {
+        [true, true] => "both speeds",
+        [true, false] => "the approach speed",
+        _ => "the rebound speed",
+    };
     if default_error {
         assumptions.push(format!(
-            "velocity_error_m_s is not given: a standard error of {VELOCITY_ERROR} m/s of both speeds is assumed"
+            "velocity_error_m_s is not given: a standard error of {VELOCITY_ERROR} m/s of {speeds} is assumed"
         ));
     }
     if rows.iter().any(|row| row.without_error) {
@@ -121,14 +128,18 @@ fn read_row(row: &Row<'_>) -> Result<Read, String> {
     let rebound_error = error(row, "rebound_speed_error_m_s")?.or(both);
     let restitution_error = error(row, "overall_restitution_error")?;
     let (sphere, diameter) = sphere(row)?;
-    let mut default_error = false;
+    let mut default_errors = [false; 2];
     let mut without_error = false;
     let outcome = word(row, "outcome", Outcome::value_variants())?;
     let (rebound, restitution) = (row.number::<f64>("rebound_speed_m_s")?, row.number::<f64>("overall_restitution")?);
     let (rebound, speed_error, rebound_error) = match (rebound, restitution) {
-        (Some(rebound), _) => {
-            default_error = speed_error.is_none() || rebound_error.is_none();
-            (rebound, speed_error.unwrap_or(VELOCITY_ERROR), rebound_error.unwrap_or(VELOCITY_ERROR))
+        (Some(rebound), restitution) => {
+            default_errors = [speed_error.is_none(), rebound_error.is_none()];
+            let errors = [speed_error, rebound_error].map(|error| error.unwrap_or(VELOCITY_ERROR));
+            if let Some(restitution) = restitution {
+                agree(rebound, restitution * speed, errors[0].hypot(errors[1]).max(ROUNDING * speed))?;
+            }
+            (rebound, errors[0], errors[1])
         }
         (None, Some(restitution)) => {
             // A stated error of the restitution contains those of both speeds.
@@ -140,7 +151,7 @@ fn read_row(row: &Row<'_>) -> Result<Read, String> {
             (restitution * speed, errors.0, errors.1)
         }
         (None, None) if outcome == Some(Outcome::Capture) => {
-            default_error = speed_error.is_none() && restitution_error.is_none();
+            default_errors[0] = speed_error.is_none() && restitution_error.is_none();
             (0.0, speed_error.unwrap_or(VELOCITY_ERROR), 0.0)
         }
         (None, None) => {
@@ -164,8 +175,24 @@ fn read_row(row: &Row<'_>) -> Result<Read, String> {
     let response =
         if captured { Response::Capture } else { Response::Rebound { speed: rebound, error: rebound_error } };
     let observation = Observation { speed, speed_error, response, sphere };
-    Ok(Read { observation, diameter, default_error, without_error })
+    Ok(Read { observation, diameter, default_errors, without_error })
 }
+
+/// Requires a measured rebound speed and that of the stated restitution to be the same.
+fn agree(rebound: f64, stated: f64, error: f64) -> Result<(), String> {
+    if (rebound - stated).abs() <= SAME * error {
+        return Ok(());
+    }
+    Err(format!(
+        "overall_restitution: it makes a rebound speed of {stated:.4} m/s, but rebound_speed_m_s is {rebound} m/s; leave one of both empty"
+    ))
+}
+
+/// Standard errors within which two numbers are the same.
+const SAME: f64 = 3.0;
+
+/// Rounding of a restitution of two digits.
+const ROUNDING: f64 = 0.005;
 
 /// A standard error.
 fn error(row: &Row<'_>, column: &str) -> Result<Option<f64>, String> {

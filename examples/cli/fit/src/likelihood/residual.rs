@@ -32,6 +32,15 @@ impl Likelihood {
         self.data.iter().map(residual).collect()
     }
 
+    /// The residuals in the order of the speeds, of rows over whose error the curve is straight: elsewhere their mean is not zero.
+    pub fn residuals_by_speed(&self, values: &[f64]) -> Vec<f64> {
+        let rows = self.data.iter().zip(&self.straight).zip(self.residuals(values));
+        let straight = rows.filter(|((_, straight), _)| straight.is_some());
+        let mut pairs: Vec<(f64, f64)> = straight.filter_map(|((datum, _), own)| Some((datum.speed, own?))).collect();
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        pairs.into_iter().map(|(_, residual)| residual).collect()
+    }
+
     /// Probability of each row that its sphere rebounds.
     pub fn rebound_probabilities(&self, values: &[f64]) -> Vec<f64> {
         let Some(curve) = self.curve(values) else {
