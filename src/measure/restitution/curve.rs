@@ -35,6 +35,7 @@ impl<T: Real> Curve<T> {
     }
 
     /// Square of the rebound speed, negative for a capture. `lightness` is the median mass over that of the sphere.
+    #[inline(never)]
     pub(super) fn square(&self, x: T, lightness: T) -> T {
         let h = self.body(x);
         h * h - lightness * self.pull
@@ -66,6 +67,7 @@ impl<T: Real> Curve<T> {
     }
 
     /// The curve through two rebounds (x, w, lightness) of different speeds; `None` if there is none with c >= 0.
+    #[inline(never)]
     pub(super) fn through(slow: (T, T, T), fast: (T, T, T)) -> Option<Self> {
         // Both rebounds give b at a given c. With the right c they are equal.
         let pull = |(x, w, lightness): (T, T, T), loss: T| {

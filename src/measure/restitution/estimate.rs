@@ -54,6 +54,7 @@ struct Influence<T> {
 }
 
 impl<T: Real> Influence<T> {
+    #[inline(never)]
     fn of(deviates: T) -> Self {
         let (size, steady) = (deviates.abs(), T::constant(STEADY));
         if size <= steady {
@@ -133,7 +134,7 @@ impl<T: Real + NormalDistribution> Cloud<'_, T> {
 
     /// The curve through two rebounds that has the smallest median deviation of e.
     fn start(&self) -> Option<Curve<T>> {
-        let points = self.rows().filter_map(|row| Some((row.x, row.rebound?.0.max(T::ZERO), row.lightness)));
+        let rebounds = self.rows().filter(|row| row.rebound.is_some());
         let mut best: Option<(Curve<T>, T)> = None;
         let mut state = 1_u32;
         let mut draw = || {
@@ -142,7 +143,8 @@ impl<T: Real + NormalDistribution> Cloud<'_, T> {
             (state >> 8).checked_rem(self.rebounds)
         };
         for _ in 0..MOST_PAIRS {
-            let (first, second) = (points.clone().nth(draw()? as usize)?, points.clone().nth(draw()? as usize)?);
+            let mut point = || Some(rebounds.clone().nth(draw()? as usize)?.point());
+            let (first, second) = (point()?, point()?);
             let (slow, fast) = if first.0 < second.0 { (first, second) } else { (second, first) };
             if fast.0 - slow.0 < T::constant(APART) * fast.0 {
                 continue;
@@ -150,9 +152,7 @@ impl<T: Real + NormalDistribution> Cloud<'_, T> {
             let Some(curve) = Curve::through(slow, fast) else {
                 continue;
             };
-            let deviation =
-                |(x, w, lightness): (T, T, T)| (w - curve.square(x, lightness).max(T::ZERO).sqrt()).abs() / x;
-            let deviations = points.clone().map(deviation);
+            let deviations = rebounds.clone().map(|row| row.deviation(&curve));
             // One count rejects most curves.
             if let Some((_, least)) = best
                 && 2 * deviations.clone().filter(|deviation| *deviation < least).count() <= self.rebounds as usize
@@ -165,6 +165,7 @@ impl<T: Real + NormalDistribution> Cloud<'_, T> {
     }
 
     /// The natural scatter of e with which half of the rebounds are as near to the curve as half of all normal deviates.
+    #[inline(never)]
     fn scatter(&self, curve: &Curve<T>) -> T {
         let near = |scatter: T| {
             let distances = self.rows().filter_map(|row| row.distance(curve, scatter));
@@ -224,6 +225,7 @@ impl<T: Real + NormalDistribution> Cloud<'_, T> {
     }
 
     /// Refines the curve until its score is zero.
+    #[inline(never)]
     fn refine(&self, curve: &mut Curve<T>, scatter: T) -> Result<(), CalibrationError> {
         for _ in 0..MOST_PASSES {
             let sums = self.sums(curve, scatter);

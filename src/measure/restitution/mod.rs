@@ -11,7 +11,7 @@ mod rows;
 mod symmetric;
 
 use self::estimate::{Cloud, Fitted, PARAMETERS};
-use super::robust::{median, number};
+use super::robust::number;
 use super::{CalibrationError, Estimate, NormalDistribution};
 use crate::{InputError, NormalMotion, Parameter, Real, Sphere};
 
@@ -167,7 +167,7 @@ impl<T: Real + NormalDistribution> RestitutionFit<T> {
         if cloud.rebounds < LEAST_REBOUNDS {
             return Err(CalibrationError::TooFew);
         }
-        cloud.mass = median(impacts.iter().map(|impact| impact.sphere.mass())).ok_or(CalibrationError::TooFew)?;
+        cloud.mass = median_mass(impacts).ok_or(CalibrationError::TooFew)?;
         let Fitted { curve, scatter, covariance, outliers, fits } = cloud.fit()?;
         let reach = multiple::<T>(cloud.rebounds + cloud.captures);
         let around =
@@ -196,6 +196,17 @@ impl<T: Real + NormalDistribution> RestitutionFit<T> {
             outliers,
         })
     }
+}
+
+/// Mass of a sphere that half of the others are lighter than, kg.
+fn median_mass<T: Real>(impacts: &[MeasuredImpact<T>]) -> Option<T> {
+    let masses = || impacts.iter().map(|impact| impact.sphere.mass());
+    let half = impacts.len() / 2;
+    masses().find(|mass| {
+        let lighter = masses().filter(|other| other < mass).count();
+        let equal = masses().filter(|other| other == mass).count();
+        (lighter..lighter + equal).contains(&half)
+    })
 }
 
 /// Half the width of an interval in standard errors, from Student's distribution by its expansion about the normal one (Fisher 1925).

@@ -50,6 +50,7 @@ const WRONG: f64 = 0.1;
 const DENSITY: f64 = 0.398_942_280_401_432_7;
 
 impl<T: Real + NormalDistribution> Row<T> {
+    #[inline(never)]
     pub(super) fn new(impact: &MeasuredImpact<T>, fastest: T, median_mass: T) -> Self {
         let square = |error: T| (error / fastest) * (error / fastest);
         Self {
@@ -60,7 +61,20 @@ impl<T: Real + NormalDistribution> Row<T> {
         }
     }
 
+    /// Speed, rebound speed and lightness.
+    pub(super) fn point(&self) -> (T, T, T) {
+        (self.x, self.rebound.map_or(T::ZERO, |(w, _)| w.max(T::ZERO)), self.lightness)
+    }
+
+    /// Distance of e from that of a curve.
+    #[inline(never)]
+    pub(super) fn deviation(&self, curve: &Curve<T>) -> T {
+        let (x, w, lightness) = self.point();
+        (w - curve.square(x, lightness).max(T::ZERO).sqrt()).abs() / x
+    }
+
     /// Variance of w^2 about a curve with the square `square` at a speed x, with a natural `scatter` of e.
+    #[inline(never)]
     fn spread(&self, curve: &Curve<T>, x: T, square: T, across: T) -> T {
         let rise = curve.rise(x);
         let floor = (T::constant(ROUNDING) * x * x).max(T::EPSILON);
@@ -71,6 +85,7 @@ impl<T: Real + NormalDistribution> Row<T> {
     }
 
     /// The distance of a rebound from a curve.
+    #[inline(never)]
     pub(super) fn distance(&self, curve: &Curve<T>, scatter: T) -> Option<Distance<T>> {
         let (w, variance) = self.rebound?;
         let square = curve.square(self.x, self.lightness);
@@ -87,6 +102,7 @@ impl<T: Real + NormalDistribution> Row<T> {
     }
 
     /// What the outcome alone says, given the measured approach speed.
+    #[inline(never)]
     pub(super) fn outcome(&self, curve: &Curve<T>, scatter: T) -> OutcomeScore<T> {
         let square = curve.square(self.x, self.lightness);
         let unit = T::ONE / self.spread(curve, self.x, square, scatter * scatter * self.x * self.x).sqrt();
