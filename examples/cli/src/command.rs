@@ -83,7 +83,7 @@ header. `microimpact columns` lists all columns with their units, ranges and def
 
 The result has the decimal mark and the separator of the file. The command copies all columns. If an input column has the name of \
 a computed column, its copy is named input_NAME. Standard error lists the columns that the command uses, the defaults of those that \
-are absent, and the columns that it does not read.";
+are absent, and the columns that it does not read; after the rows, in how many of them cells are empty, and what is used there.";
 
 /// Exit status of each command that reads a table.
 pub const STATUS: &str = "\
@@ -203,6 +203,7 @@ impl TableOptions {
             drop(progress);
             write_table(&mut output, work, &frame.header(), &computed)?;
             output.flush()?;
+            say(command, computed.empty.in_words(frame), streams.errors);
             return Ok(computed.bad_rows);
         };
         if io::stdout().is_terminal() {
@@ -214,7 +215,16 @@ impl TableOptions {
         let computed = task.run(&mut reader, &progress, &mut output)?;
         writer.end(&mut output)?;
         output.flush()?;
+        say(command, computed.empty.in_words(frame), streams.errors);
         Ok(computed.bad_rows)
+    }
+}
+
+/// Says something on standard error.
+pub fn say(command: &str, words: Option<String>, errors: &mut dyn Write) {
+    if let Some(words) = words {
+        // If standard error is closed, nobody wants to know.
+        let _ = writeln!(errors, "{command}: {words}");
     }
 }
 

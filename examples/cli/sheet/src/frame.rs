@@ -6,6 +6,7 @@ use rustc_hash::FxHashMap;
 use crate::columns::{self, Header, Input};
 use crate::decimal::{Cell, Convention};
 use crate::dialect::Dialect;
+use crate::empty::CellDefault;
 use crate::header::Heading;
 use crate::row::Row;
 
@@ -16,6 +17,7 @@ pub struct Frame {
     pub(crate) names: Vec<String>,
     places: FxHashMap<String, usize>,
     pub(crate) inputs: Vec<Input>,
+    pub(crate) defaults: Vec<CellDefault>,
     pub(crate) convention: Convention,
     pub(crate) dialect: Dialect,
     pub(crate) byte_order_mark: bool,
@@ -31,7 +33,11 @@ impl Frame {
     ) -> Self {
         let names: Vec<_> = headings.iter().map(|heading| heading.name.clone()).collect();
         let places = names.iter().cloned().enumerate().map(|(index, name)| (name, index)).collect();
-        Self { headings, names, places, inputs: inputs.to_vec(), convention, dialect, byte_order_mark }
+        let inputs = inputs.to_vec();
+        let mut frame =
+            Self { headings, names, places, inputs, defaults: Vec::new(), convention, dialect, byte_order_mark };
+        frame.defaults = CellDefault::all(&frame, &frame.inputs);
+        frame
     }
 
     /// The place of a column.

@@ -86,6 +86,11 @@ impl Heading {
         columns.any(|name| name == self.name || Column::named(name).is_some_and(|column| column.base() == self.given))
     }
 
+    /// The name by which a message about a cell calls the column: that of the header, if its unit is another.
+    pub(crate) fn name_in_messages(&self) -> &str {
+        if self.unit.is_some() { &self.text } else { &self.name }
+    }
+
     /// The heading as a message names it: the name as it was given, with the unit that its numbers have.
     pub(crate) fn in_words(&self) -> String {
         match &self.unit {

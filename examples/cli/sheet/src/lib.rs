@@ -8,6 +8,7 @@ pub mod catalogue;
 mod columns;
 mod decimal;
 mod dialect;
+mod empty;
 mod frame;
 mod header;
 mod refusal;
@@ -28,6 +29,7 @@ pub use csv::ByteRecord;
 pub use columns::{Header, Input, LABEL};
 pub use decimal::Decimal;
 use decimal::{Convention, JUDGED_ROWS, Judge};
+pub use empty::EmptyCells;
 pub use frame::Frame;
 use header::{Heading, is_unit_row};
 pub use rename::{headings, rename};
@@ -48,6 +50,7 @@ pub struct Sheet<'a> {
     current: ByteRecord,
     /// Rows that were given out.
     given: usize,
+    empty: EmptyCells,
 }
 
 impl<'a> Sheet<'a> {
@@ -96,7 +99,7 @@ impl<'a> Sheet<'a> {
             }
         };
         let frame = Frame::new(headings, inputs, convention, dialect, source.byte_order_mark);
-        Ok(Self { frame, rows, guard, judged, current: ByteRecord::new(), given: 0 })
+        Ok(Self { frame, rows, guard, judged, current: ByteRecord::new(), given: 0, empty: EmptyCells::default() })
     }
 
     /// What all rows share.
@@ -119,7 +122,17 @@ impl<'a> Sheet<'a> {
         let mut cells = std::mem::take(&mut self.current);
         let number = self.split().1.read(&mut cells)?;
         self.current = cells;
-        Ok(number.map(|number| self.frame.row(&self.current, number)))
+        let row = number.map(|number| self.frame.row(&self.current, number));
+        if let Some(row) = &row {
+            self.empty.count(row);
+        }
+        Ok(row)
+    }
+
+    /// See [`EmptyCells::in_words`], of the rows that [`next_row`](Self::next_row) gave out.
+    #[must_use]
+    pub fn empty_in_words(&self) -> Option<String> {
+        self.empty.in_words(&self.frame)
     }
 
     /// The names of the columns.

@@ -6,6 +6,7 @@ use csv::ByteRecord;
 
 use crate::columns::{Header, LABEL};
 use crate::frame::Frame;
+use crate::header::Heading;
 use crate::value::{Scalar, Value};
 
 /// One row of a table.
@@ -84,7 +85,7 @@ impl<'a> Row<'a> {
     /// The name by which a message calls a column: that of the header.
     pub(crate) fn name_in_header<'b>(&'b self, column: &'b str) -> &'b str {
         let heading = self.frame.place(column).and_then(|index| self.frame.headings.get(index));
-        heading.filter(|heading| heading.unit.is_some()).map_or(column, |heading| &heading.text)
+        heading.map_or(column, Heading::name_in_messages)
     }
 
     /// The number in a cell, in the unit of the catalogue; `None` if there is no such column or the cell is empty. The column is
