@@ -26,6 +26,21 @@ pub(crate) fn text(cells: &ByteRecord, index: usize) -> Cow<'_, str> {
     }
 }
 
+/// Why a cell is refused that is not a number, and what to do.
+fn why_no_number(text: &str) -> &'static str {
+    if is_date_or_time(text) {
+        "is a date or time; enter the number, and format the cell as a number"
+    } else {
+        "is not a number"
+    }
+}
+
+/// Whether a text is a date or a time, as 2026-09-02, 2/9/2026 or 2:09.
+fn is_date_or_time(text: &str) -> bool {
+    let parts = text.chars().all(|character| character.is_ascii_digit() || "-/:. T".contains(character));
+    parts && (text.contains(':') || text.trim_start_matches('-').matches(['-', '/']).count() > 1)
+}
+
 impl<'a> Row<'a> {
     /// The same row with another number in a column, which it need not have.
     #[must_use]
@@ -113,7 +128,7 @@ impl<'a> Row<'a> {
             None => with_point,
         };
         let refused = |reason: &str| format!("{}: \"{text}\" {reason}", self.name_in_header(column));
-        let value: T = number.parse().map_err(|_| refused("is not a number"))?;
+        let value: T = number.parse().map_err(|_| refused(why_no_number(&text)))?;
         if value == T::ZERO {
             let mantissa = number.split(['e', 'E']).next().unwrap_or_default();
             if mantissa.contains(|c: char| matches!(c, '1'..='9')) {

@@ -1,8 +1,9 @@
 //! Tables in xlsx workbooks.
 
+use std::fmt::Display;
 use std::io::{Cursor, Read};
 
-use calamine::{Data, Reader, Xlsx};
+use calamine::{Data, ExcelDateTime, Reader, Xlsx};
 
 /// The first sheet of an xlsx workbook with cells, as CSV with commas and decimal points.
 ///
@@ -11,26 +12,55 @@ use calamine::{Data, Reader, Xlsx};
 pub(crate) fn in_csv(mut bytes: impl Read) -> Result<Vec<u8>, String> {
     let mut file = Vec::new();
     bytes.read_to_end(&mut file).map_err(|error| error.to_string())?;
-    let in_words = |error: &dyn std::fmt::Display| format!("the workbook cannot be read: {error}; save it as CSV");
-    let mut workbook = Xlsx::new(Cursor::new(file)).map_err(|error| in_words(&error))?;
+    let mut workbook = Xlsx::new(Cursor::new(file)).map_err(unreadable)?;
     for sheet in workbook.sheet_names() {
-        let cells = workbook.worksheet_range(&sheet).map_err(|error| in_words(&error))?;
+        let cells = workbook.worksheet_range(&sheet).map_err(unreadable)?;
         if cells.is_empty() {
             continue;
         }
         let mut rows = csv::WriterBuilder::new().flexible(true).from_writer(Vec::new());
         for row in cells.rows() {
-            rows.write_record(row.iter().map(text)).map_err(|error| in_words(&error))?;
+            rows.write_record(row.iter().map(text)).map_err(unreadable)?;
         }
-        return rows.into_inner().map_err(|error| in_words(&error));
+        return rows.into_inner().map_err(unreadable);
     }
     Err("the workbook has no cells".into())
+}
+
+fn unreadable(error: impl Display) -> String {
+    format!("the workbook cannot be read: {error}; save it as CSV")
 }
 
 /// The text of a cell, a number with all of its digits.
 fn text(cell: &Data) -> String {
     match cell {
         Data::Float(number) if number.abs() >= 1e16 || (*number != 0.0 && number.abs() < 1e-5) => format!("{number:e}"),
+        Data::DateTime(moment) => date_or_time(moment),
         other => other.to_string(),
     }
+}
+
+/// Minutes of a day.
+const DAY: f64 = 1440.0;
+
+/// A date, a time or both in the form of ISO 8601, which is not read as a number.
+fn date_or_time(moment: &ExcelDateTime) -> String {
+    let days = moment.as_f64();
+    let (year, month, day, hour, minute, second, _) = moment.to_ymd_hms_milli();
+    let time = format!("{hour:02}:{minute:02}:{second:02}");
+    if moment.is_duration() {
+        let minutes = (days * DAY).abs();
+        return format!(
+            "{}{}:{:02}",
+            if days < 0.0 { "-" } else { "" },
+            (minutes / 60.0).trunc(),
+            minutes.trunc() % 60.0
+        );
+    }
+    // The day 0 of a spreadsheet is that of times without a date.
+    if (0.0..1.0).contains(&days) {
+        return time;
+    }
+    let date = format!("{year:04}-{month:02}-{day:02}");
+    if days.fract() == 0.0 { date } else { format!("{date} {time}") }
 }
