@@ -21,6 +21,8 @@ pub struct Frame {
     pub(crate) convention: Convention,
     pub(crate) dialect: Dialect,
     pub(crate) byte_order_mark: bool,
+    /// Which sheet of a workbook of several it is, in words.
+    pub(crate) sheet: Option<String>,
 }
 
 impl Frame {
@@ -34,8 +36,17 @@ impl Frame {
         let names: Vec<_> = headings.iter().map(|heading| heading.name.clone()).collect();
         let places = names.iter().cloned().enumerate().map(|(index, name)| (name, index)).collect();
         let inputs = inputs.to_vec();
-        let mut frame =
-            Self { headings, names, places, inputs, defaults: Vec::new(), convention, dialect, byte_order_mark };
+        let mut frame = Self {
+            headings,
+            names,
+            places,
+            inputs,
+            defaults: Vec::new(),
+            convention,
+            dialect,
+            byte_order_mark,
+            sheet: None,
+        };
         frame.defaults = CellDefault::all(&frame, &frame.inputs);
         frame
     }
@@ -57,11 +68,13 @@ impl Frame {
         Row { frame: self, cells, number, replaced: Vec::new() }
     }
 
-    /// Which columns are used, which are absent and what is used instead, and which are not read, in one to three lines.
+    /// Which columns are used, which are absent and what is used instead, and which are not read, in one to three lines;
+    /// before them which sheet of a workbook is read, if it has several.
     /// `computed` are the names of columns that will be added.
     #[must_use]
     pub fn columns_in_words(&self, computed: &[String]) -> String {
-        columns::in_words(&self.headings, &self.inputs, computed)
+        let sheet = self.sheet.as_ref().map_or_else(String::new, |sheet| format!("{sheet}\n  "));
+        sheet + &columns::in_words(&self.headings, &self.inputs, computed)
     }
 
     /// A cell, for a message about its decimal mark.

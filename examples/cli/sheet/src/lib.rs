@@ -62,6 +62,14 @@ impl<'a> Sheet<'a> {
     /// cells may separate thousands.
     pub fn open(source: impl Read + 'a, inputs: &[Input], decimal: Option<Decimal>) -> Result<Self, String> {
         let source = Source::of(source)?;
+        let sheet = source.sheet.clone();
+        Self::of(source, inputs, decimal).map_err(|reason| match sheet {
+            Some(sheet) => format!("{reason}; {sheet}"),
+            None => reason,
+        })
+    }
+
+    fn of(source: Source<'a>, inputs: &[Input], decimal: Option<Decimal>) -> Result<Self, String> {
         let guard = Guard::default();
         let mut lines = BufReader::new(source.text);
         let (dialect, header_line) = dialect::read(&mut lines)?;
@@ -98,7 +106,8 @@ impl<'a> Sheet<'a> {
                 judge(&headings, inputs, &judged, dialect.delimiter == b',')?
             }
         };
-        let frame = Frame::new(headings, inputs, convention, dialect, source.byte_order_mark);
+        let mut frame = Frame::new(headings, inputs, convention, dialect, source.byte_order_mark);
+        frame.sheet = source.sheet;
         Ok(Self { frame, rows, guard, judged, current: ByteRecord::new(), given: 0, empty: EmptyCells::default() })
     }
 

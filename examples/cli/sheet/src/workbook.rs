@@ -3,18 +3,30 @@
 use std::fmt::Display;
 use std::io::{Cursor, Read};
 
-use calamine::{Data, ExcelDateTime, Reader, Xlsx};
+use calamine::{Data, ExcelDateTime, Reader, Sheet, SheetType, SheetVisible, Xlsx};
 
-/// The first sheet of an xlsx workbook with cells, as CSV with commas and decimal points.
+/// A sheet of a workbook.
+pub(crate) struct Worksheet {
+    /// Its cells as CSV with commas and decimal points.
+    pub(crate) csv: Vec<u8>,
+    /// Its name in quotes.
+    pub(crate) name: String,
+    /// The names of the others, which are not read.
+    pub(crate) others: Vec<String>,
+}
+
+/// The first sheet of an xlsx workbook with cells that is not hidden.
 ///
 /// # Errors
-/// The workbook cannot be read, or all of its sheets are empty.
-pub(crate) fn in_csv(mut bytes: impl Read) -> Result<Vec<u8>, String> {
+/// The workbook cannot be read, or all of its sheets are empty or hidden.
+pub(crate) fn first_sheet(mut bytes: impl Read) -> Result<Worksheet, String> {
     let mut file = Vec::new();
     bytes.read_to_end(&mut file).map_err(|error| error.to_string())?;
     let mut workbook = Xlsx::new(Cursor::new(file)).map_err(unreadable)?;
-    for sheet in workbook.sheet_names() {
-        let cells = workbook.worksheet_range(&sheet).map_err(unreadable)?;
+    let sheets = workbook.sheets_metadata().to_vec();
+    let is_shown = |sheet: &&Sheet| sheet.visible == SheetVisible::Visible && sheet.typ == SheetType::WorkSheet;
+    for sheet in sheets.iter().filter(is_shown) {
+        let cells = workbook.worksheet_range(&sheet.name).map_err(unreadable)?;
         if cells.is_empty() {
             continue;
         }
@@ -22,9 +34,14 @@ pub(crate) fn in_csv(mut bytes: impl Read) -> Result<Vec<u8>, String> {
         for row in cells.rows() {
             rows.write_record(row.iter().map(text)).map_err(unreadable)?;
         }
-        return rows.into_inner().map_err(unreadable);
+        let others = sheets.iter().filter(|other| other.name != sheet.name).map(|other| {
+            let hidden = if other.visible == SheetVisible::Visible { "" } else { " (hidden)" };
+            format!("\"{}\"{hidden}", other.name)
+        });
+        let (name, others) = (format!("\"{}\"", sheet.name), others.collect());
+        return Ok(Worksheet { csv: rows.into_inner().map_err(unreadable)?, name, others });
     }
-    Err("the workbook has no cells".into())
+    Err("the workbook has no cells in a sheet that is not hidden".into())
 }
 
 fn unreadable(error: impl Display) -> String {
