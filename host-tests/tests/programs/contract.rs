@@ -165,6 +165,35 @@ fn a_workbook() {
     }
 }
 
+/// The workbook has a hidden sheet before that of the impacts.
+#[test]
+fn cells_of_a_workbook_that_are_no_numbers() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/spreadsheets/cells.xlsx");
+    let output = run(&[path, "--format", "csv"], b"");
+    let sheet = "sheet \"impacts\" of the workbook is read, and not \"old\" (hidden), \"notes\"";
+    assert!(output.status == 1 && output.complaint().contains(sheet), "{}", output.complaint());
+    let written = Written::read(&output.stdout, b',');
+    let refused = |column: &str, text: &str, reason: &str| format!("{column}: \"{text}\" is {reason}");
+    let date = |text: &str| refused("speed_normal_m_s", text, "a date or time; enter the number");
+    let formula = refused("friction", "=B2*2", "a formula without a value; calculate the workbook");
+    let reasons =
+        ["", &date("2026-09-02"), &date("02:09:00"), &date("2026-09-02 02:09:00"), &date("26:09:00"), &formula];
+    for (row, reason) in reasons.into_iter().enumerate() {
+        let error = written.text(row, "error");
+        assert!(error.starts_with(reason) && error.is_empty() == reason.is_empty(), "{row}: {error}");
+        assert_eq!(written.text(row, "day"), "2026-09-02");
+    }
+    assert_eq!(written.rows.len(), reasons.len());
+}
+
+/// A comment over several columns is one, a value over several rows is not known of all of them.
+#[test]
+fn merged_cells_of_a_workbook() {
+    let output = run(&[concat!(env!("CARGO_MANIFEST_DIR"), "/data/spreadsheets/merged.xlsx")], b"");
+    assert_eq!((output.status, output.stdout.len()), (2, 0));
+    assert!(output.complaint().contains("the cells C3:C4 of sheet \"Sheet\" are merged"), "{}", output.complaint());
+}
+
 #[test]
 fn a_quote_that_is_not_closed() {
     let header = "name,radius_m,density_kg_m3,restitution,speed_normal_m_s\n";

@@ -28,7 +28,9 @@ pub(crate) fn text(cells: &ByteRecord, index: usize) -> Cow<'_, str> {
 
 /// Why a cell is refused that is not a number, and what to do.
 fn why_no_number(text: &str) -> &'static str {
-    if is_date_or_time(text) {
+    if text.starts_with('=') {
+        "is a formula without a value; calculate the workbook and save it again, or enter the number"
+    } else if is_date_or_time(text) {
         "is a date or time; enter the number, and format the cell as a number"
     } else {
         "is not a number"

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::io::{Cursor, Read};
 
-use calamine::{Data, ExcelDateTime, Reader, Sheet, SheetType, SheetVisible, Xlsx};
+use calamine::{Data, Dimensions, ExcelDateTime, Range, Reader, Sheet, SheetType, SheetVisible, Xlsx};
 
 /// A sheet of a workbook.
 pub(crate) struct Worksheet {
@@ -18,7 +18,7 @@ pub(crate) struct Worksheet {
 /// The first sheet of an xlsx workbook with cells that is not hidden.
 ///
 /// # Errors
-/// The workbook cannot be read, or all of its sheets are empty or hidden.
+/// The workbook cannot be read, all of its sheets are empty or hidden, or cells of the sheet are merged.
 pub(crate) fn first_sheet(mut bytes: impl Read) -> Result<Worksheet, String> {
     let mut file = Vec::new();
     bytes.read_to_end(&mut file).map_err(|error| error.to_string())?;
@@ -27,12 +27,26 @@ pub(crate) fn first_sheet(mut bytes: impl Read) -> Result<Worksheet, String> {
     let is_shown = |sheet: &&Sheet| sheet.visible == SheetVisible::Visible && sheet.typ == SheetType::WorkSheet;
     for sheet in sheets.iter().filter(is_shown) {
         let cells = workbook.worksheet_range(&sheet.name).map_err(unreadable)?;
-        if cells.is_empty() {
-            continue;
+        let formulas = workbook.worksheet_formula(&sheet.name).map_err(unreadable)?;
+        let Some(table) = bounds(&cells, &formulas) else { continue };
+        let merged = workbook.merge_cells_by_sheet_name(&sheet.name).map_err(unreadable)?;
+        if let Some(merged) = merged.iter().find(|merged| !is_in_comment(merged, &cells, table)) {
+            let (first, last) = (address(merged.start), address(merged.end));
+            return Err(format!(
+                "the cells {first}:{last} of sheet \"{}\" are merged, so that all but {first} are empty; unmerge them, and fill \
+                 each or leave it empty",
+                sheet.name
+            ));
         }
+        let text = |row, column| match (cells.get_value((row, column)), formulas.get_value((row, column))) {
+            (None | Some(Data::Empty), Some(formula)) if !formula.is_empty() => {
+                format!("={}", formula.trim_start_matches('='))
+            }
+            (cell, _) => cell.map_or_else(String::new, text),
+        };
         let mut rows = csv::WriterBuilder::new().flexible(true).from_writer(Vec::new());
-        for row in cells.rows() {
-            rows.write_record(row.iter().map(text)).map_err(unreadable)?;
+        for row in table.start.0..=table.end.0 {
+            rows.write_record((table.start.1..=table.end.1).map(|column| text(row, column))).map_err(unreadable)?;
         }
         let others = sheets.iter().filter(|other| other.name != sheet.name).map(|other| {
             let hidden = if other.visible == SheetVisible::Visible { "" } else { " (hidden)" };
@@ -42,6 +56,37 @@ pub(crate) fn first_sheet(mut bytes: impl Read) -> Result<Worksheet, String> {
         return Ok(Worksheet { csv: rows.into_inner().map_err(unreadable)?, name, others });
     }
     Err("the workbook has no cells in a sheet that is not hidden".into())
+}
+
+/// The smallest range with all values and all formulas, which may lack a value; `None` if there are none.
+fn bounds(cells: &Range<Data>, formulas: &Range<String>) -> Option<Dimensions> {
+    let range = |start: Option<_>, end: Option<_>| Some(Dimensions::new(start?, end?));
+    match (range(cells.start(), cells.end()), range(formulas.start(), formulas.end())) {
+        (Some(a), Some(b)) => Some(Dimensions::new(
+            (a.start.0.min(b.start.0), a.start.1.min(b.start.1)),
+            (a.end.0.max(b.end.0), a.end.1.max(b.end.1)),
+        )),
+        (cells, formulas) => cells.or(formulas),
+    }
+}
+
+/// Whether merged cells are those of a comment: of one row, which begins with #.
+fn is_in_comment(merged: &Dimensions, cells: &Range<Data>, table: Dimensions) -> bool {
+    let mut row = (table.start.1..=table.end.1).filter_map(|column| cells.get_value((merged.start.0, column)));
+    let first = row.find(|cell| **cell != Data::Empty);
+    merged.start.0 == merged.end.0 && first.is_some_and(|cell| text(cell).trim_start().starts_with('#'))
+}
+
+/// The address of a cell as spreadsheets write it, B3 for the third row of the second column.
+fn address((row, column): (u32, u32)) -> String {
+    const LETTERS: u32 = 26;
+    let (mut letters, mut left) = (String::new(), column + 1);
+    while left > 0 {
+        letters.extend(char::from_digit((left - 1) % LETTERS + 10, 10 + LETTERS));
+        left = (left - 1) / LETTERS;
+    }
+    let letters: String = letters.to_uppercase().chars().rev().collect();
+    format!("{letters}{}", row + 1)
 }
 
 fn unreadable(error: impl Display) -> String {
@@ -57,8 +102,8 @@ fn text(cell: &Data) -> String {
     }
 }
 
-/// Minutes of a day.
-const DAY: f64 = 1440.0;
+/// Seconds of a day.
+const DAY: f64 = 86_400.0;
 
 /// A date, a time or both in the form of ISO 8601, which is not read as a number.
 fn date_or_time(moment: &ExcelDateTime) -> String {
@@ -66,12 +111,13 @@ fn date_or_time(moment: &ExcelDateTime) -> String {
     let (year, month, day, hour, minute, second, _) = moment.to_ymd_hms_milli();
     let time = format!("{hour:02}:{minute:02}:{second:02}");
     if moment.is_duration() {
-        let minutes = (days * DAY).abs();
+        let seconds = (days.abs() * DAY).round();
+        let sign = if days < 0.0 { "-" } else { "" };
         return format!(
-            "{}{}:{:02}",
-            if days < 0.0 { "-" } else { "" },
-            (minutes / 60.0).trunc(),
-            minutes.trunc() % 60.0
+            "{sign}{}:{:02}:{:02}",
+            (seconds / 3600.0).trunc(),
+            (seconds / 60.0).trunc() % 60.0,
+            seconds % 60.0
         );
     }
     // The day 0 of a spreadsheet is that of times without a date.
