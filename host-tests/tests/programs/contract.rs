@@ -69,6 +69,12 @@ fn wrong_units_are_refused() {
         assert_eq!((output.status, output.stdout.len()), (2, 0), "{header}");
         assert!(output.complaint().contains(words), "{words}: {}", output.complaint());
     }
+    // A row of units may repeat that of the name, and a dash states none.
+    let repeated = "name,radius_um,density_kg_m3,restitution,speed_normal_cm_s\n-,µm,-,1,CM/S\na,5,2600,0.5,200\n";
+    let output = classified(repeated.as_bytes(), "rigid-body");
+    assert_eq!(output.status, 0, "{}", output.complaint());
+    let written = Written::read(&output.stdout, b',');
+    assert_eq!((written.text(0, "name"), written.number(0, "rebound_speed_m_s")), ("a", 1.0));
     // A row of units that contradicts the header.
     let output =
         classified(b"radius_m;density_kg_m3;restitution;speed_normal_m_s\num;kg/m3;-;m/s\n5;2600;1;2\n", "rigid-body");

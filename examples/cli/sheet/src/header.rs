@@ -1,8 +1,8 @@
 //! Which column of a header is which, and in which unit.
 
-use crate::Input;
 use crate::catalogue::Column;
 use crate::units::{Unit, is_unit, unit_by_suffix, unit_in, units_of};
+use crate::{Input, LABEL};
 
 /// A cell of a header.
 #[derive(Clone, Debug)]
@@ -56,14 +56,21 @@ impl Heading {
     /// The unit is none of the column's quantity, or contradicts that of the header.
     pub(crate) fn add_unit(&mut self, unit: &str, inputs: &[Input]) -> Result<(), String> {
         let (words, brackets) = split(&self.text);
-        if unit.is_empty() || brackets.is_some() {
+        let unit = unit.trim_matches(['[', ']', '(', ')']);
+        // A dash states no unit, and labels have none.
+        if matches!(unit, "" | "-" | "–") || brackets.is_some() || self.name == LABEL {
             return Ok(());
         }
-        let unit = unit.trim_matches(['[', ']', '(', ')']);
         let is_read = inputs.iter().any(|input| input.columns().contains(&self.name.as_str()));
+        let is_that_of_name = || {
+            let stated = unit_in(units_of(Column::named(&self.name)?.unit), unit)?;
+            Some(self.unit.map_or(stated.is_si(), |named| named == stated))
+        };
+        if is_read && is_that_of_name() == Some(true) {
+            return Ok(());
+        }
         match Self::of(&format!("{words} [{unit}]"), inputs) {
             Ok(with_unit) if !is_read => *self = with_unit,
-            Ok(with_unit) if with_unit.name == self.name && with_unit.unit == self.unit => {}
             Err(reason) if !is_read => return Err(reason),
             _ => {
                 return Err(format!(
