@@ -75,7 +75,8 @@ impl Reading {
 pub const TABLE_MANUAL: &str = "\
 CSV files may use commas, semicolons or tabs, and decimal points or decimal commas: one mark in the whole file. A number such as \
 2.600 is refused unless other cells, commas that separate cells, or --decimal settle whether its mark is decimal; thousands \
-separators are not read. Lines before the header that begin with # or state sep=; are skipped, and so are empty rows. The first \
+separators are not read. Lines that begin with # are comments; write a name that begins with # in quotes. A line sep=; before the header, empty rows and \
+rows of dashes are skipped. The first \
 sheet of an xlsx workbook that is not hidden and not empty is read in the same way. UTF-16 is read.
 
 A column has its unit at the end of its name (radius_um, density_g_cm3), in brackets (Radius [um]), or in a row of units below the \

@@ -213,6 +213,21 @@ fn a_quote_that_is_not_closed() {
     assert_eq!(output.status, 0, "{}", output.complaint());
 }
 
+/// Comments may have quotes that are not closed. A name may begin with # in quotes, and a single dash is a value that is missing.
+#[test]
+fn comments_and_rules_are_no_rows() {
+    let table = "=====,=====\nname,radius_m,density_kg_m3,restitution,speed_normal_m_s\n----,----,---,-,-\n# in 5\" pipe, 3 times\n\
+                 a,5e-6,2600,1,2\n==,==,==,==,==\n\"# again\",,,,\n\"#2\",5e-6,2600,1,3\n#c,5e-6,2600,1,4\n-,-,-,-,-\n# end\n";
+    let output = classified(table.as_bytes(), "rigid-body");
+    let written = Written::read(&output.stdout, b',');
+    let names: Vec<_> = (0..written.rows.len()).map(|row| written.text(row, "name")).collect();
+    assert_eq!(names, ["a", "#2", "-"], "{}", output.complaint());
+    assert_eq!([0, 1].map(|row| written.number(row, "rebound_speed_m_s")), [2.0, 3.0]);
+    // A result is read again with all of its rows.
+    assert_eq!(Written::read(&classified(&output.stdout, "rigid-body").stdout, b',').rows.len(), 3);
+    assert_eq!((output.status, written.text(2, "rebound_speed_m_s")), (1, ""));
+}
+
 /// A result means the same to every command that reads it.
 #[test]
 fn results_are_inputs_of_other_commands() {

@@ -5,6 +5,8 @@ use std::io::{Cursor, Read};
 
 use calamine::{Data, Dimensions, ExcelDateTime, Range, Reader, Sheet, SheetType, SheetVisible, Xlsx};
 
+use crate::COMMENT;
+
 /// A sheet of a workbook.
 pub(crate) struct Worksheet {
     /// Its cells as CSV with commas and decimal points.
@@ -44,7 +46,7 @@ pub(crate) fn first_sheet(mut bytes: impl Read) -> Result<Worksheet, String> {
             }
             (cell, _) => cell.map_or_else(String::new, text),
         };
-        let mut rows = csv::WriterBuilder::new().flexible(true).from_writer(Vec::new());
+        let mut rows = csv::WriterBuilder::new().flexible(true).comment(Some(COMMENT)).from_writer(Vec::new());
         for row in table.start.0..=table.end.0 {
             rows.write_record((table.start.1..=table.end.1).map(|column| text(row, column))).map_err(unreadable)?;
         }
