@@ -69,6 +69,12 @@ fn wrong_units_are_refused() {
         assert_eq!((output.status, output.stdout.len()), (2, 0), "{header}");
         assert!(output.complaint().contains(words), "{words}: {}", output.complaint());
     }
+    // One unit that is not known leaves the row one of units.
+    let table = "radius,density,restitution,speed_normal\num,kg/m3,1,furlong\n5,2600,0.5,2\n";
+    let complaint = classified(table.as_bytes(), "rigid-body").complaint();
+    assert!(complaint.contains("speed_normal: the unit \"furlong\" is refused; give one of m/s, cm/s"), "{complaint}");
+    let in_per_cent = classified(table.replace("1,furlong", "%,m/s").as_bytes(), "rigid-body");
+    assert_eq!(Written::read(&in_per_cent.stdout, b',').number(0, "rebound_speed_m_s"), 0.01);
     // A row of units may repeat that of the name, and a dash states none.
     let repeated = "name,radius_um,density_kg_m3,restitution,speed_normal_cm_s\n-,µm,-,1,CM/S\na,5,2600,0.5,200\n";
     let output = classified(repeated.as_bytes(), "rigid-body");
