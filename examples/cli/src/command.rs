@@ -10,7 +10,7 @@ use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 use microimpact::contact::{Adaptive, AdaptiveNodes};
 use microimpact::measure::NormalDistribution;
 use microimpact::{InputError, Real};
-use sheet::{Decimal, Header, Input, RowWriter, Scalar, Shape, Sheet, Value};
+use sheet::{Decimal, Header, Input, LABEL, RowWriter, Scalar, Shape, Sheet, Value};
 
 use crate::Streams;
 use crate::classify::OfferedNodes;
@@ -284,7 +284,14 @@ pub fn one_row(given: &[String]) -> Result<Option<String>, Box<dyn Error>> {
         let Some((name, value)) = pair.split_once('=') else {
             return Err(format!("--given: \"{pair}\" is refused: enter NAME=VALUE, as density_kg_m3=2600").into());
         };
-        cells.push((name.trim(), value.trim()));
+        let (name, value) = (name.trim(), value.trim());
+        if name != LABEL && value.contains(',') && value.replace(',', "").parse::<f64>().is_ok() {
+            return Err(format!(
+                "--given: \"{name}={value}\" is refused: --given takes a decimal point, and no separators of thousands"
+            )
+            .into());
+        }
+        cells.push((name, value));
     }
     let mut table = csv::Writer::from_writer(Vec::new());
     table.write_record(cells.iter().map(|(name, _)| name))?;
