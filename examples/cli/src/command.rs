@@ -10,7 +10,7 @@ use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 use microimpact::contact::{Adaptive, AdaptiveNodes};
 use microimpact::measure::NormalDistribution;
 use microimpact::{InputError, Real};
-use sheet::{Decimal, Header, Input, RowWriter, Scalar, Shape, Sheet, Value};
+use sheet::{Decimal, Header, Input, LABEL, RowWriter, Scalar, Shape, Sheet, Value};
 
 use crate::Streams;
 use crate::classify::OfferedNodes;
@@ -75,15 +75,16 @@ impl Reading {
 pub const TABLE_MANUAL: &str = "\
 CSV files may use commas, semicolons or tabs, and decimal points or decimal commas: one mark in the whole file. A number such as \
 2.600 is refused unless other cells, commas that separate cells, or --decimal settle whether its mark is decimal; thousands \
-separators are not read. Lines before the header that begin with # or state sep=; are skipped, and so are empty rows. The first \
-sheet of an xlsx workbook is read in the same way. UTF-16 is read.
+separators are not read. Lines that begin with # are comments; write a name that begins with # in quotes. A line sep=; before the header, empty rows and \
+rows of dashes are skipped. The first \
+sheet of an xlsx workbook that is not hidden and not empty is read in the same way. UTF-16 is read.
 
 A column has its unit at the end of its name (radius_um, density_g_cm3), in brackets (Radius [um]), or in a row of units below the \
 header. `microimpact columns` lists all columns with their units, ranges and defaults.
 
 The result has the decimal mark and the separator of the file. The command copies all columns. If an input column has the name of \
 a computed column, its copy is named input_NAME. Standard error lists the columns that the command uses, the defaults of those that \
-are absent, and the columns that it does not read.";
+are absent, and the columns that it does not read; after the rows, in how many of them cells are empty, and what is used there.";
 
 /// Exit status of each command that reads a table.
 pub const STATUS: &str = "\
@@ -203,6 +204,7 @@ impl TableOptions {
             drop(progress);
             write_table(&mut output, work, &frame.header(), &computed)?;
             output.flush()?;
+            say(command, computed.empty.in_words(frame), streams.errors);
             return Ok(computed.bad_rows);
         };
         if io::stdout().is_terminal() {
@@ -214,7 +216,16 @@ impl TableOptions {
         let computed = task.run(&mut reader, &progress, &mut output)?;
         writer.end(&mut output)?;
         output.flush()?;
+        say(command, computed.empty.in_words(frame), streams.errors);
         Ok(computed.bad_rows)
+    }
+}
+
+/// Says something on standard error.
+pub fn say(command: &str, words: Option<String>, errors: &mut dyn Write) {
+    if let Some(words) = words {
+        // If standard error is closed, nobody wants to know.
+        let _ = writeln!(errors, "{command}: {words}");
     }
 }
 
@@ -273,7 +284,14 @@ pub fn one_row(given: &[String]) -> Result<Option<String>, Box<dyn Error>> {
         let Some((name, value)) = pair.split_once('=') else {
             return Err(format!("--given: \"{pair}\" is refused: enter NAME=VALUE, as density_kg_m3=2600").into());
         };
-        cells.push((name.trim(), value.trim()));
+        let (name, value) = (name.trim(), value.trim());
+        if name != LABEL && value.contains(',') && value.replace(',', "").parse::<f64>().is_ok() {
+            return Err(format!(
+                "--given: \"{name}={value}\" is refused: --given takes a decimal point, and no separators of thousands"
+            )
+            .into());
+        }
+        cells.push((name, value));
     }
     let mut table = csv::Writer::from_writer(Vec::new());
     table.write_record(cells.iter().map(|(name, _)| name))?;

@@ -6,7 +6,7 @@ use std::error::Error;
 use std::io::Write;
 
 use rayon::prelude::*;
-use sheet::{ByteRecord, Frame, Header, Input, Row, RowReader, RowWriter, Rows, Value};
+use sheet::{ByteRecord, EmptyCells, Frame, Header, Input, Row, RowReader, RowWriter, Rows, Value};
 
 use crate::progress::Progress;
 
@@ -102,6 +102,7 @@ struct Part<N> {
     bytes: Vec<u8>,
     lines: Vec<Vec<String>>,
     bad_rows: Vec<(usize, String)>,
+    empty: EmptyCells,
     notes: N,
 }
 
@@ -116,6 +117,8 @@ pub struct Computed {
     pub unshown: Option<(usize, String)>,
     /// Lines of the summary.
     pub lines: Vec<Vec<String>>,
+    /// Empty cells in whose place a default is used.
+    pub empty: EmptyCells,
 }
 
 /// How the rows are computed.
@@ -135,9 +138,16 @@ pub struct Task<'a, W> {
 impl<W: Work> Task<'_, W> {
     fn part(&self, rows: &[ByteRecord], first: usize) -> Result<Part<W::Notes>, csv::Error> {
         let mut output = self.writer.map(RowWriter::rows);
-        let mut part = Part { bytes: Vec::new(), lines: Vec::new(), bad_rows: Vec::new(), notes: W::Notes::default() };
+        let mut part = Part {
+            bytes: Vec::new(),
+            lines: Vec::new(),
+            bad_rows: Vec::new(),
+            empty: EmptyCells::default(),
+            notes: W::Notes::default(),
+        };
         for (index, cells) in rows.iter().enumerate() {
             let row = self.frame.row(cells, first + index);
+            part.empty.count(&row);
             let reason = match &mut output {
                 Some(output) => self.write(&row, output, &mut part.notes)?,
                 None if row.index() <= self.shown => {
@@ -196,6 +206,7 @@ impl<W: Work> Task<'_, W> {
             to.write_all(&part.bytes)?;
             computed.lines.extend(part.lines);
             computed.bad_rows += part.bad_rows.len();
+            computed.empty.add(&part.empty);
             if computed.unshown.is_none() {
                 computed.unshown = part.bad_rows.into_iter().find(|(number, _)| *number > self.shown);
             }

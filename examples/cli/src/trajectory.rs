@@ -12,7 +12,7 @@ use sheet::{Decimal, Input, Row, Sheet, Value};
 
 use crate::Streams;
 use crate::classify::{arrival, scene};
-use crate::command::{BadRows, Format, Origin, Reading, SimulationOptions, exit_status, one_row, write_records};
+use crate::command::{BadRows, Format, Origin, Reading, SimulationOptions, exit_status, one_row, say, write_records};
 use crate::contact_law::LAW_INPUTS;
 use crate::figure;
 use crate::inputs::{FRICTION_INPUT, PEELING_INPUT};
@@ -85,6 +85,7 @@ impl Options {
         };
         let (records, curves, bad_rows) = samples(&mut sheet, &method)?;
         write_records(self.format, &COLUMNS, 1, records, streams.output)?;
+        say(NAME, sheet.empty_in_words(), streams.errors);
         if let Some(path) = &self.figure {
             draw(&curves, path)?;
         }

@@ -36,6 +36,10 @@ fn help_fits_a_screen() {
         assert!(help.lines().count() <= SCREEN.0 && widest <= SCREEN.1, "{widest}: {help}");
         assert!(help.contains("Example"), "{help}");
     }
+    let help = microimpact("fit", &["--help"], b"").complaint();
+    for words in ["speed-restitution", "jkr", "xlsx", "Exit status"] {
+        assert!(help.contains(words), "{words}: {help}");
+    }
     let help = microimpact("--help", &[], b"").complaint();
     for command in COMMANDS {
         assert!(help.contains(command), "{command}: {help}");
@@ -66,6 +70,20 @@ fn examples_of_the_help_run() {
         }
     }
     assert_eq!(count, 9);
+}
+
+/// The table of --given is none of the user's, so that no option chooses its mark; a name may have a comma.
+#[test]
+fn given_numbers_have_a_decimal_point() {
+    for (command, pair) in [("trajectory", "speed_normal_m_s=2,8"), ("population", "speed_m_s=1,900.5")] {
+        let output = microimpact(command, &["--given", pair], b"");
+        assert_eq!((output.status, output.stdout.len()), (2, 0));
+        let complaint = output.complaint();
+        assert!(complaint.contains(pair) && complaint.contains("--given takes a decimal point"), "{complaint}");
+    }
+    let given = "name=2,8 radius_um=5 density_kg_m3=2600 stiffness_gpa=75 speed_normal_m_s=2.8";
+    let arguments: Vec<_> = ["--given"].into_iter().chain(given.split(' ')).collect();
+    assert_eq!(microimpact("trajectory", &arguments, b"").status, 0);
 }
 
 /// JSON and CSV have the same numbers; a cell that is empty is null.

@@ -69,6 +69,18 @@ fn wrong_units_are_refused() {
         assert_eq!((output.status, output.stdout.len()), (2, 0), "{header}");
         assert!(output.complaint().contains(words), "{words}: {}", output.complaint());
     }
+    // One unit that is not known leaves the row one of units.
+    let table = "radius,density,restitution,speed_normal\num,kg/m3,1,furlong\n5,2600,0.5,2\n";
+    let complaint = classified(table.as_bytes(), "rigid-body").complaint();
+    assert!(complaint.contains("speed_normal: the unit \"furlong\" is refused; give one of m/s, cm/s"), "{complaint}");
+    let in_per_cent = classified(table.replace("1,furlong", "%,m/s").as_bytes(), "rigid-body");
+    assert_eq!(Written::read(&in_per_cent.stdout, b',').number(0, "rebound_speed_m_s"), 0.01);
+    // A row of units may repeat that of the name, and a dash states none.
+    let repeated = "name,radius_um,density_kg_m3,restitution,speed_normal_cm_s\n-,µm,-,1,CM/S\na,5,2600,0.5,200\n";
+    let output = classified(repeated.as_bytes(), "rigid-body");
+    assert_eq!(output.status, 0, "{}", output.complaint());
+    let written = Written::read(&output.stdout, b',');
+    assert_eq!((written.text(0, "name"), written.number(0, "rebound_speed_m_s")), ("a", 1.0));
     // A row of units that contradicts the header.
     let output =
         classified(b"radius_m;density_kg_m3;restitution;speed_normal_m_s\num;kg/m3;-;m/s\n5;2600;1;2\n", "rigid-body");
@@ -165,6 +177,35 @@ fn a_workbook() {
     }
 }
 
+/// The workbook has a hidden sheet before that of the impacts.
+#[test]
+fn cells_of_a_workbook_that_are_no_numbers() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/spreadsheets/cells.xlsx");
+    let output = run(&[path, "--format", "csv"], b"");
+    let sheet = "sheet \"impacts\" of the workbook is read, and not \"old\" (hidden), \"notes\"";
+    assert!(output.status == 1 && output.complaint().contains(sheet), "{}", output.complaint());
+    let written = Written::read(&output.stdout, b',');
+    let refused = |column: &str, text: &str, reason: &str| format!("{column}: \"{text}\" is {reason}");
+    let date = |text: &str| refused("speed_normal_m_s", text, "a date or time; enter the number");
+    let formula = refused("friction", "=B2*2", "a formula without a value; calculate the workbook");
+    let reasons =
+        ["", &date("2026-09-02"), &date("02:09:00"), &date("2026-09-02 02:09:00"), &date("26:09:00"), &formula];
+    for (row, reason) in reasons.into_iter().enumerate() {
+        let error = written.text(row, "error");
+        assert!(error.starts_with(reason) && error.is_empty() == reason.is_empty(), "{row}: {error}");
+        assert_eq!(written.text(row, "day"), "2026-09-02");
+    }
+    assert_eq!(written.rows.len(), reasons.len());
+}
+
+/// A comment over several columns is one, a value over several rows is not known of all of them.
+#[test]
+fn merged_cells_of_a_workbook() {
+    let output = run(&[concat!(env!("CARGO_MANIFEST_DIR"), "/data/spreadsheets/merged.xlsx")], b"");
+    assert_eq!((output.status, output.stdout.len()), (2, 0));
+    assert!(output.complaint().contains("the cells C3:C4 of sheet \"Sheet\" are merged"), "{}", output.complaint());
+}
+
 #[test]
 fn a_quote_that_is_not_closed() {
     let header = "name,radius_m,density_kg_m3,restitution,speed_normal_m_s\n";
@@ -176,6 +217,21 @@ fn a_quote_that_is_not_closed() {
     let rows = "\"a\nb\",5e-6,2600,1,2\n5\" pipe,5e-6,2600,1,2\n\"c\n\",5e-6,2600,1,2\n";
     let output = classified((header.to_owned() + rows).as_bytes(), "rigid-body");
     assert_eq!(output.status, 0, "{}", output.complaint());
+}
+
+/// Comments may have quotes that are not closed. A name may begin with # in quotes, and a single dash is a value that is missing.
+#[test]
+fn comments_and_rules_are_no_rows() {
+    let table = "=====,=====\nname,radius_m,density_kg_m3,restitution,speed_normal_m_s\n----,----,---,-,-\n# in 5\" pipe, 3 times\n\
+                 a,5e-6,2600,1,2\n==,==,==,==,==\n\"# again\",,,,\n\"#2\",5e-6,2600,1,3\n#c,5e-6,2600,1,4\n-,-,-,-,-\n# end\n";
+    let output = classified(table.as_bytes(), "rigid-body");
+    let written = Written::read(&output.stdout, b',');
+    let names: Vec<_> = (0..written.rows.len()).map(|row| written.text(row, "name")).collect();
+    assert_eq!(names, ["a", "#2", "-"], "{}", output.complaint());
+    assert_eq!([0, 1].map(|row| written.number(row, "rebound_speed_m_s")), [2.0, 3.0]);
+    // A result is read again with all of its rows.
+    assert_eq!(Written::read(&classified(&output.stdout, "rigid-body").stdout, b',').rows.len(), 3);
+    assert_eq!((output.status, written.text(2, "rebound_speed_m_s")), (1, ""));
 }
 
 /// A result means the same to every command that reads it.

@@ -279,7 +279,12 @@ fn columns_used_defaulted_and_not_read() {
     // Without unread or absent columns there is no such line.
     let all = "radius_m,density_kg_m3,stiffness_pa,adhesion_n_m,zeta_h,zeta_a,external_force_n,law,work_of_adhesion_j_m2,damping,\
                damping_value,end_rule\n2.5e-6,2600,7.5e10,250,10.5,6.25,0,,,,,\n";
-    assert_eq!(said(all, "critical", &[]).lines().count(), 1);
+    let complaint = said(all, "critical", &[]);
+    let lines: Vec<_> = complaint.lines().collect();
+    assert!(
+        lines.len() == 2 && lines[1].starts_with("critical: empty cells, and what is used: law in 1"),
+        "{complaint}"
+    );
     let absent = said("radius_m,density_kg_m3,stiffness_pa,zeta\n2.5e-6,2600,7.5e10,1\n", "critical", &[]);
     assert!(absent.contains("adhesion_n_m (0 N/m), zeta_h (0), zeta_a (0), external_force_n (0 N)"), "{absent}");
     let measured = said(
@@ -354,4 +359,39 @@ fn the_list_names_all_columns() {
         }
         assert!(count >= 7, "{said}");
     }
+}
+
+/// A default that takes the place of an empty cell is named, but none that the row replaces by another column.
+#[test]
+fn empty_cells_and_what_is_used() {
+    let words = |command: &str, arguments: &[&str], table: &str| {
+        let output = microimpact(command, &[&["-"], arguments].concat(), table.as_bytes());
+        assert_eq!(output.status, 0, "{}", output.complaint());
+        let complaint = output.complaint();
+        complaint.lines().find_map(|line| Some(line.split_once("empty cells, and what is used: ")?.1.to_owned()))
+    };
+    let header = "radius_um,density_kg_m3,friction,restitution,restitution_speed_m_s,speed_normal_m_s,spin_rad_s,impulse_ratio\n";
+    let filled = "5,2600,0.1,0.9,,3,1e3,\n";
+    for format in ["table", "csv"] {
+        let of = |rows: &str| words("classify", &["--format", format], &(header.to_owned() + rows));
+        // An impulse ratio that is empty leaves the matter to friction.
+        assert_eq!(of(filled).as_deref(), Some("impulse_ratio in 1 of 1 rows (as friction gives it)"));
+        assert_eq!(of("5,2600,,0.9,,3,1e3,0\n"), None);
+        assert_eq!(
+            of(&("5,2600, ,,130,3,\u{a0},\n".to_owned() + &"5,2600,0.1,0.9,,3,1e3,0\n".repeat(200))).as_deref(),
+            Some(
+                "spin_rad_s in 1 of 201 rows (0 rad/s), friction in 1 of 201 rows (0), \
+                 impulse_ratio in 1 of 201 rows (as friction gives it)"
+            )
+        );
+    }
+    let measured = "radius_um,density_kg_m3,speed_normal_m_s,rebound_speed_m_s,speed_tangential_out_m_s,velocity_error_mm_s\n\
+                    5,2600,3,2,0,20\n5,2600,3,2,0,\n";
+    assert_eq!(words("analyse", &[], measured).as_deref(), Some("velocity_error_mm_s in 1 of 2 rows (0.01 m/s)"));
+    // Components of a vector have a default, the vector of a row in a plane none.
+    let mixed = "radius_um,density_kg_m3,restitution,speed_normal_m_s,velocity_x_m_s,velocity_z_m_s,normal_z,spin_rad_s\n\
+                 5,2600,0.9,3,,,,1\n5,2600,0.9,,,-3,1,\n";
+    assert_eq!(words("classify", &[], mixed).as_deref(), Some("velocity_x_m_s in 1 of 2 rows (0 m/s)"));
+    let forces = "radius_um,density_kg_m3,stiffness_pa,speed_normal_m_s,zeta_h\n5,2600,7.5e10,3,\n";
+    assert_eq!(words("trajectory", &[], forces).as_deref(), Some("zeta_h in 1 of 1 rows (0)"));
 }

@@ -17,13 +17,13 @@ pub struct Input {
     /// What the command uses where no column gives it; `None` if it is required.
     default: Option<&'static str>,
     /// What the command uses for each component that is absent from a vector, if the columns are those of a vector.
-    component: Option<&'static str>,
+    pub(crate) component: Option<&'static str>,
     /// Columns of which a table must have one, if any are named here, and columns of which it must have none: else nothing is
     /// said where this input is absent.
-    with: &'static [&'static str],
-    without: &'static [&'static str],
+    pub(crate) with: &'static [&'static str],
+    pub(crate) without: &'static [&'static str],
     /// A column that this input replaces in a row that gives both, and what to say then.
-    replaces: Option<(&'static str, &'static str)>,
+    pub(crate) replaces: Option<(&'static str, &'static str)>,
 }
 
 impl Input {

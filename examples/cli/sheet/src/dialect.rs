@@ -63,9 +63,9 @@ fn is_comment(line: &[u8]) -> bool {
     text.strip_prefix(b"\"").unwrap_or(text).starts_with(b"#")
 }
 
-/// Whether a line has no cell with a text.
+/// Whether a line has no cell with a text, or is a rule.
 fn is_blank(line: &[u8]) -> bool {
-    line.iter().all(|byte| byte.is_ascii_whitespace() || DELIMITERS.contains(byte) || *byte == b'"')
+    line.iter().all(|byte| byte.is_ascii_whitespace() || DELIMITERS.contains(byte) || b"\"-=".contains(byte))
 }
 
 /// The mark that separates the cells of a header.

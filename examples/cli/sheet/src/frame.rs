@@ -6,6 +6,7 @@ use rustc_hash::FxHashMap;
 use crate::columns::{self, Header, Input};
 use crate::decimal::{Cell, Convention};
 use crate::dialect::Dialect;
+use crate::empty::CellDefault;
 use crate::header::Heading;
 use crate::row::Row;
 
@@ -16,9 +17,12 @@ pub struct Frame {
     pub(crate) names: Vec<String>,
     places: FxHashMap<String, usize>,
     pub(crate) inputs: Vec<Input>,
+    pub(crate) defaults: Vec<CellDefault>,
     pub(crate) convention: Convention,
     pub(crate) dialect: Dialect,
     pub(crate) byte_order_mark: bool,
+    /// Which sheet of a workbook of several it is, in words.
+    pub(crate) sheet: Option<String>,
 }
 
 impl Frame {
@@ -31,7 +35,20 @@ impl Frame {
     ) -> Self {
         let names: Vec<_> = headings.iter().map(|heading| heading.name.clone()).collect();
         let places = names.iter().cloned().enumerate().map(|(index, name)| (name, index)).collect();
-        Self { headings, names, places, inputs: inputs.to_vec(), convention, dialect, byte_order_mark }
+        let inputs = inputs.to_vec();
+        let mut frame = Self {
+            headings,
+            names,
+            places,
+            inputs,
+            defaults: Vec::new(),
+            convention,
+            dialect,
+            byte_order_mark,
+            sheet: None,
+        };
+        frame.defaults = CellDefault::all(&frame, &frame.inputs);
+        frame
     }
 
     /// The place of a column.
@@ -51,11 +68,13 @@ impl Frame {
         Row { frame: self, cells, number, replaced: Vec::new() }
     }
 
-    /// Which columns are used, which are absent and what is used instead, and which are not read, in one to three lines.
+    /// Which columns are used, which are absent and what is used instead, and which are not read, in one to three lines;
+    /// before them which sheet of a workbook is read, if it has several.
     /// `computed` are the names of columns that will be added.
     #[must_use]
     pub fn columns_in_words(&self, computed: &[String]) -> String {
-        columns::in_words(&self.headings, &self.inputs, computed)
+        let sheet = self.sheet.as_ref().map_or_else(String::new, |sheet| format!("{sheet}\n  "));
+        sheet + &columns::in_words(&self.headings, &self.inputs, computed)
     }
 
     /// A cell, for a message about its decimal mark.

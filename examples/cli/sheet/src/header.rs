@@ -1,8 +1,8 @@
 //! Which column of a header is which, and in which unit.
 
-use crate::Input;
 use crate::catalogue::Column;
 use crate::units::{Unit, is_unit, unit_by_suffix, unit_in, units_of};
+use crate::{Input, LABEL};
 
 /// A cell of a header.
 #[derive(Clone, Debug)]
@@ -53,18 +53,27 @@ impl Heading {
     /// Gives a heading without a unit that of a row of units.
     ///
     /// # Errors
-    /// The unit is none of the column's quantity, or contradicts that of the header.
+    /// The unit is unknown, none of the column's quantity, or contradicts that of the header.
     pub(crate) fn add_unit(&mut self, unit: &str, inputs: &[Input]) -> Result<(), String> {
         let (words, brackets) = split(&self.text);
-        if unit.is_empty() || brackets.is_some() {
+        let unit = unit.trim_matches(['[', ']', '(', ')']);
+        // A dash states no unit, and labels have none.
+        if matches!(unit, "" | "-" | "–") || brackets.is_some() || self.name == LABEL {
             return Ok(());
         }
-        let unit = unit.trim_matches(['[', ']', '(', ')']);
         let is_read = inputs.iter().any(|input| input.columns().contains(&self.name.as_str()));
+        let is_that_of_name = || {
+            let stated = unit_in(units_of(Column::named(&self.name)?.unit), unit)?;
+            Some(self.unit.map_or(stated.is_si(), |named| named == stated))
+        };
+        if is_read && is_that_of_name() == Some(true) {
+            return Ok(());
+        }
+        // A name of a number without a unit leaves open whether it is in per cent.
+        let is_open = !is_read || Column::named(&self.name).is_some_and(|column| column.unit == "1");
         match Self::of(&format!("{words} [{unit}]"), inputs) {
-            Ok(with_unit) if !is_read => *self = with_unit,
-            Ok(with_unit) if with_unit.name == self.name && with_unit.unit == self.unit => {}
-            Err(reason) if !is_read => return Err(reason),
+            Ok(with_unit) if is_open => *self = with_unit,
+            Err(reason) if is_open => return Err(reason),
             _ => {
                 return Err(format!(
                     "{}: the row below the header says \"{unit}\", which is not the unit in the name; correct one of them",
@@ -84,6 +93,11 @@ impl Heading {
     fn may_be_read(&self, inputs: &[Input]) -> bool {
         let mut columns = inputs.iter().flat_map(|input| input.columns()).copied();
         columns.any(|name| name == self.name || Column::named(name).is_some_and(|column| column.base() == self.given))
+    }
+
+    /// The name by which a message about a cell calls the column: that of the header, if its unit is another.
+    pub(crate) fn name_in_messages(&self) -> &str {
+        if self.unit.is_some() { &self.text } else { &self.name }
     }
 
     /// The heading as a message names it: the name as it was given, with the unit that its numbers have.
@@ -142,15 +156,19 @@ fn in_brackets(
     refused.map_or(Ok(None), Err)
 }
 
-/// Whether cells are the units of the columns above them: no numbers, one unit at least, and nothing else below a column that
-/// the command may read.
+/// Whether cells are the units of the columns above them: no numbers, and a unit below a column that the command may read, or units
+/// and empty cells alone. One of them may be a unit that the program does not know, which [`Heading::add_unit`] refuses.
 pub(crate) fn is_unit_row(headings: &[Heading], cells: &[String], inputs: &[Input]) -> bool {
-    let unit = |cell: &str| is_unit(cell) && cell != "1";
-    let possible = |(index, cell): (usize, &String)| match cell.as_str() {
-        "" | "-" | "–" | "1" | "[]" | "[-]" => true,
-        cell if unit(cell) => true,
-        cell if cell.replace(',', ".").parse::<f64>().is_ok() => false,
-        _ => headings.get(index).is_none_or(|heading| !heading.may_be_read(inputs)),
-    };
-    cells.iter().enumerate().all(possible) && cells.iter().any(|cell| unit(cell))
+    let is_one_of_units = |cell: &String| is_unit(cell) && cell != "1";
+    let is_number = |cell: &String| cell != "1" && cell.replace(',', ".").parse::<f64>().is_ok();
+    let is_below_read = |index: usize| headings.get(index).is_some_and(|heading| heading.may_be_read(inputs));
+    let mut units = cells.iter().enumerate().filter(|(_, cell)| is_one_of_units(cell)).peekable();
+    let says_nothing = |cell: &String| matches!(cell.as_str(), "" | "-" | "–" | "1" | "[]" | "[-]");
+    units.peek().is_some()
+        && !cells.iter().any(is_number)
+        && (units.any(|(index, _)| is_below_read(index))
+            || cells
+                .iter()
+                .enumerate()
+                .all(|(index, cell)| is_one_of_units(cell) || says_nothing(cell) || !is_below_read(index)))
 }

@@ -8,6 +8,7 @@ pub mod catalogue;
 mod columns;
 mod decimal;
 mod dialect;
+mod empty;
 mod frame;
 mod header;
 mod refusal;
@@ -28,6 +29,7 @@ pub use csv::ByteRecord;
 pub use columns::{Header, Input, LABEL};
 pub use decimal::Decimal;
 use decimal::{Convention, JUDGED_ROWS, Judge};
+pub use empty::EmptyCells;
 pub use frame::Frame;
 use header::{Heading, is_unit_row};
 pub use rename::{headings, rename};
@@ -36,6 +38,9 @@ use row::text;
 use source::{Guard, Source};
 pub use value::{Scalar, Value};
 pub use writer::{RowWriter, Rows, Shape, write_records};
+
+/// What begins a comment. A cell that begins with it has quotes, and is none.
+const COMMENT: u8 = b'#';
 
 /// A table that is read row by row.
 pub struct Sheet<'a> {
@@ -48,6 +53,7 @@ pub struct Sheet<'a> {
     current: ByteRecord,
     /// Rows that were given out.
     given: usize,
+    empty: EmptyCells,
 }
 
 impl<'a> Sheet<'a> {
@@ -59,11 +65,20 @@ impl<'a> Sheet<'a> {
     /// cells may separate thousands.
     pub fn open(source: impl Read + 'a, inputs: &[Input], decimal: Option<Decimal>) -> Result<Self, String> {
         let source = Source::of(source)?;
+        let sheet = source.sheet.clone();
+        Self::of(source, inputs, decimal).map_err(|reason| match sheet {
+            Some(sheet) => format!("{reason}; {sheet}"),
+            None => reason,
+        })
+    }
+
+    fn of(source: Source<'a>, inputs: &[Input], decimal: Option<Decimal>) -> Result<Self, String> {
         let guard = Guard::default();
         let mut lines = BufReader::new(source.text);
         let (dialect, header_line) = dialect::read(&mut lines)?;
         let bytes: Box<dyn Read + 'a> = Box::new(guard.over(source::in_utf8(header_line, lines)));
-        let mut rows = csv::ReaderBuilder::new().delimiter(dialect.delimiter).flexible(true).from_reader(bytes);
+        let mut rows = csv::ReaderBuilder::new();
+        let mut rows = rows.delimiter(dialect.delimiter).flexible(true).comment(Some(COMMENT)).from_reader(bytes);
         let header = rows.byte_headers().map_err(|error| error.to_string())?.clone();
         let headings: Result<Vec<_>, _> =
             header.iter().map(|cell| Heading::of(&String::from_utf8_lossy(cell), inputs)).collect();
@@ -95,8 +110,9 @@ impl<'a> Sheet<'a> {
                 judge(&headings, inputs, &judged, dialect.delimiter == b',')?
             }
         };
-        let frame = Frame::new(headings, inputs, convention, dialect, source.byte_order_mark);
-        Ok(Self { frame, rows, guard, judged, current: ByteRecord::new(), given: 0 })
+        let mut frame = Frame::new(headings, inputs, convention, dialect, source.byte_order_mark);
+        frame.sheet = source.sheet;
+        Ok(Self { frame, rows, guard, judged, current: ByteRecord::new(), given: 0, empty: EmptyCells::default() })
     }
 
     /// What all rows share.
@@ -119,7 +135,17 @@ impl<'a> Sheet<'a> {
         let mut cells = std::mem::take(&mut self.current);
         let number = self.split().1.read(&mut cells)?;
         self.current = cells;
-        Ok(number.map(|number| self.frame.row(&self.current, number)))
+        let row = number.map(|number| self.frame.row(&self.current, number));
+        if let Some(row) = &row {
+            self.empty.count(row);
+        }
+        Ok(row)
+    }
+
+    /// See [`EmptyCells::in_words`], of the rows that [`next_row`](Self::next_row) gave out.
+    #[must_use]
+    pub fn empty_in_words(&self) -> Option<String> {
+        self.empty.in_words(&self.frame)
     }
 
     /// The names of the columns.
@@ -186,7 +212,24 @@ fn next_cells<R: Read>(rows: &mut csv::Reader<R>, guard: &Guard, number: usize) 
     Ok(read_cells(rows, guard, number, &mut cells)?.then_some(cells))
 }
 
-/// Reads the cells of the next row that is not empty; whether there is one.
+/// Whether a row has no data: all of its cells are empty, only one is not, and begins with # as a comment, or they are a rule
+/// of dashes or equals signs. A single dash is no rule, but says that a value is missing.
+fn is_decoration(cells: &ByteRecord) -> bool {
+    let filled = || cells.iter().map(<[u8]>::trim_ascii).filter(|cell| !cell.is_empty());
+    let Some(first) = filled().next() else {
+        return true;
+    };
+    match first[0] {
+        COMMENT => filled().nth(1).is_none(),
+        b'-' | b'=' => {
+            filled().all(|cell| cell.iter().all(|byte| matches!(byte, b'-' | b'=')))
+                && filled().any(|cell| cell.len() > 1)
+        }
+        _ => false,
+    }
+}
+
+/// Reads the cells of the next row that has data; whether there is one.
 fn read_cells<R: Read>(
     rows: &mut csv::Reader<R>,
     guard: &Guard,
@@ -200,10 +243,10 @@ fn read_cells<R: Read>(
             return Ok(false);
         }
         // A row of several lines whose last quote is not closed has swallowed the rows after it.
-        if guard.is_open_at_end() && rows.position().line() > line + 1 {
+        if guard.is_open_at_end() && cells.as_slice().contains(&b'\n') {
             return Err(format!("row {number}, line {line}: a quote is not closed; close it or remove it"));
         }
-        if cells.iter().any(|cell| !cell.trim_ascii().is_empty()) {
+        if !is_decoration(cells) {
             return Ok(true);
         }
     }

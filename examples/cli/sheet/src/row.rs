@@ -6,6 +6,7 @@ use csv::ByteRecord;
 
 use crate::columns::{Header, LABEL};
 use crate::frame::Frame;
+use crate::header::Heading;
 use crate::value::{Scalar, Value};
 
 /// One row of a table.
@@ -23,6 +24,23 @@ pub(crate) fn text(cells: &ByteRecord, index: usize) -> Cow<'_, str> {
         Cow::Borrowed(text) => Cow::Borrowed(text.trim()),
         Cow::Owned(text) => Cow::Owned(text.trim().to_owned()),
     }
+}
+
+/// Why a cell is refused that is not a number, and what to do.
+fn why_no_number(text: &str) -> &'static str {
+    if text.starts_with('=') {
+        "is a formula without a value; calculate the workbook and save it again, or enter the number"
+    } else if is_date_or_time(text) {
+        "is a date or time; enter the number, and format the cell as a number"
+    } else {
+        "is not a number"
+    }
+}
+
+/// Whether a text is a date or a time, as 2026-09-02, 2/9/2026 or 2:09.
+fn is_date_or_time(text: &str) -> bool {
+    let parts = text.chars().all(|character| character.is_ascii_digit() || "-/:. T".contains(character));
+    parts && (text.contains(':') || text.trim_start_matches('-').matches(['-', '/']).count() > 1)
 }
 
 impl<'a> Row<'a> {
@@ -84,7 +102,7 @@ impl<'a> Row<'a> {
     /// The name by which a message calls a column: that of the header.
     pub(crate) fn name_in_header<'b>(&'b self, column: &'b str) -> &'b str {
         let heading = self.frame.place(column).and_then(|index| self.frame.headings.get(index));
-        heading.filter(|heading| heading.unit.is_some()).map_or(column, |heading| &heading.text)
+        heading.map_or(column, Heading::name_in_messages)
     }
 
     /// The number in a cell, in the unit of the catalogue; `None` if there is no such column or the cell is empty. The column is
@@ -112,7 +130,7 @@ impl<'a> Row<'a> {
             None => with_point,
         };
         let refused = |reason: &str| format!("{}: \"{text}\" {reason}", self.name_in_header(column));
-        let value: T = number.parse().map_err(|_| refused("is not a number"))?;
+        let value: T = number.parse().map_err(|_| refused(why_no_number(&text)))?;
         if value == T::ZERO {
             let mantissa = number.split(['e', 'E']).next().unwrap_or_default();
             if mantissa.contains(|c: char| matches!(c, '1'..='9')) {

@@ -1,4 +1,4 @@
-//! The text of a table, from the bytes of a file: UTF-8, UTF-16, or the first sheet of an xlsx workbook.
+//! The text of a table, from the bytes of a file: UTF-8, UTF-16, or a sheet of an xlsx workbook.
 
 use std::cell::Cell;
 use std::io::{self, Cursor, Read};
@@ -7,7 +7,7 @@ use std::rc::Rc;
 use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use encoding_rs_io::DecodeReaderBytesBuilder;
 
-use crate::workbook;
+use crate::workbook::{self, Worksheet};
 
 /// The first bytes of a zip archive, which an xlsx workbook is.
 const ZIP: &[u8] = b"PK\x03\x04";
@@ -26,6 +26,8 @@ pub(crate) struct Source<'a> {
     pub(crate) text: Box<dyn Read + 'a>,
     /// Whether the result begins with a byte-order mark, as spreadsheets need it.
     pub(crate) byte_order_mark: bool,
+    /// Which sheet it is, if it is from a workbook of several.
+    pub(crate) sheet: Option<String>,
 }
 
 impl<'a> Source<'a> {
@@ -44,7 +46,10 @@ impl<'a> Source<'a> {
         let byte_order_mark = encoding.is_some();
         let all = Cursor::new(start).chain(bytes);
         if is_workbook {
-            return Ok(Self { text: Box::new(Cursor::new(workbook::in_csv(all)?)), byte_order_mark: false });
+            let Worksheet { csv, name, others } = workbook::first_sheet(all)?;
+            let sheet = (!others.is_empty())
+                .then(|| format!("sheet {name} of the workbook is read, and not {}", others.join(", ")));
+            return Ok(Self { text: Box::new(Cursor::new(csv)), byte_order_mark: false, sheet });
         }
         let text: Box<dyn Read + 'a> = match encoding {
             // The decoder leaves out the mark.
@@ -53,7 +58,7 @@ impl<'a> Source<'a> {
             }
             None => Box::new(all),
         };
-        Ok(Self { text, byte_order_mark })
+        Ok(Self { text, byte_order_mark, sheet: None })
     }
 }
 

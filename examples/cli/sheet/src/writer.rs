@@ -4,6 +4,7 @@ use std::io::Write;
 
 use csv::{ByteRecord, Terminator, WriterBuilder};
 
+use crate::COMMENT;
 use crate::decimal::Decimal;
 use crate::frame::Frame;
 use crate::row::Row;
@@ -76,6 +77,7 @@ impl<'a> RowWriter<'a> {
             .delimiter(dialect.delimiter)
             .terminator(terminator)
             .flexible(true)
+            .comment(Some(COMMENT))
             .buffer_capacity(BUFFER)
             .from_writer(Vec::with_capacity(BUFFER))
     }
@@ -177,7 +179,7 @@ pub fn write_records(
     to: &mut dyn Write,
 ) -> std::io::Result<()> {
     if shape == Shape::Csv {
-        let mut rows = csv::Writer::from_writer(to);
+        let mut rows = WriterBuilder::new().comment(Some(COMMENT)).from_writer(to);
         rows.write_record(names)?;
         for record in records {
             rows.write_record(record.iter().map(|value| value.text(Decimal::Point)))?;

@@ -18,8 +18,10 @@ use crate::command::{Reading, exit_status, open};
 use answer::Answer;
 pub use rows::INPUTS;
 
-/// Fit restitution laws and laws of contact to measured impacts: the law, its parameters and the critical speed with intervals
-/// of 95 %, or that no law fits, or that the data are not enough.
+/// Fit restitution laws and laws of contact to measured impacts
+///
+/// The result is the law, its parameters and the critical speed with intervals of 95 %, or that no law fits, or that the data are
+/// not enough.
 ///
 /// Input columns, in SI units. Only the first and one of the second are required.
 ///   speed_normal_m_s (approach speed, a positive number),
@@ -36,9 +38,9 @@ pub use rows::INPUTS;
 /// speed, or impacts rebound far below its critical speed (p < 0.001). Where several laws fit and Akaike's criterion differs by
 /// less than 6, the data do not tell them apart; the paper's speed-restitution is stated if it is one of them.
 #[derive(Args)]
-#[command(verbatim_doc_comment, after_help = EXAMPLE, after_long_help = format!("{EXAMPLE}\n{HELP}"))]
+#[command(verbatim_doc_comment, after_help = format!("{SHORT}\n{EXAMPLE}\n{STATUS}"), after_long_help = format!("{EXAMPLE}\n{HELP}\n\n{STATUS}"))]
 pub struct Options {
-    /// CSV file of impacts; `-` for standard input.
+    /// CSV or xlsx file of impacts; `-` for standard input.
     file: PathBuf,
     /// Format of the result.
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -66,10 +68,17 @@ Example:
 const HELP: &str = "\
 JSON: law (none if no law fits), fits (true, false, or null with a reason), p_value, parameters (each with value, low and high;
 high is null where the data set no bound), candidates (all laws, with the difference of Akaike's criterion and p), told_apart and
-indistinguishable_laws, assumptions. With different diameters, work and critical speed are those of the median diameter.
+indistinguishable_laws, assumptions. With different diameters, work and critical speed are those of the median diameter.";
 
-Exit status: 0 if there is an answer, which may be that no law fits or that the data are not enough; 2 if the command fails,
-for example because it cannot read the table.";
+const SHORT: &str = "\
+The laws: constant, speed-restitution, elastic-plastic and viscoelastic restitution, each with a work of adhesion, and the contact \
+simulation with the adhesion of ring, dmt or jkr. All compete unless --law names one.
+`cargo microimpact columns fit` lists the columns that it reads; `cargo microimpact man fit` says more of the laws.
+";
+
+const STATUS: &str = "\
+Exit status: 0 if there is an answer, which may be that no law fits or that the data are not enough; 2 if the command fails, for \
+example because a row is bad.";
 
 /// Format of the result.
 #[derive(Clone, Copy, ValueEnum)]

@@ -16,7 +16,7 @@ use clap::{Args, ValueEnum};
 use sheet::{Decimal, Input, Row};
 
 use crate::Streams;
-use crate::command::{Format, Origin, Reading, STATUS, SimulationOptions, TABLE_MANUAL, exit_status, one_row};
+use crate::command::{Format, Origin, Reading, STATUS, SimulationOptions, TABLE_MANUAL, exit_status, one_row, say};
 use distributions::SampleFiles;
 use results::{Questions, Results};
 
@@ -179,6 +179,7 @@ fn run(options: &Options, streams: &mut Streams<'_>) -> Result<usize, Box<dyn Er
         progress.bar().inc(1);
     }
     drop(progress);
+    say(NAME, sheet.empty_in_words(), streams.errors);
     match options.format {
         Format::Table => output::tables(&answers, streams.output)?,
         Format::Csv => output::csv(&answers, streams.output)?,
