@@ -58,43 +58,16 @@ pub fn drop_at_bounds(rows: usize, parameters: usize, scatter_fraction: f64) -> 
 /// Most evaluations for a bound.
 const MOST_TRIES: u32 = 14;
 
-/// Most searches that begin again from a higher maximum.
-const MOST_RESTARTS: u32 = 4;
-
-/// A gain of the likelihood that makes another maximum a better one.
-const BETTER: f64 = 0.01;
-
 /// The interval of a parameter. The likelihood must be at its `maximum`, which is replaced if the search finds a higher one.
 pub fn interval(likelihood: &Likelihood, maximum: &mut Maximum, index: usize, drop: f64) -> Interval {
-    let mut found = bounds(likelihood, maximum, index, drop);
-    for _ in 0..MOST_RESTARTS {
-        let Some(start) = found.1.take() else { break };
-        match maximise(likelihood, &start, None) {
-            Some(higher) if higher.value > maximum.value + BETTER => *maximum = higher,
-            _ => break,
-        }
-        found = bounds(likelihood, maximum, index, drop);
-    }
-    found.0
-}
-
-/// The interval about a maximum, and the parameters of a higher one if the search meets it.
-fn bounds(likelihood: &Likelihood, maximum: &Maximum, index: usize, drop: f64) -> (Interval, Option<Vec<f64>>) {
     let best = maximum.values[index];
-    let mut higher = None;
-    let low = bound(likelihood, maximum, (index, -1.0), drop, &mut higher);
-    let high = bound(likelihood, maximum, (index, 1.0), drop, &mut higher);
-    (Interval { value: best, low: low.min(best), high: high.max(best) }, higher)
+    let low = bound(likelihood, maximum, index, drop, -1.0);
+    let high = bound(likelihood, maximum, index, drop, 1.0);
+    Interval { value: best, low: low.min(best), high: high.max(best) }
 }
 
 /// A bound. The root of the drop is nearly linear in the parameter, so that the secant method converges at once.
-fn bound(
-    likelihood: &Likelihood,
-    maximum: &Maximum,
-    (index, side): (usize, f64),
-    drop: f64,
-    higher: &mut Option<Vec<f64>>,
-) -> f64 {
+fn bound(likelihood: &Likelihood, maximum: &Maximum, index: usize, drop: f64, side: f64) -> f64 {
     let bounds = likelihood.bounds();
     let limit = if side > 0.0 { bounds[index].1 } else { bounds[index].0 };
     let best = maximum.values[index];
@@ -109,9 +82,6 @@ fn bound(
         start[index] = best + side * offset;
         let found = maximise(likelihood, &start, Some(index))?;
         start.clone_from(&found.values);
-        if found.value > maximum.value + BETTER {
-            *higher = Some(found.values);
-        }
         Some((2.0 * (maximum.value - found.value)).max(0.0).sqrt())
     };
     let (mut inside, mut outside): ((f64, f64), Option<(f64, f64)>) = ((0.0, 0.0), None);
