@@ -44,8 +44,11 @@ const LEAST_OF_HARD: f64 = 0.88;
 /// Standard errors by which chance moves a coverage: one of a hundred such numbers lies beyond three by chance in one of eight runs.
 const CHANCE: f64 = 3.0;
 
-/// Largest share of sets in which a true law may be refuted: p < 0.001 in one of a thousand, and chance.
+/// Largest share of sets in which a true law may be refuted: p < 0.001 in one of a thousand, and the approximations of the tests.
 const REFUTED: f64 = 0.002;
+
+/// Probability of as many refuted sets or more that chance does not explain.
+const UNLIKELY: f64 = 0.001;
 
 const QUANTITIES: [&str; 3] = ["k", "W_A", "v_c"];
 
@@ -88,14 +91,26 @@ fn measure(fit: Fit, configuration: &Configuration, options: &Options, faults: &
             faults.push(format!("{by}, {name}: {quantity} is {ratio:.2} times as wide as it could be"));
         }
     }
-    let refuted = results.iter().filter(|held| held.refuted).count() as f64 / count;
-    if refuted > REFUTED + chance(REFUTED) || results.len() < options.sets as usize {
+    let wrong = results.iter().filter(|held| held.refuted).count();
+    let refuted = wrong as f64 / count;
+    if at_least(wrong, results.len(), REFUTED) < UNLIKELY || results.len() < options.sets as usize {
         faults.push(format!("{by}, {name}: {refuted:.3} of {count} sets refute the true law"));
     }
     println!(
         "{by:10} {name:24} {count:>6} {:>24} {:>24} {:>24} {refuted:>9.3} {time:>6.1}",
         columns[0], columns[1], columns[2]
     );
+}
+
+/// Probability that at least `seen` of `count` sets are refuted, each with a probability (binomial distribution).
+fn at_least(seen: usize, count: usize, probability: f64) -> f64 {
+    let mut term = (1.0 - probability).powf(count as f64);
+    let mut below = 0.0;
+    for number in 0..seen {
+        below += term;
+        term *= (count - number) as f64 / (number + 1) as f64 * probability / (1.0 - probability);
+    }
+    1.0 - below
 }
 
 fn median(values: impl Iterator<Item = f64>) -> f64 {
