@@ -46,11 +46,6 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// Reads tables with this decimal mark.
-    pub fn with(decimal: Decimal) -> Self {
-        Self { decimal: Some(decimal) }
-    }
-
     /// Opens a table, and says on standard error which of its columns a command reads. `computed` are the columns that it will
     /// add to it.
     ///
@@ -68,6 +63,27 @@ impl Reading {
         // If standard error is closed, nobody wants to know.
         let _ = write!(errors, "{command}: {}", sheet.columns_in_words(&computed(&sheet.header())));
         Ok(sheet)
+    }
+
+    /// Opens the table of one row that [`one_row`] made, or else a table. No column is added to it.
+    ///
+    /// # Errors
+    /// What is wrong with the table, in words.
+    pub fn open_either<'a>(
+        &self,
+        command: &str,
+        given: Option<&'a str>,
+        source: impl Read + 'a,
+        inputs: &[Input],
+        errors: &mut dyn Write,
+    ) -> Result<Sheet<'a>, String> {
+        match given {
+            Some(text) => {
+                let reading = Self { decimal: Some(Decimal::Point) };
+                reading.open(command, text.as_bytes(), inputs, |_| Vec::new(), errors)
+            }
+            None => self.open(command, source, inputs, |_| Vec::new(), errors),
+        }
     }
 }
 

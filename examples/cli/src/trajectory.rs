@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use microimpact::contact::{Adaptive, Recording, Sample, Status, Trajectory};
-use sheet::{Decimal, Input, Row, Sheet, Value};
+use sheet::{Input, Row, Sheet, Value};
 
 use crate::Streams;
 use crate::classify::{arrival, scene};
@@ -76,13 +76,7 @@ impl Options {
         let given = one_row(&self.given)?;
         let inputs = inputs();
         let Origin { source, progress: _progress } = Origin::of(self.file.as_deref(), BUNDLED, streams.input)?;
-        let mut sheet = match &given {
-            Some(text) => {
-                let reading = Reading::with(Decimal::Point);
-                reading.open(NAME, text.as_bytes(), &inputs, |_| Vec::new(), streams.errors)?
-            }
-            None => self.reading.open(NAME, source, &inputs, |_| Vec::new(), streams.errors)?,
-        };
+        let mut sheet = self.reading.open_either(NAME, given.as_deref(), source, &inputs, streams.errors)?;
         let (records, curves, bad_rows) = samples(&mut sheet, &method)?;
         write_records(self.format, &COLUMNS, 1, records, streams.output)?;
         say(NAME, sheet.empty_in_words(), streams.errors);

@@ -4,6 +4,9 @@
 //! error of the approach speed moves a rebound by the rise of the curve. Both errors and the natural scatter of e give the variance of
 //! w^2 about the curve. The slopes and the variance are taken at the point of the curve that is nearest to the measured one: its error is
 //! not correlated with the distance from the curve, so that the estimate has no bias from errors of the approach speed (Fuller 1987).
+//!
+//! What several loops call is never inlined, here and in the other files of the fit: its copies would not fit the flash of a small board
+//! that computes in software.
 
 use super::MeasuredImpact;
 use super::curve::Curve;

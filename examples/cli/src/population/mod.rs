@@ -13,7 +13,7 @@ use std::error::Error;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use sheet::{Decimal, Input, Row};
+use sheet::{Input, Row};
 
 use crate::Streams;
 use crate::command::{Format, Origin, Reading, STATUS, SimulationOptions, TABLE_MANUAL, exit_status, one_row, say};
@@ -166,13 +166,7 @@ fn run(options: &Options, streams: &mut Streams<'_>) -> Result<usize, Box<dyn Er
     let inputs = options.inputs(&samples);
     let given = one_row(&options.given)?;
     let Origin { source, progress } = Origin::of(options.file.as_deref(), BUNDLED, streams.input)?;
-    let mut sheet = match &given {
-        Some(text) => {
-            let reading = Reading::with(Decimal::Point);
-            reading.open(NAME, text.as_bytes(), &inputs, |_| Vec::new(), streams.errors)?
-        }
-        None => options.reading.open(NAME, source, &inputs, |_| Vec::new(), streams.errors)?,
-    };
+    let mut sheet = options.reading.open_either(NAME, given.as_deref(), source, &inputs, streams.errors)?;
     let mut answers: Vec<Answer> = Vec::new();
     while let Some(row) = sheet.next_row()? {
         answers.push((row.label(), options.answer(&row, &samples, &questions)));
