@@ -1,4 +1,4 @@
-"""A sweep over radius and speed in two processes: dask hands blocks of arrays to them."""
+"""Impacts over many radii and speeds in two processes: dask gives each of them blocks of the arrays."""
 
 import dask
 import dask.array as da

@@ -1,4 +1,4 @@
-"""The same sweep on the ranks of MPI, each of which takes a part of the radii: mpiexec -n 2 python mpi_sweep.py"""
+"""The same impacts in processes of MPI, each of which takes a part of the radii: mpiexec -n 2 python mpi_sweep.py"""
 
 import numpy as np
 from mpi4py import MPI

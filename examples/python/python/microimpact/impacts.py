@@ -145,6 +145,14 @@ class Impacts:
         """The argument that was refused in each impact; empty where none was."""
         return np.asarray(np.array([*_native.PARAMETERS, ""])[self._parameter])
 
+    def with_margin(self, speed_normal: npt.ArrayLike, critical: Float) -> Impacts:
+        """Adds the quantity `speed_over_critical`: infinite where every speed rebounds, zero where none does."""
+        with np.errstate(divide="ignore"):
+            margin = np.asarray(speed_normal, dtype=np.float64) / critical
+        margin = np.broadcast_to(margin, self.status.shape)
+        self.quantities["speed_over_critical"] = np.where(self.impact_class == Class.NONE, np.nan, margin)
+        return self
+
     def __repr__(self) -> str:
         counts = ((name, int((self.impact_class == code).sum())) for code, name in enumerate(CLASSES))
         words = ", ".join(f"{count} {name}" for name, count in counts if count)

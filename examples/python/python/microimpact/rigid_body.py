@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
 import numpy.typing as npt
 
 from . import _native
 from .arrays import Float, one_number, rows
 from .distributions import Distributed
-from .impacts import AT_WALL, OF_TWO, PLANAR, Class, Impacts, outputs_of, shaped
+from .impacts import AT_WALL, OF_TWO, PLANAR, Impacts, outputs_of, shaped
 from .motions import AT_REST, UPRIGHT, Numbers, at_wall, in_plane, of_two
 from .population import Population
 
@@ -114,11 +113,7 @@ class RigidBody:
         does.
         """
         impacts = self._classified(in_plane(speed_normal, speed_tangential, spin), PLANAR, outputs, errors)
-        with np.errstate(divide="ignore"):
-            margin = np.asarray(speed_normal, dtype=np.float64) / self.critical_speed(errors=errors)
-        margin = np.broadcast_to(margin, impacts.status.shape)
-        impacts.quantities["speed_over_critical"] = np.where(impacts.impact_class == Class.NONE, np.nan, margin)
-        return impacts
+        return impacts.with_margin(speed_normal, self.critical_speed(errors=errors))
 
     def strike(
         self,
