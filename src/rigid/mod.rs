@@ -20,7 +20,7 @@ pub use inverse::{Departure, infer, infer_assuming_rolling, infer_with_spins};
 pub use microforce::{Microforce, MicroforceTerm, NoMicroforce};
 pub use normal::NormalImpact;
 pub use restitution::{
-    ConstantRestitution, ElasticPlasticRestitution, PowerRestitution, RestitutionLaw, SpeedRestitution,
+    AnyRestitution, ConstantRestitution, ElasticPlasticRestitution, PowerRestitution, RestitutionLaw, SpeedRestitution,
     TabulatedRestitution, ViscoelasticRestitution,
 };
 pub use tangential::{RollingDissipation, TangentialImpact, TangentialOutcome, TangentialTerm};

@@ -42,4 +42,4 @@ pub use contacts::{Contacts, Damping, Law, Surface};
 pub use impacts::{Impacts, RowStatus};
 pub use motions::Motions;
 pub use quantity::Quantity;
-pub use rigid_bodies::{Adhesion, AnyRestitution, Restitution, RigidBodies};
+pub use rigid_bodies::{Adhesion, Restitution, RigidBodies};

@@ -1,11 +1,9 @@
 //! Rows by the rigid-body model.
 
 use microimpact::rigid::{
-    ElasticPlasticRestitution, PowerRestitution, ReboundAdhesion, RollingDissipation, SpeedRestitution,
+    AnyRestitution, ElasticPlasticRestitution, PowerRestitution, ReboundAdhesion, RollingDissipation, SpeedRestitution,
 };
-use microimpact::{
-    Class, ConstantRestitution, CriticalSpeed, InputError, Parameter, RestitutionLaw, RigidBody, Sphere,
-};
+use microimpact::{Class, ConstantRestitution, CriticalSpeed, InputError, Parameter, RigidBody, Sphere};
 use rayon::prelude::*;
 
 use crate::impacts::{Record, gather};
@@ -63,63 +61,26 @@ pub enum Adhesion<'a> {
     },
 }
 
-/// A restitution law that is chosen at run time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AnyRestitution {
-    /// The same at every speed.
-    Constant(ConstantRestitution<f64>),
-    /// R = k/(k + v).
-    Speed(SpeedRestitution<f64>),
-    /// R = k^p/(k^p + v^p).
-    Power(PowerRestitution<f64>),
-    /// That of an elastic-plastic sphere.
-    ElasticPlastic(ElasticPlasticRestitution<f64>),
-}
-
-impl RestitutionLaw<f64> for AnyRestitution {
-    fn restitution(&self, speed: f64) -> f64 {
-        match self {
-            Self::Constant(law) => law.restitution(speed),
-            Self::Speed(law) => law.restitution(speed),
-            Self::Power(law) => law.restitution(speed),
-            Self::ElasticPlastic(law) => law.restitution(speed),
-        }
-    }
-
-    fn approach_speed(&self, body_rebound: f64) -> Option<f64> {
-        match self {
-            Self::Constant(law) => law.approach_speed(body_rebound),
-            Self::Speed(law) => law.approach_speed(body_rebound),
-            Self::Power(law) => law.approach_speed(body_rebound),
-            Self::ElasticPlastic(law) => law.approach_speed(body_rebound),
-        }
-    }
-}
-
 impl Restitution<'_> {
     /// The law of a row.
     ///
     /// # Errors
     /// A number outside its range.
-    pub fn at(&self, row: usize) -> Result<AnyRestitution, InputError> {
+    pub fn at(&self, row: usize) -> Result<AnyRestitution<f64>, InputError> {
         match self {
-            Self::Constant(restitution) => ConstantRestitution::new(restitution.at(row)).map(AnyRestitution::Constant),
+            Self::Constant(restitution) => ConstantRestitution::new(restitution.at(row)).map(Into::into),
             // The law of the paper needs no powers.
             Self::Power { speed, power } if power.at(row) == 1.0 => {
-                SpeedRestitution::new(speed.at(row)).map(AnyRestitution::Speed)
+                SpeedRestitution::new(speed.at(row)).map(Into::into)
             }
-            Self::Power { speed, power } => {
-                PowerRestitution::new(speed.at(row), power.at(row)).map(AnyRestitution::Power)
-            }
-            Self::ElasticPlastic(speed) => {
-                ElasticPlasticRestitution::new(speed.at(row)).map(AnyRestitution::ElasticPlastic)
-            }
+            Self::Power { speed, power } => PowerRestitution::new(speed.at(row), power.at(row)).map(Into::into),
+            Self::ElasticPlastic(speed) => ElasticPlasticRestitution::new(speed.at(row)).map(Into::into),
         }
     }
 }
 
 /// A rigid body with its adhesion.
-type Body<A> = RigidBody<f64, AnyRestitution, A, RollingDissipation<f64>>;
+type Body<A> = RigidBody<f64, AnyRestitution<f64>, A, RollingDissipation<f64>>;
 
 /// Computes the same with each adhesion, which is part of the type of a rigid body.
 macro_rules! with_adhesion {
@@ -148,7 +109,7 @@ impl RigidBodies<'_> {
         Sphere::new(self.radius.at(row), self.density.at(row), self.gyration_ratio.at(row))
     }
 
-    fn with_surface<A>(&self, body: RigidBody<f64, AnyRestitution, A>, row: usize) -> Result<Body<A>, InputError> {
+    fn with_surface<A>(&self, body: RigidBody<f64, AnyRestitution<f64>, A>, row: usize) -> Result<Body<A>, InputError> {
         body.with_friction(self.friction.at(row))?.with_rolling_dissipation(self.rolling_arm.at(row))
     }
 

@@ -1,7 +1,7 @@
 //! What a row of a table states: the sphere and its motion, and the restitution of a rigid body.
 
-use microimpact::rigid::{ElasticPlasticRestitution, PowerRestitution};
-use microimpact::{ConstantRestitution, Real, RestitutionLaw, SpeedRestitution};
+use microimpact::rigid::{AnyRestitution, ElasticPlasticRestitution, PowerRestitution};
+use microimpact::{ConstantRestitution, Real, SpeedRestitution};
 use sheet::{Input, Row, Scalar};
 
 /// The numbers of a peeling moment.
@@ -44,46 +44,17 @@ pub const MOTION_INPUTS: [Input; 3] = [
     Input::optional(&["spin_rad_s"], "0 rad/s"),
 ];
 
-/// A restitution law, chosen at run time.
-#[derive(Clone, Copy)]
-pub enum AnyRestitution<T> {
-    Constant(ConstantRestitution<T>),
-    Speed(SpeedRestitution<T>),
-    Power(PowerRestitution<T>),
-    ElasticPlastic(ElasticPlasticRestitution<T>),
-}
-
-impl<T: Real> RestitutionLaw<T> for AnyRestitution<T> {
-    fn restitution(&self, speed: T) -> T {
-        match self {
-            Self::Constant(law) => law.restitution(speed),
-            Self::Speed(law) => law.restitution(speed),
-            Self::Power(law) => law.restitution(speed),
-            Self::ElasticPlastic(law) => law.restitution(speed),
-        }
-    }
-
-    fn approach_speed(&self, body_rebound: T) -> Option<T> {
-        match self {
-            Self::Constant(law) => law.approach_speed(body_rebound),
-            Self::Speed(law) => law.approach_speed(body_rebound),
-            Self::Power(law) => law.approach_speed(body_rebound),
-            Self::ElasticPlastic(law) => law.approach_speed(body_rebound),
-        }
-    }
-}
-
 /// The restitution law of a row, in numbers that `number` makes of those in its cells.
 pub fn restitution_law<T: Scalar, N: Real>(row: &Row<'_>, number: fn(T) -> N) -> Result<AnyRestitution<N>, String> {
     let power = row.number("restitution_power")?.map(number);
     let given = (row.number("restitution")?, row.number("restitution_speed_m_s")?, row.number("yield_speed_m_s")?);
     let law = match given {
-        (Some(r), None, None) => ConstantRestitution::new(number(r)).map(AnyRestitution::Constant),
+        (Some(r), None, None) => ConstantRestitution::new(number(r)).map(Into::into),
         (None, Some(k), None) => match power {
-            Some(power) => PowerRestitution::new(number(k), power).map(AnyRestitution::Power),
-            None => SpeedRestitution::new(number(k)).map(AnyRestitution::Speed),
+            Some(power) => PowerRestitution::new(number(k), power).map(Into::into),
+            None => SpeedRestitution::new(number(k)).map(Into::into),
         },
-        (None, None, Some(speed)) => ElasticPlasticRestitution::new(number(speed)).map(AnyRestitution::ElasticPlastic),
+        (None, None, Some(speed)) => ElasticPlasticRestitution::new(number(speed)).map(Into::into),
         (None, None, None) => {
             return Err("restitution: missing; give restitution, restitution_speed_m_s or yield_speed_m_s".into());
         }

@@ -50,6 +50,7 @@ const OF_THE_RIGID_BODY: [Term; 5] = [
             "ElasticPlasticRestitution",
             "ViscoelasticRestitution",
             "TabulatedRestitution",
+            "AnyRestitution",
             "SpeedAdhesion",
         ],
         methods: &["with_adhesion_at_speed"],

@@ -2,7 +2,7 @@
 
 use microimpact::contact::{Adaptive, Contact};
 use microimpact::rigid::{
-    AdhesionCoefficient, ElasticPlasticRestitution, PowerRestitution, ReboundAdhesion, SpeedAdhesion,
+    AdhesionCoefficient, AnyRestitution, ElasticPlasticRestitution, PowerRestitution, ReboundAdhesion, SpeedAdhesion,
     TabulatedRestitution, ViscoelasticRestitution, WorkOfAdhesion,
 };
 use microimpact::{
@@ -188,5 +188,25 @@ proptest! {
             check_critical(law, work, pull);
             check_critical(law, by_speed, pull);
         });
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(5), ..ProptestConfig::default() })]
+
+    /// A law that is chosen at run time is the typed one to the last bit.
+    #[test]
+    fn chosen_law_is_the_typed_one(speed in 1e-3_f64..1e2, time in 1e-11_f64..1e-7) {
+        fn check<L: RestitutionLaw<f64> + Into<AnyRestitution<f64>>>(law: L, speed: f64) {
+            let (r, v) = (law.restitution(speed), law.approach_speed(speed));
+            let chosen = law.into();
+            assert_eq!(chosen.restitution(speed).to_bits(), r.to_bits());
+            assert_eq!(chosen.approach_speed(speed).map(f64::to_bits), v.map(f64::to_bits));
+        }
+        check(ConstantRestitution::new(0.7).unwrap(), speed);
+        check(SpeedRestitution::new(30.0).unwrap(), speed);
+        check(PowerRestitution::new(30.0, 0.6).unwrap(), speed);
+        check(ElasticPlasticRestitution::new(0.2).unwrap(), speed);
+        check(ViscoelasticRestitution::new(&sphere(), stiffness(), time).unwrap(), speed);
     }
 }

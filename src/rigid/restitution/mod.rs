@@ -1,5 +1,6 @@
 //! Restitution laws: the kinetic restitution R of the materials, without adhesion (A11).
 
+mod chosen;
 mod constant;
 mod elastic_plastic;
 mod power;
@@ -10,6 +11,7 @@ mod viscoelastic;
 use crate::Real;
 use crate::numbers::inverse;
 
+pub use chosen::AnyRestitution;
 pub use constant::ConstantRestitution;
 pub use elastic_plastic::ElasticPlasticRestitution;
 pub use power::PowerRestitution;

@@ -9,8 +9,7 @@ use sheet::{Input, Row};
 use super::verdict::{POSSIBLE, Verdict};
 use crate::command::Number;
 use crate::inputs::{
-    AnyRestitution, DENSITY_INPUT, GYRATION_INPUT, POWER_INPUT, RESTITUTION_COLUMNS, SIZE_INPUT, radius,
-    restitution_law,
+    DENSITY_INPUT, GYRATION_INPUT, POWER_INPUT, RESTITUTION_COLUMNS, SIZE_INPUT, radius, restitution_law,
 };
 
 /// Results with their derivatives by the six measured velocities: normal, tangential and peripheral, before and after.
@@ -68,7 +67,7 @@ impl<T: Number> Measured<T> {
             restitution_law(row, Dual::fixed)?
         } else {
             // Whatever is lost along the normal is then lost to one of both.
-            AnyRestitution::Constant(ConstantRestitution::new(Dual::fixed(T::ONE)).map_err(|error| row.reason(error))?)
+            ConstantRestitution::new(Dual::fixed(T::ONE)).map_err(|error| row.reason(error))?.into()
         };
         let sphere = sphere(row)?;
         let radius = sphere.radius().value;

@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 
 use microimpact::measure::ClassProbabilities;
-use microimpact::rigid::ReboundAdhesion;
+use microimpact::rigid::{AnyRestitution, ReboundAdhesion};
 use microimpact::{
     Class, Classification, ContactClass, Impact, ImpactError, RigidBody, Sphere, SurfaceMotion, TangentialImpact,
 };
@@ -12,7 +12,7 @@ use sheet::{Header, Input, Row, Value};
 use super::arrival::{self, Arrival};
 use super::uncertain::{Deviations, Inputs, Kind, Probabilities, Reason, Values};
 use crate::command::Number;
-use crate::inputs::{AnyRestitution, FRICTION_INPUT, POWER_INPUT, RESTITUTION_INPUT, restitution_law};
+use crate::inputs::{FRICTION_INPUT, POWER_INPUT, RESTITUTION_INPUT, restitution_law};
 use crate::rows::{BadRow, Work};
 use crate::words::{motion_name, outcome_name};
 

@@ -1,7 +1,7 @@
 //! The scenes of a row.
 
 use microimpact::contact::{Adaptive, Contact};
-use microimpact::rigid::ReboundAdhesion;
+use microimpact::rigid::{AnyRestitution, ReboundAdhesion};
 use microimpact::{Coulomb, InputError, Parameter, RigidBody, Sphere};
 use population::{Distribution, Population, PopulationError, RigidBodies, Simulations, Statistics};
 use sheet::{Input, Row};
@@ -10,9 +10,7 @@ use super::Model;
 use super::distributions::{DIAMETER, Quantity, RING, SPEED, SampleFiles, WORK, WORK_PER_AREA, angles};
 use super::results::{Questions, Results};
 use crate::contact_law::{LAW_INPUTS, RING_INPUT, RowLaw, WORK_INPUT};
-use crate::inputs::{
-    AnyRestitution, DENSITY_INPUT, FRICTION_INPUT, GYRATION_INPUT, POWER_INPUT, RESTITUTION_INPUT, restitution_law,
-};
+use crate::inputs::{DENSITY_INPUT, FRICTION_INPUT, GYRATION_INPUT, POWER_INPUT, RESTITUTION_INPUT, restitution_law};
 
 /// The ways to give adhesion to a rigid body that have no distribution.
 const ADHESION: Input = Input::further(&["adhesion_coefficient", "adhesion_speed_m_s", "adhesion_power"]);
