@@ -9,6 +9,7 @@ extern crate std;
 
 mod bodies;
 mod classify;
+mod config;
 pub mod contact;
 mod error;
 #[cfg(feature = "instrument")]
@@ -24,6 +25,9 @@ mod terms;
 
 pub use bodies::{AdhesionRegime, Hertz, KnownMaterial, MATERIALS, Material, Sourced, Sphere, Sticking, Stiffness};
 pub use classify::{Class, Classification, ContactClass, CriticalSpeed, Outcome, SurfaceMotion};
+pub use config::{
+    AdhesionConfig, AnyModel, DampingConfig, ModelConfig, ReboundAdhesionConfig, RestitutionConfig, SceneConfig,
+};
 pub use error::{Fault, ImpactError, InputError, Parameter};
 pub use motion::{Approach, NormalMotion, Oblique, ObliqueMotion, Planar, PlanarMotion};
 pub use numbers::{Dual, Real};

@@ -5,7 +5,10 @@ use core::fmt;
 use super::ClassSet;
 use crate::contact::{Classified as ContactClassified, Contact, ContactLaw, Method, Surface};
 use crate::rigid::{MicroforceTerm, ReboundAdhesion, TangentialOutcome, TangentialTerm};
-use crate::{Approach, Class, Classification, ContactClass, InputError, Outcome, Real, RestitutionLaw, RigidBody};
+use crate::{
+    AnyModel, Approach, Class, Classification, ContactClass, InputError, Oblique, Outcome, Real, RestitutionLaw,
+    RigidBody,
+};
 
 /// A classifier for motions `M` with numbers `T`.
 ///
@@ -164,7 +167,8 @@ where
 
 /// A simulated scene and the method that solves it.
 ///
-/// Without friction, any method is possible. With friction, the method must compute the motion along the surface too.
+/// Without friction, any method is possible. With friction, the method must compute the motion along the surface too. The scene may
+/// be an [`AnyModel`], made of a configuration at run time; a rigid body does not use the method.
 ///
 /// ```
 /// use microimpact::instrument::{Classifier, Simulated};
@@ -201,11 +205,43 @@ where
     type Class = <Classification<T, C> as Classified>::Class;
 
     fn verdict(&self, motion: &B) -> Result<Verdict<T, Self::Class>, Rejection> {
-        let impact = self.scene.solve(motion, &self.method)?;
-        let outcome = impact.normal.outcome().ok_or(Rejection::Unsolved)?;
-        let classification =
-            Classification { outcome, speed_over_critical: None, contact: impact.tangential.contact() };
-        let restitution = Some(impact.normal.overall_restitution());
-        Ok(Verdict { class: Classified::class(&classification), restitution })
+        simulated(&self.scene, &self.method, motion)
+    }
+}
+
+/// The verdict of a simulation.
+fn simulated<T, B, L, S, M, C>(
+    scene: &Contact<T, L, S>,
+    method: &M,
+    motion: &B,
+) -> Result<Verdict<T, <Classification<T, C> as Classified>::Class>, Rejection>
+where
+    T: Real,
+    B: Approach<T>,
+    L: ContactLaw<T>,
+    S: Surface<T, B, After: ContactClassified<T, Contact = C>>,
+    M: Method<T>,
+    Classification<T, C>: Classified,
+{
+    let impact = scene.solve(motion, method)?;
+    let outcome = impact.normal.outcome().ok_or(Rejection::Unsolved)?;
+    let contact = impact.tangential.contact();
+    let class = Classified::class(&Classification { outcome, speed_over_critical: None, contact });
+    Ok(Verdict { class, restitution: Some(impact.normal.overall_restitution()) })
+}
+
+impl<T, B, M> Classifier<T, B> for Simulated<AnyModel<T>, M>
+where
+    T: Real,
+    B: Oblique<T>,
+    M: Method<T>,
+{
+    type Class = Class;
+
+    fn verdict(&self, motion: &B) -> Result<Verdict<T, Class>, Rejection> {
+        match self.scene {
+            AnyModel::RigidBody(body) => body.verdict(motion),
+            AnyModel::Contact(scene) => simulated(&scene, &self.method, motion),
+        }
     }
 }

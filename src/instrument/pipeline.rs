@@ -51,6 +51,73 @@ impl<C, S, T: Real, const CLASSES: usize, const BINS: usize> Instrument<C, S, T,
         Self { classifier, signal, tally: Tally::new(bins) }
     }
 
+    /// Goes on with a tally that was kept, as after a restart.
+    ///
+    /// ```
+    /// use microimpact::instrument::{Instrument, NoLines, NormalReading, SpeedBins};
+    /// use microimpact::{ConstantRestitution, RigidBody, Sphere};
+    ///
+    /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.9)?);
+    /// let mut instrument: Instrument<_, _, f64, 3, 1> = Instrument::new(scene, NoLines, SpeedBins::new([10.0])?);
+    /// let _ = instrument.process(&NormalReading { approach: 1.0 });
+    /// let (scene, lines, tally) = instrument.release();
+    /// assert_eq!(Instrument::resume(scene, lines, tally).tally().classified(), 1);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub const fn resume(classifier: C, signal: S, tally: Tally<T, CLASSES, BINS>) -> Self {
+        Self { classifier, signal, tally }
+    }
+
+    /// Replaces the classifier, as by that of a changed configuration, and returns the earlier one. The counts go on.
+    ///
+    /// ```
+    /// use microimpact::instrument::{Instrument, NoLines, NormalReading, SpeedBins};
+    /// use microimpact::{ConstantRestitution, RigidBody, Sphere};
+    ///
+    /// let scene = |r| Ok::<_, microimpact::InputError>(
+    ///     RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(r)?));
+    /// let mut instrument: Instrument<_, _, f64, 3, 1> = Instrument::new(scene(0.9)?, NoLines, SpeedBins::new([10.0])?);
+    /// assert_eq!(instrument.reconfigure(scene(0.5)?), scene(0.9)?);
+    /// assert_eq!(instrument.process(&NormalReading { approach: 1.0 }).unwrap().restitution, Some(0.5));
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub const fn reconfigure(&mut self, classifier: C) -> C {
+        core::mem::replace(&mut self.classifier, classifier)
+    }
+
+    /// Empties the tally and returns what it held; its bins stay.
+    ///
+    /// ```
+    /// use microimpact::instrument::{Instrument, NoLines, NormalReading, SpeedBins};
+    /// use microimpact::{ConstantRestitution, RigidBody, Sphere};
+    ///
+    /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.9)?);
+    /// let mut instrument: Instrument<_, _, f64, 3, 1> = Instrument::new(scene, NoLines, SpeedBins::new([10.0])?);
+    /// let _ = instrument.process(&NormalReading { approach: 1.0 });
+    /// assert_eq!(instrument.reset().classified(), 1);
+    /// assert_eq!(instrument.tally().classified(), 0);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn reset(&mut self) -> Tally<T, CLASSES, BINS> {
+        let empty = Tally::new(*self.tally.bins());
+        core::mem::replace(&mut self.tally, empty)
+    }
+
+    /// The classifier, the class lines and the tally.
+    ///
+    /// ```
+    /// use microimpact::instrument::{Instrument, NoLines, SpeedBins};
+    /// use microimpact::{ConstantRestitution, RigidBody, Sphere};
+    ///
+    /// let scene = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.9)?);
+    /// let instrument: Instrument<_, _, f64, 3, 1> = Instrument::new(scene, NoLines, SpeedBins::new([10.0])?);
+    /// assert_eq!(instrument.release().0, scene);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn release(self) -> (C, S, Tally<T, CLASSES, BINS>) {
+        (self.classifier, self.signal, self.tally)
+    }
+
     /// Classifies a reading, counts its class and switches the class lines. A failure of the lines is counted; the class is
     /// returned all the same.
     ///

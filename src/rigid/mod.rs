@@ -13,7 +13,9 @@ mod normal;
 mod restitution;
 mod tangential;
 
-pub use adhesion::{AdhesionCoefficient, ReboundAdhesion, SpeedAdhesion, WorkOfAdhesion, image_charge_energy};
+pub use adhesion::{
+    AdhesionCoefficient, AnyAdhesion, ReboundAdhesion, SpeedAdhesion, WorkOfAdhesion, image_charge_energy,
+};
 pub use energy::{EnergyLedger, NormalWorks};
 pub use impulses::{NormalImpulses, Phases, TangentialImpulses};
 pub use inverse::{Departure, infer, infer_assuming_rolling, infer_with_spins};
@@ -99,8 +101,38 @@ impl<T: Real, L: RestitutionLaw<T>> RigidBody<T, L> {
     }
 }
 
+/// A rigid body whose restitution and adhesion are chosen at run time, with Coulomb friction.
+///
+/// ```
+/// use microimpact::rigid::{AnyAdhesion, AnyRigidBody};
+/// use microimpact::{ConstantRestitution, RigidBody, Sphere};
+///
+/// let body: AnyRigidBody<f64> = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.9)?.into())
+///     .with_adhesion(AnyAdhesion::None)
+///     .with_friction(0.1)?;
+/// assert_eq!(body.sphere().radius(), 1e-6);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+pub type AnyRigidBody<T> = RigidBody<T, AnyRestitution<T>, AnyAdhesion<T>, Coulomb<T>>;
+
 /// Methods that add a term.
 impl<T: Real, L, A, S, X> RigidBody<T, L, A, S, X> {
+    /// Adds adhesion of any kind: of this library, one of your own, or [`AnyAdhesion`].
+    ///
+    /// ```
+    /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere, rigid::SpeedAdhesion};
+    ///
+    /// let body = RigidBody::new(Sphere::solid(1e-6, 1000.0)?, ConstantRestitution::new(0.8)?);
+    /// let impact = body.with_adhesion(SpeedAdhesion::new(1.0, 1.0)?).impact(&NormalMotion::new(1.0)?);
+    /// assert_eq!(impact.normal.overall_restitution(), 0.4);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    #[inline]
+    pub fn with_adhesion<B>(self, adhesion: B) -> RigidBody<T, L, B, S, X> {
+        let Self { sphere, restitution, surface, microforce, .. } = self;
+        RigidBody { sphere, restitution, adhesion, surface, microforce }
+    }
+
     /// Adds adhesion with the coefficient rho, 0 to 1.
     ///
     /// # Errors
@@ -230,12 +262,6 @@ impl<T: Real, L, A, S, X> RigidBody<T, L, A, S, X> {
     #[inline]
     pub fn sphere(&self) -> &Sphere<T> {
         &self.sphere
-    }
-
-    #[inline]
-    fn with_adhesion<B>(self, adhesion: B) -> RigidBody<T, L, B, S, X> {
-        let Self { sphere, restitution, surface, microforce, .. } = self;
-        RigidBody { sphere, restitution, adhesion, surface, microforce }
     }
 }
 

@@ -12,11 +12,13 @@
 
 mod boundary;
 mod logarithm;
+mod parts;
 mod restitution;
 mod slice;
 
 pub use boundary::BoundaryTable;
 pub use logarithm::Single;
+pub use parts::RestitutionParts;
 pub use restitution::{Lookup, RestitutionTable, TableRebound};
 pub use slice::BoundarySlice;
 

@@ -4,6 +4,8 @@
 //! sqrt(d). So the table holds e/sqrt(d) and the elastic impulse divided by the momentum, I/(m v). Both are smooth functions
 //! of sqrt(d) and of the logarithm of the radius. Polynomials through 3 x 4 neighbouring nodes interpolate them.
 
+#[cfg(feature = "serde")]
+use super::RestitutionParts;
 use super::boundary::BoundaryTable;
 use super::logarithm::{Single, logarithm, number, octaves};
 use crate::rolling::Friction;
@@ -110,26 +112,36 @@ impl<T: Real> TableRebound<T> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        into = "RestitutionParts<T, N, R, S>",
+        try_from = "RestitutionParts<T, N, R, S>",
+        bound(
+            serialize = "T: Copy + serde::Serialize",
+            deserialize = "T: Copy + Default + serde::Deserialize<'de>, Self: TryFrom<RestitutionParts<T, N, R, S>, Error = InputError>"
+        )
+    )
+)]
 pub struct RestitutionTable<T, const N: usize, const R: usize, const S: usize> {
-    boundary: BoundaryTable<N>,
+    pub(super) boundary: BoundaryTable<N>,
     /// e/sqrt(d) and I/(m v): one row of speeds for each radius.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "in_one_row"))]
-    nodes: [[[T; 2]; S]; R],
+    pub(super) nodes: [[[T; 2]; S]; R],
     /// Logarithm of the first radius.
-    first: i32,
+    pub(super) first: i32,
     /// Nodes per octave of radii.
-    per_octave: T,
+    pub(super) per_octave: T,
     /// Nodes per unit of sqrt(d). The first node is half a step above the critical speed.
-    per_root: T,
+    pub(super) per_root: T,
     /// Largest logarithm of speed over critical speed.
-    end: i32,
-    error: T,
-    impulse_error: T,
+    pub(super) end: i32,
+    pub(super) error: T,
+    pub(super) impulse_error: T,
     /// Error of the restitution by the margin of the boundary, times sqrt(d).
-    near: T,
+    pub(super) near: T,
     /// The same error of the impulse over that of the restitution.
-    impulse_over_restitution: T,
+    pub(super) impulse_over_restitution: T,
 }
 
 /// Smallest number of places, in each direction, at which a table is compared with its source: enough to find the largest
@@ -161,6 +173,19 @@ const SAFETY: f64 = 2.0;
 /// Rounding errors of a lookup, in units of the largest value of a node: up to 7 times that value is extrapolated to the
 /// critical speed, in a few operations.
 const ROUNDINGS: f64 = 32.0;
+
+impl<T, const N: usize, const R: usize, const S: usize> RestitutionTable<T, N, R, S> {
+    pub(super) const COUNTED: () = assert!(R >= 3 && S >= 4 && R <= 256 && S <= 256, "3 to 256 radii, 4 to 256 speeds");
+}
+
+#[cfg(feature = "serde")]
+impl<T: Copy, const N: usize, const R: usize, const S: usize> From<RestitutionTable<T, N, R, S>>
+    for RestitutionParts<T, N, R, S>
+{
+    fn from(table: RestitutionTable<T, N, R, S>) -> Self {
+        table.parts()
+    }
+}
 
 /// Largest changes over that of sqrt(d).
 struct Slopes<T> {
@@ -212,7 +237,7 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
         ratio: T,
         mut source: impl FnMut(T, T) -> Result<TableRebound<T>, InputError>,
     ) -> Result<Self, InputError> {
-        const { assert!(R >= 3 && S >= 4 && R <= 256 && S <= 256, "3 to 256 radii, 4 to 256 speeds") };
+        const { Self::COUNTED }
         let count = |number: usize| T::constant(number as f64);
         let end = logarithm(Parameter::SpeedRatio.check(ratio)?.single()) - logarithm(1.0);
         let (first, last) = boundary.logarithms();
@@ -469,14 +494,4 @@ fn parabola<T: Single, const COUNT: usize>(place: T) -> (usize, [T; 3]) {
     let a = place - T::from_single(first as f32);
     let (b, c) = (a - T::ONE, a - T::constant(2.0));
     (first, [half * b * c, -(a * c), half * a * b])
-}
-
-/// Serializes the nodes as one sequence, because serde does not support arrays of every length.
-#[cfg(feature = "serde")]
-fn in_one_row<T, Z, const R: usize, const S: usize>(nodes: &[[[T; 2]; S]; R], serializer: Z) -> Result<Z::Ok, Z::Error>
-where
-    T: serde::Serialize,
-    Z: serde::Serializer,
-{
-    serializer.collect_seq(nodes.iter().flatten().flatten())
 }

@@ -1,7 +1,8 @@
 //! Rows by the rigid-body model.
 
 use microimpact::rigid::{
-    AnyRestitution, ElasticPlasticRestitution, PowerRestitution, ReboundAdhesion, RollingDissipation, SpeedRestitution,
+    AdhesionCoefficient, AnyAdhesion, AnyRestitution, ElasticPlasticRestitution, PowerRestitution, RollingDissipation,
+    SpeedAdhesion, SpeedRestitution, WorkOfAdhesion,
 };
 use microimpact::{Class, ConstantRestitution, CriticalSpeed, InputError, Parameter, RigidBody, Sphere};
 use rayon::prelude::*;
@@ -79,29 +80,22 @@ impl Restitution<'_> {
     }
 }
 
-/// A rigid body with its adhesion.
-type Body<A> = RigidBody<f64, AnyRestitution<f64>, A, RollingDissipation<f64>>;
-
-/// Computes the same with each adhesion, which is part of the type of a rigid body.
-macro_rules! with_adhesion {
-    ($self:expr, $sphere:expr, $row:expr, $body:ident => $result:expr) => {{
-        let body = RigidBody::new($sphere, $self.restitution.at($row)?);
-        match $self.adhesion {
-            Adhesion::Coefficient(rho) => {
-                let $body = $self.with_surface(body.with_adhesion_coefficient(rho.at($row))?, $row)?;
-                $result
-            }
-            Adhesion::Work(work) => {
-                let $body = $self.with_surface(body.with_work_of_adhesion(work.at($row))?, $row)?;
-                $result
-            }
-            Adhesion::Speed { speed, power } => {
-                let $body = $self.with_surface(body.with_adhesion_at_speed(speed.at($row), power.at($row))?, $row)?;
-                $result
-            }
+impl Adhesion<'_> {
+    /// The adhesion of a row on its sphere.
+    ///
+    /// # Errors
+    /// A number outside its range.
+    pub fn at(&self, sphere: &Sphere<f64>, row: usize) -> Result<AnyAdhesion<f64>, InputError> {
+        match self {
+            Self::Coefficient(rho) => AdhesionCoefficient::new(rho.at(row)).map(Into::into),
+            Self::Work(work) => WorkOfAdhesion::new(work.at(row), sphere).map(Into::into),
+            Self::Speed { speed, power } => SpeedAdhesion::new(speed.at(row), power.at(row)).map(Into::into),
         }
-    }};
+    }
 }
+
+/// The rigid body of a row.
+type Body = RigidBody<f64, AnyRestitution<f64>, AnyAdhesion<f64>, RollingDissipation<f64>>;
 
 impl RigidBodies<'_> {
     /// The sphere of a row.
@@ -109,8 +103,11 @@ impl RigidBodies<'_> {
         Sphere::new(self.radius.at(row), self.density.at(row), self.gyration_ratio.at(row))
     }
 
-    fn with_surface<A>(&self, body: RigidBody<f64, AnyRestitution<f64>, A>, row: usize) -> Result<Body<A>, InputError> {
-        body.with_friction(self.friction.at(row))?.with_rolling_dissipation(self.rolling_arm.at(row))
+    fn body(&self, sphere: Sphere<f64>, row: usize) -> Result<Body, InputError> {
+        RigidBody::new(sphere, self.restitution.at(row)?)
+            .with_adhesion(self.adhesion.at(&sphere, row)?)
+            .with_friction(self.friction.at(row))?
+            .with_rolling_dissipation(self.rolling_arm.at(row))
     }
 
     /// Classifies the impacts of `count` rows on all threads. The result of a row is that of a single call.
@@ -118,19 +115,19 @@ impl RigidBodies<'_> {
         gather(count, quantities, |row| {
             let arrival = motions.arrival(self.sphere(row)?, row)?;
             arrival.check_about_one_axis(Parameter::RollingArm, self.rolling_arm.at(row))?;
-            with_adhesion!(self, arrival.sphere, row, body => Ok(record(&body, &arrival)))
+            Ok(record(&self.body(arrival.sphere, row)?, &arrival))
         })
     }
 
     /// The critical speed of each of `count` rows.
     pub fn critical_speeds(&self, count: usize) -> Vec<Result<CriticalSpeed<f64>, InputError>> {
-        let of = |row: usize| with_adhesion!(self, self.sphere(row)?, row, body => Ok(body.critical_speed()));
+        let of = |row: usize| Ok(self.body(self.sphere(row)?, row)?.critical_speed());
         (0..count).into_par_iter().map(of).collect()
     }
 }
 
 /// The result of a row.
-fn record<A: ReboundAdhesion<f64>>(body: &Body<A>, arrival: &Arrival) -> Record {
+fn record(body: &Body, arrival: &Arrival) -> Record {
     let impact = body.impact(&arrival.motion);
     let (normal, tangential) = (&impact.normal, &impact.tangential);
     let classification = body.classify_impact(&impact);

@@ -51,6 +51,7 @@ const OF_THE_RIGID_BODY: [Term; 5] = [
             "ViscoelasticRestitution",
             "TabulatedRestitution",
             "AnyRestitution",
+            "AnyAdhesion",
             "SpeedAdhesion",
         ],
         methods: &["with_adhesion_at_speed"],

@@ -1,4 +1,6 @@
 //! Tests of the instrument and of its link to a host.
 
+mod configuration;
 mod instrument;
 mod instrument_link;
+mod storage;

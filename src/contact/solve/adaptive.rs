@@ -1,5 +1,7 @@
 //! The method that chooses for itself: whole phases if damping is mild and the tolerance not too small, else intervals.
 
+#[cfg(feature = "serde")]
+use super::collocation::Tolerance;
 use super::collocation::{Collocation, ErrorControl, checked_tolerance};
 use super::critical::Trial;
 use super::interval::{Interval, tail_of_times};
@@ -36,9 +38,22 @@ use crate::{InputError, Real};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "Tolerance<T>", bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub struct Adaptive<T> {
     tolerance: T,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Tolerance<T>> for Adaptive<T> {
+    type Error = InputError;
+
+    fn try_from(read: Tolerance<T>) -> Result<Self, InputError> {
+        Self::new(read.tolerance)
+    }
 }
 
 /// A number type with the tables for every number of nodes that a tolerance may need.

@@ -23,7 +23,11 @@ use crate::{Fault, InputError, Parameter, Real};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "Tolerance<T>", bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub struct Collocation<const N: usize, T> {
     pub(super) tolerance: T,
 }
@@ -91,6 +95,22 @@ impl<const N: usize, T: Real> Collocation<N, T> {
         let times = if timed { T::constant(TIMED) } else { T::constant(UNTIMED) };
         let converged = (T::constant(CONVERGED) * self.tolerance).max(T::constant(LEAST_CHANGE) * T::EPSILON);
         Control { converged, error: self.tolerance, times, approach: T::ZERO }
+    }
+}
+
+/// A tolerance that was read and is not checked yet.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+pub(super) struct Tolerance<T> {
+    pub(super) tolerance: T,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real, const N: usize> TryFrom<Tolerance<T>> for Collocation<N, T> {
+    type Error = InputError;
+
+    fn try_from(read: Tolerance<T>) -> Result<Self, InputError> {
+        Self::new(read.tolerance)
     }
 }
 

@@ -35,7 +35,8 @@ use crate::{InputError, Parameter, Real};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Iterations"))]
 pub struct FixedCost<const N: usize, const M: usize = 9> {
     iterations: u32,
 }
@@ -75,6 +76,22 @@ impl<const N: usize> FixedCost<N> {
     /// ```
     pub fn with_outputs<const M: usize>(self) -> FixedCost<N, M> {
         FixedCost { iterations: self.iterations }
+    }
+}
+
+/// A number of iterations that was read and is not checked yet.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Iterations {
+    iterations: u32,
+}
+
+#[cfg(feature = "serde")]
+impl<const N: usize, const M: usize> TryFrom<Iterations> for FixedCost<N, M> {
+    type Error = InputError;
+
+    fn try_from(read: Iterations) -> Result<Self, InputError> {
+        Ok(FixedCost::<N>::new(read.iterations)?.with_outputs())
     }
 }
 

@@ -37,7 +37,8 @@ use crate::contact::law::ContactLaw;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(from = "Steps"))]
 pub struct RungeKuttaGill {
     steps: u32,
 }
@@ -62,6 +63,20 @@ impl RungeKuttaGill {
     /// ```
     pub const fn new(steps: u32) -> Self {
         Self { steps: if steps < Self::LEAST_STEPS { Self::LEAST_STEPS } else { steps } }
+    }
+}
+
+/// A number of steps that was read, and may be too small.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Steps {
+    steps: u32,
+}
+
+#[cfg(feature = "serde")]
+impl From<Steps> for RungeKuttaGill {
+    fn from(read: Steps) -> Self {
+        Self::new(read.steps)
     }
 }
 

@@ -52,7 +52,11 @@ const LEAST_REST_ENERGY: f64 = 1e6;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "Unchecked<T>", bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub struct RestCriterion<T> {
     fraction: T,
     turning_points: u32,
@@ -81,6 +85,23 @@ impl<T: Real> RestCriterion<T> {
         Parameter::TurningPoints.check(f64::from(turning_points))?;
         let least = T::constant(LEAST_REST_ENERGY) * T::EPSILON * T::EPSILON;
         Ok(Self { fraction: fraction.max(least), turning_points })
+    }
+}
+
+/// A criterion that was read and is not checked yet.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Unchecked<T> {
+    fraction: T,
+    turning_points: u32,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Unchecked<T>> for RestCriterion<T> {
+    type Error = InputError;
+
+    fn try_from(read: Unchecked<T>) -> Result<Self, InputError> {
+        Self::new(read.fraction, read.turning_points)
     }
 }
 

@@ -106,7 +106,7 @@ impl<T: Real> Interval<T> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RestitutionFit<T> {
     /// Whether the law fits: the impacts show no trend over speed that it does not have (p < 0.001), and few contradict the critical
     /// speed.

@@ -1,9 +1,11 @@
 //! Adhesion in the rigid-body model, one term a file.
 
+mod chosen;
 mod coefficient;
 mod speed;
 mod work;
 
+pub use chosen::AnyAdhesion;
 pub use coefficient::AdhesionCoefficient;
 pub use speed::SpeedAdhesion;
 pub use work::{WorkOfAdhesion, image_charge_energy};

@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 
 use microimpact::measure::ClassProbabilities;
-use microimpact::rigid::{AnyRestitution, ReboundAdhesion};
+use microimpact::rigid::{AdhesionCoefficient, AnyAdhesion, AnyRestitution, SpeedAdhesion, WorkOfAdhesion};
 use microimpact::{
     Class, Classification, ContactClass, Impact, ImpactError, RigidBody, Sphere, SurfaceMotion, TangentialImpact,
 };
@@ -114,75 +114,47 @@ impl<T: Number> RigidBodyModel<T> {
     pub fn compute(&self, row: &Row<'_>) -> Result<Classified<T>, String> {
         let arrival = Arrival::read(row)?;
         arrival.refuse(row, &["rolling_arm_m"], &[])?;
-        let scene = RigidBody::new(arrival.sphere, restitution_law(row, |number: T| number)?);
-        let power = row.number("adhesion_power")?;
-        let given =
-            [row.number("adhesion_coefficient")?, row.number("work_of_adhesion_j")?, row.number("adhesion_speed_m_s")?];
-        if power.is_some() && given[2].is_none() {
-            return Err("adhesion_power: adhesion_speed_m_s is missing; give it too or leave the cell empty".into());
-        }
-        match given {
-            [None, None, None] => with_adhesion(row, arrival, scene),
-            [Some(rho), None, None] => {
-                with_adhesion(row, arrival, scene.with_adhesion_coefficient(rho).map_err(|error| row.reason(error))?)
-            }
-            [None, Some(work), None] => {
-                with_adhesion(row, arrival, scene.with_work_of_adhesion(work).map_err(|error| row.reason(error))?)
-            }
-            [None, None, Some(speed)] => {
-                let scene = scene.with_adhesion_at_speed(speed, power.unwrap_or(T::ONE));
-                with_adhesion(row, arrival, scene.map_err(|error| row.reason(error))?)
-            }
-            _ => {
-                let columns = "adhesion_coefficient, work_of_adhesion_j and adhesion_speed_m_s";
-                Err(format!("adhesion: given twice; of {columns} leave all but one empty"))
-            }
-        }
+        let scene = RigidBody::new(arrival.sphere, restitution_law(row, |number: T| number)?)
+            .with_adhesion(adhesion(row, &arrival.sphere)?);
+        along_surface(row, arrival, scene)
     }
+}
+
+/// The adhesion of a row.
+fn adhesion<T: Number>(row: &Row<'_>, sphere: &Sphere<T>) -> Result<AnyAdhesion<T>, String> {
+    let power = row.number("adhesion_power")?;
+    let given =
+        [row.number("adhesion_coefficient")?, row.number("work_of_adhesion_j")?, row.number("adhesion_speed_m_s")?];
+    if power.is_some() && given[2].is_none() {
+        return Err("adhesion_power: adhesion_speed_m_s is missing; give it too or leave the cell empty".into());
+    }
+    let adhesion = match given {
+        [None, None, None] => Ok(AnyAdhesion::None),
+        [Some(rho), None, None] => AdhesionCoefficient::new(rho).map(Into::into),
+        [None, Some(work), None] => WorkOfAdhesion::new(work, sphere).map(Into::into),
+        [None, None, Some(speed)] => SpeedAdhesion::new(speed, power.unwrap_or(T::ONE)).map(Into::into),
+        _ => {
+            let columns = "adhesion_coefficient, work_of_adhesion_j and adhesion_speed_m_s";
+            return Err(format!("adhesion: given twice; of {columns} leave all but one empty"));
+        }
+    };
+    adhesion.map_err(|error| row.reason(error))
 }
 
 /// Random rows that are classified for standard errors too large for an expansion.
 const DRAWS: u32 = 40_000;
 
-/// The probabilities by an expansion, with the adhesion that the row gives.
+/// The probabilities by an expansion.
 fn expand<'a, T: Number>(
     row: &Row<'_>,
     inputs: &Inputs<T>,
     row_of: &dyn Fn(Values<T>) -> Row<'a>,
 ) -> Result<ClassProbabilities<T>, String> {
-    let given = |column: &str| row.has(column);
-    if given("adhesion_coefficient") {
-        expand_with(row, inputs, row_of, |row, scene| {
-            let rho = row.required("adhesion_coefficient")?;
-            scene.with_adhesion_coefficient(rho).map_err(|error| row.reason(error))
-        })
-    } else if given("work_of_adhesion_j") {
-        expand_with(row, inputs, row_of, |row, scene| {
-            let work = row.required("work_of_adhesion_j")?;
-            scene.with_work_of_adhesion(work).map_err(|error| row.reason(error))
-        })
-    } else if given("adhesion_speed_m_s") {
-        expand_with(row, inputs, row_of, |row, scene| {
-            let (speed, power) = (row.required("adhesion_speed_m_s")?, row.number("adhesion_power")?);
-            scene.with_adhesion_at_speed(speed, power.unwrap_or(T::ONE)).map_err(|error| row.reason(error))
-        })
-    } else {
-        expand_with(row, inputs, row_of, |_, scene| Ok(scene))
-    }
-}
-
-/// The probabilities by an expansion, with an adhesion.
-fn expand_with<'a, T: Number, A: ReboundAdhesion<T> + Copy>(
-    row: &Row<'_>,
-    inputs: &Inputs<T>,
-    row_of: &dyn Fn(Values<T>) -> Row<'a>,
-    adhering: impl Fn(&Row<'_>, RigidBody<T, AnyRestitution<T>>) -> Result<RigidBody<T, AnyRestitution<T>, A>, String>,
-) -> Result<ClassProbabilities<T>, String> {
     let reason = Reason::new();
     let scene = |row: &Row<'_>| {
         let arrival = Arrival::read(row)?;
         let scene = RigidBody::new(arrival.sphere, restitution_law(row, |number: T| number)?);
-        let scene = adhering(row, scene)?.with_friction(row.or_zero("friction")?);
+        let scene = scene.with_adhesion(adhesion(row, &arrival.sphere)?).with_friction(row.or_zero("friction")?);
         Ok((scene.map_err(|error| row.reason(error))?, arrival.motion))
     };
     let found = ClassProbabilities::new(inputs, |values| reason.keep(scene(&row_of(values))));
@@ -190,10 +162,10 @@ fn expand_with<'a, T: Number, A: ReboundAdhesion<T> + Copy>(
 }
 
 /// Chooses the tangential process that the row gives, and computes.
-fn with_adhesion<T: Number>(
+fn along_surface<T: Number>(
     row: &Row<'_>,
     arrival: Arrival<T>,
-    scene: RigidBody<T, AnyRestitution<T>, impl ReboundAdhesion<T> + Copy>,
+    scene: RigidBody<T, AnyRestitution<T>, AnyAdhesion<T>>,
 ) -> Result<Classified<T>, String> {
     let (before, friction) = (&arrival.motion, row.or_zero("friction")?);
     let impact = match (row.number("impulse_ratio")?, row.number("rolling_arm_m")?) {
