@@ -20,6 +20,7 @@ use microimpact::{
     Sphere, Sticking, Stiffness, SurfaceMotion, TangentialImpact,
 };
 
+mod config;
 mod contact;
 mod fixed_point;
 #[cfg(feature = "probe")]
@@ -36,6 +37,7 @@ where
     call_rigid_body::<T>();
     keep(table::call_all::<T>());
     keep(contact::call_all::<T>());
+    keep(config::call_all::<T>());
     keep(space::call_all::<T>());
     keep(fixed_point::call_all::<T>());
     measure::call_all::<T>();

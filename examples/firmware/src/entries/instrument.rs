@@ -44,6 +44,8 @@ pub(super) fn call_all<T: AnyNodes + Single>() -> Result<(), InputError> {
     process::<T, _, _, 4>(Tabulated { table: boundary.as_slice(), sphere, friction: NoFriction }, &normal, lines())?;
     process::<T, _, _, 4>(Tabulated { table, sphere, friction: NoFriction }, &normal, lines())?;
     process::<T, _, _, 5>(Tabulated { table, sphere, friction: Coulomb::new(any())? }, &planar, lines())?;
+    let chosen = Simulated { scene: super::config::scene::<T>()?, method: FixedCost::<5>::new(black_box(3))? };
+    process::<T, _, _, 6>(chosen, &planar, lines())?;
     keep(Signal::<Class>::show(&mut NoLines, black_box(None)));
     link();
     statistics::<T>()
@@ -80,7 +82,7 @@ fn process<T, C, R, const CLASSES: usize>(
 where
     T: Real,
     R: Reading<Motion: Approach<T>> + Copy,
-    C: Classifier<T, R::Motion>,
+    C: Classifier<T, R::Motion> + Copy,
 {
     let mut instrument: Instrument<C, _, T, CLASSES, 3> =
         Instrument::new(classifier, lines, SpeedBins::new([any(), any(), any()])?);
@@ -96,6 +98,10 @@ where
         }
     }
     keep((receiver.is_empty(), receiver.lost()));
+    keep(instrument.reconfigure(black_box(classifier)).verdict(&reading.motion()?).is_ok());
+    keep(instrument.reset().classified());
+    let (classifier, lines, tally) = instrument.release();
+    let instrument = Instrument::<C, _, T, CLASSES, 3>::resume(classifier, lines, tally);
     let mut tally = *instrument.tally();
     keep(instrument.classifier().verdict(&reading.motion()?).is_ok());
     for &class in C::Class::ALL {

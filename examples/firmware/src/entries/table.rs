@@ -13,6 +13,7 @@ pub(super) fn call_all<T: Single>() -> Result<(), InputError> {
     keep(T::from_single(any()));
     boundary::<1, T>()?;
     boundary::<31, T>()?;
+    remade()?;
     restitution::<1, 3, 4, T>()?;
     restitution::<12, 7, 10, T>()
 }
@@ -45,7 +46,7 @@ fn restitution<const N: usize, const R: usize, const S: usize, T: Single>() -> R
     let boundary = BoundaryTable::<N>::new(any::<T>(), |_| Ok(black_box(CriticalSpeed::At(any::<T>()))))?;
     let source = |_, _| Ok(TableRebound { restitution: any::<T>(), impulse: any() });
     let table = RestitutionTable::<T, N, R, S>::new(boundary, any(), source)?;
-    keep((table.error(), table.impulse_error(), table.boundary()));
+    keep((table.error(), table.impulse_error(), table.boundary(), table.parts()));
     let (normal, oblique, planar) = motions(&Sphere::solid(any::<T>(), any())?)?;
     let friction = Coulomb::new(any::<T>())?;
     for reading in [table.look_up(any(), &normal), table.look_up(any(), &oblique), table.look_up(any(), &planar)] {
@@ -56,5 +57,14 @@ fn restitution<const N: usize, const R: usize, const S: usize, T: Single>() -> R
             keep(rebound.separation(&friction, any(), &planar));
         }
     }
+    Ok(())
+}
+
+/// A table from its numbers, which depends on the number type.
+fn remade() -> Result<(), InputError> {
+    let boundary = BoundaryTable::<1>::new(any::<f32>(), |_| Ok(black_box(CriticalSpeed::At(any::<f32>()))))?;
+    let source = |_, _| Ok(TableRebound { restitution: any::<f32>(), impulse: any() });
+    let table = RestitutionTable::<f32, 1, 3, 4>::new(boundary, any(), source)?;
+    keep(RestitutionTable::<f32, 1, 3, 4>::from_parts(black_box(table.parts())));
     Ok(())
 }

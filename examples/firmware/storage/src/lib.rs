@@ -75,7 +75,10 @@ impl<E: fmt::Debug> fmt::Display for StorageError<E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Schema { found, expected } => {
-                write!(f, "the record has schema {found}, but this firmware reads {expected}; save a new record over it")
+                write!(
+                    f,
+                    "the record has schema {found}, but this firmware reads {expected}; save a new record over it"
+                )
             }
             Self::Content => f.write_str("the record does not have the fields of its schema; save a new one over it"),
             Self::TooLong => f.write_str("the record is longer than the buffer; give the storage a longer one"),
