@@ -18,6 +18,7 @@ mod manual;
 mod materials;
 mod population;
 mod progress;
+mod restitution_constant;
 mod restitution_table;
 mod rows;
 mod table;

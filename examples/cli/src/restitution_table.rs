@@ -16,7 +16,7 @@ pub struct RestitutionOptions {
     radii: Option<u32>,
     /// Restitution: largest approach speed, m/s
     #[arg(long, default_value_t = 100.0)]
-    fastest: f64,
+    pub fastest: f64,
     /// Restitution: largest error between two speeds, 0.0001 to 0.1
     #[arg(long, default_value_t = 0.002, value_name = "ERROR")]
     restitution_error: f64,

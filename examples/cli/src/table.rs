@@ -1,6 +1,6 @@
 //! Makes a table of critical speeds by the contact simulation, for firmware that does not compute it itself.
 //!
-//! `cargo microimpact table` writes a Rust constant for the paper's surface;
+//! `cargo microimpact table` writes a Rust constant for the paper's surface, `--format restitution-rust` one with restitution;
 //! `cargo microimpact table --format c` an array for C, with the function that reads it;
 //! `cargo microimpact table --format fluent`, or another simulation program, the restitution against the approach speed.
 
@@ -15,6 +15,7 @@ use sheet::Value;
 
 use crate::Streams;
 use crate::command::{Format, exit_status, write_records};
+use crate::restitution_constant::{self, Subject};
 use crate::restitution_table::{self, Program, RestitutionOptions};
 
 /// Make a table of critical speeds for firmware, or of restitution for programs that simulate particles
@@ -63,6 +64,8 @@ pub struct Options {
 enum Language {
     // A constant.
     Rust,
+    // The same with restitution.
+    RestitutionRust,
     // Constants and a function for C99.
     C,
     // A row for each cell, in one of the formats of the other commands.
@@ -80,6 +83,7 @@ enum Language {
 /// What a format holds.
 enum Content {
     CriticalSpeeds(Written),
+    RestitutionConstant,
     Restitution(Program),
 }
 
@@ -94,6 +98,7 @@ impl Language {
     fn content(self) -> Content {
         match self {
             Self::Rust => Content::CriticalSpeeds(Written::Rust),
+            Self::RestitutionRust => Content::RestitutionConstant,
             Self::C => Content::CriticalSpeeds(Written::C),
             Self::Table => Content::CriticalSpeeds(Written::Rows(Format::Table)),
             Self::Csv => Content::CriticalSpeeds(Written::Rows(Format::Csv)),
@@ -163,6 +168,16 @@ impl Options {
 fn run(options: &Options, to: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let written = match options.format.content() {
         Content::CriticalSpeeds(written) => written,
+        Content::RestitutionConstant => {
+            let subject = Subject {
+                smallest_radius: options.smallest_radius,
+                fastest: options.restitution.fastest,
+                density: options.density,
+                law: options.law()?,
+                materials: options.materials(),
+            };
+            return restitution_constant::write(to, options.cells, &subject);
+        }
         Content::Restitution(program) => {
             let octaves = f64::from(options.cells) / CELLS_OF_OCTAVE;
             let radii = [options.smallest_radius, options.smallest_radius * octaves.exp2()];

@@ -576,6 +576,36 @@ fn table_of_the_firmware_is_current() {
     }
 }
 
+/// As firmware contains it.
+mod constant {
+    include!("../../data/restitution_constant.rs");
+
+    pub(super) fn table() -> &'static microimpact::table::RestitutionTable<f32, 4, 12, 12> {
+        &RESTITUTION
+    }
+}
+
+/// The constant that the command writes is Rust, and holds what a simulation finds, within its error.
+#[test]
+fn command_writes_a_restitution_table() {
+    assert_eq!(written("restitution-rust"), include_str!("../../data/restitution_constant.rs"));
+    let mut rebounds = 0;
+    for (radius, speed) in
+        [2e-6, 2.7e-6, 3.1e-6, 3.7e-6].into_iter().flat_map(|radius| [9.0, 12.0, 20.0, 55.0].map(|v| (radius, v)))
+    {
+        let exact = rebound(&PAPER, radius, speed).unwrap();
+        let motion = NormalMotion::new(speed as f32).unwrap();
+        if let Lookup::Rebound { rebound, error } = constant::table().look_up(radius as f32, &motion) {
+            assert!((f64::from(rebound.restitution) - exact.restitution).abs() <= f64::from(error));
+            rebounds += 1;
+        }
+    }
+    assert_eq!(rebounds, 16);
+    let refused = microimpact("table", &["--format", "restitution-rust", "--cells", "5"], b"");
+    assert_eq!(refused.status, 2);
+    assert!(refused.complaint().contains("--cells 5 is refused: a restitution table has one of 4, 8,"));
+}
+
 /// Radii within and around a table, and speeds close to the critical one and far from it.
 fn queries(table: &BoundaryTable<4>) -> Vec<(f32, f32)> {
     let mut queries = Vec::new();
