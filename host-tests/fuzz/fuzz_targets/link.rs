@@ -102,7 +102,7 @@ fn serve(stream: &[u8]) {
     let (mut frames, mut readings) = (0, 0);
     for &byte in stream {
         frames += u64::from(decoder.push::<ToInstrument>(byte).is_some());
-        let Some(Request::Event { reading, .. }) = inlet.receive::<Event>(byte) else {
+        let Some(Request::Event { reading, .. }) = inlet.receive::<Event, f32>(byte) else {
             continue;
         };
         readings += 1;
@@ -113,7 +113,7 @@ fn serve(stream: &[u8]) {
     }
     let arrivals = inlet.arrivals();
     assert_eq!(arrivals.events, readings);
-    assert_eq!(arrivals.events + arrivals.duplicates + arrivals.reports + arrivals.faults.total(), frames);
+    assert_eq!(arrivals.events + arrivals.duplicates + arrivals.reports + arrivals.commands + arrivals.faults.total(), frames);
     let tally = station.tally();
     assert_eq!(tally.classified() + tally.rejections().total(), readings);
 }

@@ -9,7 +9,7 @@ use std::thread;
 use std::time::Duration;
 
 use microimpact::Class;
-use microimpact::instrument::link::{Decoder, Encoder, FrameFault, PROTOCOL, Report, Request};
+use microimpact::instrument::link::{Encoder, FrameFault, Outlet, ReplyFault, Report, Request};
 use microimpact::instrument::{Rejection, Verdict};
 use serde::Serialize;
 
@@ -34,8 +34,8 @@ pub enum LinkError {
     Silence,
     /// A reply that was damaged.
     Damaged(FrameFault),
-    /// An instrument of another version.
-    Protocol(u16),
+    /// An instrument of another version or schema.
+    Other(ReplyFault),
     /// A reply that nobody has asked for, or a second one.
     Unexpected(Box<ToHost>),
     /// The instrument has started anew, and what it had not answered is lost.
@@ -48,7 +48,7 @@ impl fmt::Display for LinkError {
             Self::Broken(error) => write!(f, "the link is broken: {error}"),
             Self::Silence => f.write_str("no reply in time"),
             Self::Damaged(fault) => write!(f, "a reply was damaged: {fault}"),
-            Self::Protocol(other) => write!(f, "the instrument speaks version {other}, not {PROTOCOL}"),
+            Self::Other(fault) => fault.fmt(f),
             Self::Unexpected(reply) => write!(f, "a reply to nothing: {reply:?}"),
             Self::Restarted => f.write_str("the instrument has started anew"),
         }
@@ -66,9 +66,9 @@ impl From<io::Error> for LinkError {
 /// The host's end of a link.
 pub struct Client {
     output: TcpStream,
-    replies: Receiver<Result<ToHost, FrameFault>>,
+    replies: Receiver<Result<ToHost, ReplyFault>>,
     patience: Duration,
-    encoder: Encoder<64>,
+    encoder: Encoder<96>,
     latest: u32,
     reports: u32,
     open: BTreeMap<u32, Event>,
@@ -159,6 +159,18 @@ impl Client {
         Err(LinkError::Silence)
     }
 
+    /// Asks for something else than a report, and returns the reply to it; `request` makes the request under a number.
+    ///
+    /// # Errors
+    /// A link that does not work, or an instrument that has started anew.
+    pub fn ask(&mut self, request: impl FnOnce(u32) -> ToInstrument) -> Result<ToHost, LinkError> {
+        self.settle()?;
+        self.reports += 1;
+        let frame = self.encode(&request(self.reports));
+        self.write(&frame)?;
+        self.reply()
+    }
+
     /// Events that have not been answered; forgets them.
     pub fn give_up(&mut self) -> Vec<Event> {
         std::mem::take(&mut self.open).into_values().collect()
@@ -167,7 +179,8 @@ impl Client {
     /// The frame of an event under the next number.
     fn frame(&mut self, event: Event) -> Vec<u8> {
         self.latest = self.latest.wrapping_add(1);
-        self.encode(&Request::Event { number: self.latest, reading: event })
+        let request: ToInstrument = Request::Event { number: self.latest, reading: event };
+        self.encode(&request)
     }
 
     /// Notes that the latest number has this event.
@@ -195,7 +208,7 @@ impl Client {
             ToHost::Rejected { number, rejection } => (number, Err(rejection)),
             _ => return Err(LinkError::Unexpected(Box::new(reply))),
         };
-        let event = self.open.remove(&number).ok_or(LinkError::Unexpected(Box::new(reply)))?;
+        let event = self.open.remove(&number).ok_or_else(|| LinkError::Unexpected(Box::new(reply)))?;
         self.answers.push((number, event, answer));
         Ok(())
     }
@@ -206,10 +219,10 @@ impl Client {
 
     fn reply_within(&mut self, patience: Duration) -> Result<ToHost, LinkError> {
         match self.replies.recv_timeout(patience) {
-            Ok(Ok(ToHost::Started { protocol: PROTOCOL })) => Err(LinkError::Restarted),
-            Ok(Ok(ToHost::Started { protocol })) => Err(LinkError::Protocol(protocol)),
+            Ok(Ok(ToHost::Started { .. })) => Err(LinkError::Restarted),
             Ok(Ok(reply)) => Ok(reply),
-            Ok(Err(fault)) => Err(LinkError::Damaged(fault)),
+            Ok(Err(ReplyFault::Frame(fault))) => Err(LinkError::Damaged(fault)),
+            Ok(Err(fault)) => Err(LinkError::Other(fault)),
             Err(RecvTimeoutError::Timeout) => Err(LinkError::Silence),
             Err(RecvTimeoutError::Disconnected) => Err(LinkError::Broken(io::ErrorKind::UnexpectedEof.into())),
         }
@@ -217,11 +230,11 @@ impl Client {
 }
 
 /// Decodes replies until the stream or the one who wants them ends.
-fn receive(mut input: TcpStream, mut pass_on: impl FnMut(Result<ToHost, FrameFault>) -> bool) {
-    let mut decoder = Decoder::<REPLY_BYTES>::new();
+fn receive(mut input: TcpStream, mut pass_on: impl FnMut(Result<ToHost, ReplyFault>) -> bool) {
+    let mut outlet = Outlet::<f32, Event, Class, REPLY_BYTES>::new();
     let mut chunk = [0; 4096];
     while let Ok(length @ 1..) = input.read(&mut chunk) {
-        if !chunk[..length].iter().filter_map(|&byte| decoder.push(byte)).all(&mut pass_on) {
+        if !chunk[..length].iter().filter_map(|&byte| outlet.receive(byte)).all(&mut pass_on) {
             return;
         }
     }

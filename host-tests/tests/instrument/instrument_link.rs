@@ -8,12 +8,17 @@ use std::thread;
 use std::time::Duration;
 
 use link::{Client, LinkError, load};
-use microimpact::instrument::link::{Decoder, Encoder, FrameFault, Inlet, PROTOCOL, Reply, Report, Request};
-use microimpact::instrument::{Instrument, NoLines, PlanarReading, Queue};
+use microimpact::instrument::link::{
+    Decoder, Described, Encoder, FrameFault, Inlet, Outlet, PROTOCOL, Received, Reply, ReplyFault, Report, Request,
+    Schema, Station,
+};
+use microimpact::instrument::{Instrument, NoLines, NormalReading, PlanarReading, Queue, Verdict};
+use microimpact::{Class, Outcome};
 use microimpact_scenes::station::{
-    BINS, CLASSES, Event, MESSAGE_BYTES, QUEUE, REPLY_BYTES, Scene, ToHost, ToInstrument, bins, scene,
+    BINS, CLASSES, Event, MESSAGE_BYTES, QUEUE, REPLY_BYTES, SCENE, Scenes, ToHost, ToInstrument, bins, classifier,
 };
 use proptest::prelude::*;
+use serde::de::DeserializeOwned;
 
 const PATIENCE: Duration = Duration::from_secs(30);
 
@@ -25,6 +30,7 @@ enum Defect {
     WrongClass,
     ForgetsOverruns,
     LosesAnEvent,
+    KeepsItsScene,
 }
 
 /// The firmware of the example, without its interrupt: requests wait in the queue until a chunk of bytes has been read.
@@ -33,14 +39,15 @@ fn serve(mut stream: TcpStream, reset: &AtomicBool, defect: Defect) {
     let mut encoder = Encoder::<REPLY_BYTES>::new();
     loop {
         reset.store(false, Ordering::SeqCst);
-        let mut station: Instrument<Scene<f32>, NoLines, f32, CLASSES, BINS> =
-            Instrument::new(scene().unwrap(), NoLines, bins().unwrap());
+        let instrument: Instrument<Scenes, NoLines, f32, CLASSES, BINS> =
+            Instrument::new(classifier(&SCENE).unwrap(), NoLines, bins().unwrap());
+        let mut station = Station::new(instrument);
         let mut queue = Queue::<ToInstrument, QUEUE>::new();
         let (mut sender, mut receiver) = queue.split();
         let mut inlet = Inlet::<MESSAGE_BYTES>::new();
-        let (mut reports, mut ticks) = (0, 0);
+        let mut ticks = 0;
         let mut tell = |stream: &mut TcpStream, reply: &ToHost| stream.write_all(encoder.frame(reply).unwrap()).is_ok();
-        tell(&mut stream, &Reply::Started { protocol: PROTOCOL });
+        tell(&mut stream, &station.started::<Event>());
         while !reset.load(Ordering::SeqCst) {
             let Ok(length @ 1..) = stream.read(&mut chunk) else { return };
             for request in chunk[..length].iter().filter_map(|&byte| inlet.receive(byte)) {
@@ -48,35 +55,24 @@ fn serve(mut stream: TcpStream, reset: &AtomicBool, defect: Defect) {
             }
             while let Some(request) = receiver.receive() {
                 ticks += 1;
-                match request {
-                    Request::Event { number, .. } if defect == Defect::LosesAnEvent && number == 777 => {}
-                    Request::Event { number, reading } => {
-                        let mut reply = match station.process(&reading) {
-                            Ok(verdict) => Reply::Classified { number, verdict },
-                            Err(rejection) => Reply::Rejected { number, rejection },
-                        };
-                        if let (Reply::Classified { verdict, .. }, Defect::WrongClass) = (&mut reply, defect) {
-                            verdict.class = microimpact::Class::CapturedRolling;
-                        }
-                        tell(&mut stream, &reply);
-                        if defect == Defect::AnswersTwice && number == 777 {
-                            tell(&mut stream, &reply);
-                        }
+                let special = matches!(request, Request::Event { number: 777, .. });
+                if special && defect == Defect::LosesAnEvent {
+                    continue;
+                }
+                let lost = if defect == Defect::ForgetsOverruns { 0 } else { receiver.lost() };
+                let received = Received { arrivals: inlet.arrivals(), lost, ticks };
+                let mut reply = match request {
+                    Request::Configure { number, .. } if defect == Defect::KeepsItsScene => {
+                        Reply::Configured { number }
                     }
-                    Request::Report { number } => {
-                        reports += 1;
-                        let tally = station.tally();
-                        let report = Report {
-                            arrivals: inlet.arrivals(),
-                            lost: if defect == Defect::ForgetsOverruns { 0 } else { receiver.lost() },
-                            classified: tally.classified(),
-                            rejections: tally.rejections(),
-                            reports,
-                            signal_failures: tally.signal_failures(),
-                            ticks,
-                        };
-                        tell(&mut stream, &Reply::Report { number, report });
-                    }
+                    _ => station.answer(&request, &received, classifier),
+                };
+                if let (Reply::Classified { verdict, .. }, Defect::WrongClass) = (&mut reply, defect) {
+                    verdict.class = microimpact::Class::CapturedRolling;
+                }
+                tell(&mut stream, &reply);
+                if special && defect == Defect::AnswersTwice {
+                    tell(&mut stream, &reply);
                 }
             }
         }
@@ -114,6 +110,7 @@ fn defects_are_found() {
         (Defect::WrongClass, "but it is"),
         (Defect::ForgetsOverruns, "full queue"),
         (Defect::LosesAnEvent, "no reply in time"),
+        (Defect::KeepsItsScene, "by the other scene"),
     ] {
         let found = trial(defect).unwrap_err();
         assert!(found.contains(sign), "{found}");
@@ -124,10 +121,49 @@ fn defects_are_found() {
 fn an_instrument_of_another_version_is_refused() {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let mut instrument = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
-    let hello: ToHost = Reply::Started { protocol: PROTOCOL + 1 };
+    let schema = Schema::of::<f32, Event, Class>();
+    let hello: ToHost = Reply::Started { protocol: PROTOCOL + 1, schema };
     instrument.write_all(Encoder::<REPLY_BYTES>::new().frame(&hello).unwrap()).unwrap();
     let refused = Client::new(listener.accept().unwrap().0, PATIENCE).err();
-    assert!(matches!(refused, Some(LinkError::Protocol(other)) if other == PROTOCOL + 1));
+    assert!(matches!(refused, Some(LinkError::Other(ReplyFault::Protocol { found })) if found == PROTOCOL + 1));
+}
+
+/// What an outlet of these types makes of frames.
+fn heard<T, R, C>(frames: &[u8]) -> Vec<Result<Reply<T, C>, ReplyFault>>
+where
+    T: Described + DeserializeOwned,
+    R: Described,
+    C: Described + DeserializeOwned,
+{
+    let mut outlet = Outlet::<T, R, C, REPLY_BYTES>::new();
+    frames.iter().filter_map(|&byte| outlet.receive(byte)).collect()
+}
+
+/// A class of one instrument may be an outcome of another: its frames are right, but are not understood.
+#[test]
+fn a_host_of_other_types_is_told_so() {
+    let verdict = Verdict { class: Class::ReboundRolling, restitution: Some(0.5_f32) };
+    let schema = Schema::of::<f32, Event, Class>();
+    let replies: [ToHost; 2] =
+        [Reply::Started { protocol: PROTOCOL, schema }, Reply::Classified { number: 1, verdict }];
+    let frames: Vec<u8> =
+        replies.iter().flat_map(|reply| Encoder::<REPLY_BYTES>::new().frame(reply).unwrap().to_vec()).collect();
+    assert_eq!(heard::<f32, Event, Class>(&frames), replies.map(Ok));
+    let refused =
+        |fault: Option<&ReplyFault>| matches!(fault, Some(ReplyFault::Schema { found, .. }) if *found == schema);
+    let others = heard::<f32, Event, Outcome>(&frames);
+    assert!(refused(others[0].as_ref().err()) && others[1] == Err(ReplyFault::Unannounced), "{others:?}");
+    let others = heard::<f64, PlanarReading<f64>, Class>(&frames);
+    assert!(refused(others[0].as_ref().err()) && others[1] == Err(ReplyFault::Unannounced), "{others:?}");
+    let others = heard::<f32, NormalReading<f32>, Class>(&frames);
+    assert!(refused(others[0].as_ref().err()) && others[1] == Err(ReplyFault::Unannounced), "{others:?}");
+    // Who comes later asks first.
+    let late = &frames[Encoder::<REPLY_BYTES>::new().frame(&replies_first(schema)).unwrap().len()..];
+    assert_eq!(heard::<f32, Event, Class>(late), [Err(ReplyFault::Unannounced)]);
+}
+
+fn replies_first(schema: Schema) -> ToHost {
+    Reply::Started { protocol: PROTOCOL, schema }
 }
 
 fn events() -> impl Strategy<Value = Event> {
@@ -148,7 +184,7 @@ fn the_longest_messages_fit() {
     let reading = PlanarReading { approach: f32::MAX, tangential: f32::MIN, peripheral: f32::MIN };
     let request = frame(&Request::Event { number: u32::MAX, reading });
     let mut inlet = Inlet::<MESSAGE_BYTES>::new();
-    assert!(request.iter().find_map(|&byte| inlet.receive::<Event>(byte)).is_some());
+    assert!(request.iter().find_map(|&byte| inlet.receive::<Event, f32>(byte)).is_some());
     let faults = microimpact::instrument::link::FrameFaults {
         oversized: u64::MAX,
         stuffing: u64::MAX,
@@ -158,6 +194,7 @@ fn the_longest_messages_fit() {
     let arrivals = microimpact::instrument::link::Arrivals {
         events: u64::MAX,
         reports: u64::MAX,
+        commands: u64::MAX,
         duplicates: u64::MAX,
         missing: u64::MAX,
         faults,
@@ -168,6 +205,7 @@ fn the_longest_messages_fit() {
         classified: u64::MAX,
         rejections: microimpact::instrument::Rejections { input: u64::MAX, unsolved: u64::MAX },
         reports: u64::MAX,
+        commands: u64::MAX,
         signal_failures: u64::MAX,
         ticks: u64::MAX,
     };
@@ -179,7 +217,7 @@ proptest! {
     /// Whatever comes before it, a frame is understood: the link is in step again within one frame.
     #[test]
     fn any_noise_spoils_no_frame(noise in prop::collection::vec(any::<u8>(), 0..200), event in events()) {
-        let request = Request::Event { number: 5, reading: event };
+        let request: ToInstrument = Request::Event { number: 5, reading: event };
         let mut decoder = Decoder::<MESSAGE_BYTES>::new();
         let mut received = Vec::new();
         for byte in noise.iter().copied().chain(frame(&request)) {
@@ -206,7 +244,7 @@ proptest! {
         damaged.splice(place..end, insert);
         damaged.push(0);
         let mut inlet = Inlet::<MESSAGE_BYTES>::new();
-        let understood = damaged.iter().filter_map(|&byte| inlet.receive::<Event>(byte)).count();
+        let understood = damaged.iter().filter_map(|&byte| inlet.receive::<Event, f32>(byte)).count();
         let unharmed = damaged[..damaged.len() - 1] == whole;
         let prefixed = damaged.windows(whole.len()).any(|part| part == whole);
         prop_assert_eq!(understood > 0, unharmed || prefixed);
@@ -221,7 +259,7 @@ proptest! {
         let reading = PlanarReading { approach: 1.0, tangential: 0.0, peripheral: 0.0 };
         let mut send = |number| {
             let bytes = frame(&Request::Event { number, reading });
-            bytes.iter().filter_map(|&byte| inlet.receive::<Event>(byte)).count()
+            bytes.iter().filter_map(|&byte| inlet.receive::<Event, f32>(byte)).count()
         };
         prop_assert_eq!(send(number), 1);
         for &step in &steps {

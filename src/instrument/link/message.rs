@@ -1,30 +1,33 @@
-//! Messages of the link, and the end of the link in the instrument.
+//! Messages of the link.
 
-use serde::de::DeserializeOwned;
+use heapless::Vec;
 
-use super::{Decoder, FrameFault};
+use super::{FrameFault, Schema};
 use crate::instrument::{Rejection, Rejections, Verdict};
+use crate::{InputError, SceneConfig};
 
 /// Version of the messages. Both ends must have the same version.
 ///
 /// ```
-/// assert_eq!(microimpact::instrument::link::PROTOCOL, 2);
+/// assert_eq!(microimpact::instrument::link::PROTOCOL, 3);
 /// ```
-pub const PROTOCOL: u16 = 2;
+pub const PROTOCOL: u16 = 3;
 
-/// Message from the host to the instrument. `R` is a [`Reading`](crate::instrument::Reading).
+/// Message from the host to the instrument. `R` is a [`Reading`](crate::instrument::Reading), and `T` the number type of scenes.
+///
+/// Every request but an event has any number, which the reply repeats. Its reply follows the replies to all earlier requests.
 ///
 /// ```
 /// use microimpact::instrument::NormalReading;
 /// use microimpact::instrument::link::{Encoder, Request};
 ///
-/// let request = Request::Event { number: 1, reading: NormalReading { approach: 2.8_f32 } };
+/// let request: Request<_> = Request::Event { number: 1, reading: NormalReading { approach: 2.8_f32 } };
 /// assert!(Encoder::<32>::new().frame(&request).is_ok_and(|frame| frame.len() == 13));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(serde::Serialize, serde::Deserialize)]
-pub enum Request<R> {
+pub enum Request<R, T = f32> {
     /// A reading to classify.
     ///
     /// A number is used only once, even if the frame is damaged or the queue is full. A reading that is sent again gets a new
@@ -35,10 +38,32 @@ pub enum Request<R> {
         /// The reading.
         reading: R,
     },
-    /// Asks for a [`Report`]. The report follows the replies to all earlier requests.
+    /// Asks for a [`Report`], which tells the health of the instrument too.
     Report {
-        /// Any number. The reply repeats it.
+        /// Any number.
         number: u32,
+    },
+    /// Asks for version and schema, as a host that comes later does.
+    Describe {
+        /// Any number.
+        number: u32,
+    },
+    /// Asks for the number of readings in each class.
+    Counts {
+        /// Any number.
+        number: u32,
+    },
+    /// Empties the tally. The reply has what it held. A [`Report`] still counts from the start.
+    Reset {
+        /// Any number.
+        number: u32,
+    },
+    /// Sets the scene by which later readings are classified. The counts go on.
+    Configure {
+        /// Any number.
+        number: u32,
+        /// The scene.
+        scene: SceneConfig<T>,
     },
 }
 
@@ -53,7 +78,7 @@ pub enum Request<R> {
 /// let reply = Reply::Classified { number: 1, verdict };
 /// assert!(Encoder::<32>::new().frame(&reply).is_ok_and(|frame| frame.len() <= 16));
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub enum Reply<T, C> {
@@ -61,6 +86,8 @@ pub enum Reply<T, C> {
     Started {
         /// The [`PROTOCOL`] of the instrument.
         protocol: u16,
+        /// What it speaks of.
+        schema: Schema,
     },
     /// The verdict on a reading.
     Classified {
@@ -76,13 +103,83 @@ pub enum Reply<T, C> {
         /// The reason.
         rejection: Rejection,
     },
-    /// All counts.
+    /// All counts of requests.
     Report {
         /// Number of the request.
         number: u32,
         /// The counts.
         report: Report,
     },
+    /// What the instrument speaks of.
+    Description {
+        /// Number of the request.
+        number: u32,
+        /// The [`PROTOCOL`] of the instrument.
+        protocol: u16,
+        /// What it speaks of.
+        schema: Schema,
+    },
+    /// The number of readings in each class since the tally was emptied, in the order of the classes.
+    Counts {
+        /// Number of the request.
+        number: u32,
+        /// The counts.
+        counts: Vec<u64, MOST_CLASSES>,
+    },
+    /// The tally was emptied.
+    Reset {
+        /// Number of the request.
+        number: u32,
+        /// The number of readings in each class until then.
+        counts: Vec<u64, MOST_CLASSES>,
+    },
+    /// The scene was set.
+    Configured {
+        /// Number of the request.
+        number: u32,
+    },
+    /// The scene was not set, and the earlier one is still there.
+    Refused {
+        /// Number of the request.
+        number: u32,
+        /// The reason.
+        refusal: Refusal,
+    },
+}
+
+/// Classes whose counts find room in a reply.
+///
+/// ```
+/// use microimpact::{Class, instrument::{ClassSet, link::MOST_CLASSES}};
+///
+/// assert!(Class::COUNT <= MOST_CLASSES);
+/// ```
+pub const MOST_CLASSES: usize = 16;
+
+/// Why a scene was not set.
+///
+/// ```
+/// use microimpact::Parameter;
+/// use microimpact::instrument::link::Refusal;
+///
+/// let refusal = Refusal::from(Parameter::Radius.check(-1.0).unwrap_err());
+/// assert!(matches!(refusal, Refusal::Input(error) if error.parameter == Parameter::Radius));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// A number is outside its range.
+    Input(InputError),
+    /// The scene of this instrument does not change.
+    Fixed,
+}
+
+impl From<InputError> for Refusal {
+    fn from(error: InputError) -> Self {
+        Self::Input(error)
+    }
 }
 
 /// Counts of all requests since the instrument started.
@@ -108,6 +205,8 @@ pub struct Report {
     pub rejections: Rejections,
     /// Reports, including this one.
     pub reports: u64,
+    /// Answers to other requests than events and reports.
+    pub commands: u64,
     /// Number of times that the class lines did not switch.
     pub signal_failures: u64,
     /// Clock ticks while the instrument was awake; zero if it does not count them.
@@ -115,6 +214,25 @@ pub struct Report {
 }
 
 impl Report {
+    /// No requests so far.
+    pub(super) const NONE: Self = Self {
+        arrivals: Arrivals {
+            events: 0,
+            reports: 0,
+            commands: 0,
+            duplicates: 0,
+            missing: 0,
+            faults: FrameFaults { oversized: 0, stuffing: 0, checksum: 0, content: 0 },
+        },
+        lost: 0,
+        classified: 0,
+        rejections: Rejections { input: 0, unsolved: 0 },
+        reports: 0,
+        commands: 0,
+        signal_failures: 0,
+        ticks: 0,
+    };
+
     /// Whether every valid request was either answered or lost. If not, some requests still wait in the queue.
     ///
     /// ```
@@ -123,8 +241,10 @@ impl Report {
     /// assert!(!Report { classified: 1, ..Report::default() }.is_complete());
     /// ```
     pub fn is_complete(&self) -> bool {
-        let answered = self.classified.saturating_add(self.rejections.total()).saturating_add(self.reports);
-        answered.saturating_add(self.lost.into()) == self.arrivals.events.saturating_add(self.arrivals.reports)
+        let sum = |counts: &[u64]| counts.iter().fold(0_u64, |sum, &count| sum.saturating_add(count));
+        let Arrivals { events, reports, commands, .. } = self.arrivals;
+        let answered = [self.classified, self.rejections.total(), self.reports, self.commands, self.lost.into()];
+        sum(&answered) == sum(&[events, reports, commands])
     }
 }
 
@@ -141,6 +261,8 @@ pub struct Arrivals {
     pub events: u64,
     /// Requests for a report.
     pub reports: u64,
+    /// Other requests.
+    pub commands: u64,
     /// Repeated readings: their number is not above the latest number.
     pub duplicates: u64,
     /// Missing readings: numbers that were skipped.
@@ -199,106 +321,5 @@ impl FrameFaults {
     /// ```
     pub fn total(&self) -> u64 {
         [self.oversized, self.stuffing, self.checksum, self.content].iter().fold(0, |sum, &n| sum.saturating_add(n))
-    }
-}
-
-/// The end of the link in the instrument: it turns received bytes into requests.
-///
-/// A message with its checksum has up to `N` bytes.
-///
-/// ```
-/// use microimpact::instrument::NormalReading;
-/// use microimpact::instrument::link::{Encoder, Inlet, Request};
-///
-/// let request = Request::Event { number: 1, reading: NormalReading { approach: 2.8 } };
-/// let mut encoder = Encoder::<32>::new();
-/// let frame = encoder.frame(&request).unwrap();
-/// let mut inlet = Inlet::<32>::new();
-/// let mut receive = |bytes: &[u8]| bytes.iter().find_map(|&byte| inlet.receive::<NormalReading<f32>>(byte));
-/// assert_eq!(receive(frame), Some(request));
-/// assert_eq!(receive(frame), None); // a repetition
-/// assert_eq!((inlet.arrivals().events, inlet.arrivals().duplicates), (1, 1));
-/// ```
-#[derive(Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Inlet<const N: usize> {
-    decoder: Decoder<N>,
-    latest: Option<u32>,
-    arrivals: Arrivals,
-}
-
-impl<const N: usize> Inlet<N> {
-    /// Creates the end of a link that has received nothing yet.
-    ///
-    /// ```
-    /// assert_eq!(microimpact::instrument::link::Inlet::<32>::new().arrivals().events, 0);
-    /// ```
-    pub const fn new() -> Self {
-        let faults = FrameFaults { oversized: 0, stuffing: 0, checksum: 0, content: 0 };
-        let arrivals = Arrivals { events: 0, reports: 0, duplicates: 0, missing: 0, faults };
-        Self { decoder: Decoder::new(), latest: None, arrivals }
-    }
-
-    /// Takes a byte. If it completes a request, returns the request. Faults and repetitions are only counted.
-    ///
-    /// ```
-    /// use microimpact::instrument::link::{Encoder, Inlet, Request};
-    ///
-    /// let mut inlet = Inlet::<32>::new();
-    /// let request: Request<f32> = Request::Report { number: 9 };
-    /// let mut encoder = Encoder::<32>::new();
-    /// let frame = encoder.frame(&request).unwrap();
-    /// assert_eq!(frame.iter().find_map(|&byte| inlet.receive(byte)), Some(request));
-    /// ```
-    pub fn receive<R: DeserializeOwned>(&mut self, byte: u8) -> Option<Request<R>> {
-        let request = match self.decoder.push(byte)? {
-            Ok(request) => request,
-            Err(fault) => {
-                self.arrivals.faults.add(fault);
-                return None;
-            }
-        };
-        match request {
-            Request::Event { number, .. } => self.is_new(number).then_some(request),
-            Request::Report { .. } => {
-                self.arrivals.reports = self.arrivals.reports.saturating_add(1);
-                Some(request)
-            }
-        }
-    }
-
-    /// Whether a number is new, by serial number arithmetic (RFC 1982): it is at most half of the range ahead of the latest.
-    /// The first number is always new.
-    fn is_new(&mut self, number: u32) -> bool {
-        let ahead = self.latest.map_or(1, |latest| number.wrapping_sub(latest));
-        let new = ahead != 0 && ahead <= u32::MAX / 2;
-        if new {
-            self.latest = Some(number);
-            self.arrivals.missing = self.arrivals.missing.saturating_add(u64::from(ahead - 1));
-            self.arrivals.events = self.arrivals.events.saturating_add(1);
-        } else {
-            self.arrivals.duplicates = self.arrivals.duplicates.saturating_add(1);
-        }
-        new
-    }
-
-    /// Counts of what was received so far.
-    ///
-    /// ```
-    /// let mut inlet = microimpact::instrument::link::Inlet::<32>::new();
-    /// for byte in [0, 1, 2, 3, 0] {
-    ///     assert!(inlet.receive::<u8>(byte).is_none());
-    /// }
-    /// assert_eq!(inlet.arrivals().faults.total(), 1);
-    /// ```
-    #[inline]
-    pub fn arrivals(&self) -> Arrivals {
-        self.arrivals
-    }
-}
-
-impl<const N: usize> Default for Inlet<N> {
-    fn default() -> Self {
-        Self::new()
     }
 }

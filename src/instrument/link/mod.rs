@@ -4,9 +4,18 @@
 //! and the end of a frame and occur nowhere else. Noise between frames, or a damaged frame, does not affect the next frame.
 //! Readings have consecutive numbers, so that the instrument recognises repeated and missing readings, and answers no reading
 //! twice. This module needs the feature `link`.
+#![doc = include_str!("protocol.md")]
 
 mod frame;
+mod inlet;
 mod message;
+mod outlet;
+mod schema;
+mod station;
 
 pub use frame::{Decoder, Encoder, FrameFault};
-pub use message::{Arrivals, FrameFaults, Inlet, PROTOCOL, Reply, Report, Request};
+pub use inlet::Inlet;
+pub use message::{Arrivals, FrameFaults, MOST_CLASSES, PROTOCOL, Refusal, Reply, Report, Request};
+pub use outlet::{Outlet, ReplyFault};
+pub use schema::{Described, Schema};
+pub use station::{Received, Station};

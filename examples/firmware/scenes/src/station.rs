@@ -1,13 +1,17 @@
 //! What the instrument measures and how it speaks of it. Firmware and host share this file, so that they agree.
 
-use microimpact::instrument::link::{Reply, Request};
-use microimpact::instrument::{PlanarReading, SpeedBins};
+use microimpact::contact::FixedCost;
+use microimpact::instrument::link::{Refusal, Reply, Request};
+use microimpact::instrument::{PlanarReading, Simulated, SpeedBins};
 use microimpact::rigid::WorkOfAdhesion;
-use microimpact::{Class, Coulomb, InputError, Real, RigidBody, SpeedRestitution, Sphere};
+use microimpact::{
+    AnyModel, Class, Coulomb, InputError, ModelConfig, Real, ReboundAdhesionConfig, RestitutionConfig, RigidBody,
+    SceneConfig, SpeedRestitution, Sphere,
+};
 
 use crate::table_1::{DENSITY_KG_M3, FRICTION, RADIUS_M, RESTITUTION_SPEED_M_S, WORK_OF_ADHESION_J};
 
-/// Particle and surface.
+/// Particle and surface that the station starts with.
 pub type Scene<T> = RigidBody<T, SpeedRestitution<T>, WorkOfAdhesion<T>, Coulomb<T>>;
 /// What the detector delivers.
 pub type Event = PlanarReading<f32>;
@@ -21,13 +25,39 @@ pub const CLASSES: usize = 6;
 /// Number of bins of speed.
 pub const BINS: usize = 6;
 /// Bytes for the longest message to the instrument and its checksum.
-pub const MESSAGE_BYTES: usize = 32;
+pub const MESSAGE_BYTES: usize = 64;
 /// Bytes of the longest frame to the host, a report.
 pub const REPLY_BYTES: usize = 160;
 /// One more than the requests that can wait for the main loop.
 pub const QUEUE: usize = 64;
 /// Turns of a loop of two instructions that stand for other work of a busy main loop, before each request.
 pub const OTHER_WORK: u32 = 300_000;
+
+/// What the station classifies by: a scene that the host may change, and the method for scenes that are simulated.
+pub type Scenes = Simulated<AnyModel<f32>, FixedCost<5, 7>>;
+
+/// Iterations of that method.
+const ITERATIONS: u32 = 3;
+
+/// The scene that the station starts with, as it would be configured: that of [`scene`].
+pub const SCENE: SceneConfig<f32> = SceneConfig {
+    radius: RADIUS_M as f32,
+    density: DENSITY_KG_M3 as f32,
+    gyration_ratio: 0.4,
+    friction: FRICTION as f32,
+    model: ModelConfig::RigidBody {
+        restitution: RestitutionConfig::Speed { speed: RESTITUTION_SPEED_M_S as f32 },
+        adhesion: ReboundAdhesionConfig::Work { work: WORK_OF_ADHESION_J as f32 },
+    },
+};
+
+/// The classifier of a configuration.
+///
+/// # Errors
+/// A number outside its range.
+pub fn classifier(config: &SceneConfig<f32>) -> Result<Scenes, Refusal> {
+    Ok(Simulated { scene: config.scene()?, method: FixedCost::<5>::new(ITERATIONS)?.with_outputs() })
+}
 
 /// Silver-coated glass on steel: Brach & Dunn (1995), Table 1, with R = k/(k + v).
 ///

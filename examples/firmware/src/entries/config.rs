@@ -24,9 +24,14 @@ pub(super) fn call_all<T: AnyNodes>() -> Result<(), InputError> {
 /// Any scene.
 #[inline(never)]
 pub(super) fn scene<T: AnyNodes>() -> Result<AnyModel<T>, InputError> {
+    any_scene().scene()
+}
+
+/// Any configuration.
+pub(super) fn any_scene<T: AnyNodes>() -> SceneConfig<T> {
     let rigid = ModelConfig::RigidBody { restitution: restitution(), adhesion: rebound_adhesion() };
     let contact = ModelConfig::Contact { stiffness: any(), damping: damping(), adhesion: adhesion(), force: any() };
-    SceneConfig::solid(any(), any(), if black_box(true) { rigid } else { contact }).scene()
+    SceneConfig::solid(any(), any(), if black_box(true) { rigid } else { contact })
 }
 
 fn restitution<T: AnyNodes>() -> RestitutionConfig<T> {

@@ -5,15 +5,17 @@ use core::hint::black_box;
 
 use embedded_hal::digital::{ErrorType, OutputPin};
 use microimpact::contact::{Collocation, Contact, FixedCost};
-use microimpact::instrument::link::{Decoder, Encoder, FrameFault, Inlet, PROTOCOL, Reply, Report, Request};
+use microimpact::instrument::link::{
+    Encoder, FrameFault, Inlet, Outlet, Received, Refusal, Reply, Report, Request, Station,
+};
 use microimpact::instrument::{
     ClassLines, ClassSet, Classified, Classifier, Instrument, NoLines, NormalReading, ObliqueReading, PlanarReading,
     Queue, Reading, Rejection, Signal, Simulated, SpeedBins, Statistics, Tabulated, Tally, Verdict,
 };
 use microimpact::table::{BoundaryTable, RestitutionTable, Single, TableRebound};
 use microimpact::{
-    Approach, Class, Coulomb, CriticalSpeed, InputError, NoFriction, Outcome, Real, RigidBody, SpeedRestitution,
-    Sphere, Stiffness,
+    Approach, Class, Coulomb, CriticalSpeed, InputError, NoFriction, Outcome, Real, RigidBody, SceneConfig,
+    SpeedRestitution, Sphere, Stiffness,
 };
 
 use super::contact::AnyNodes;
@@ -47,7 +49,7 @@ pub(super) fn call_all<T: AnyNodes + Single>() -> Result<(), InputError> {
     let chosen = Simulated { scene: super::config::scene::<T>()?, method: FixedCost::<5>::new(black_box(3))? };
     process::<T, _, _, 6>(chosen, &planar, lines())?;
     keep(Signal::<Class>::show(&mut NoLines, black_box(None)));
-    link();
+    link()?;
     statistics::<T>()
 }
 
@@ -125,31 +127,46 @@ fn statistics<T: Real>() -> Result<(), InputError> {
     Ok(())
 }
 
-fn link() {
+fn link() -> Result<(), InputError> {
     let mut encoder = Encoder::<160>::default();
     let reading = PlanarReading { approach: any::<f32>(), tangential: any(), peripheral: any() };
-    let mut inlet = Inlet::<32>::default();
-    if let Ok(frame) = encoder.frame(&Request::Event { number: black_box(1), reading }) {
-        for &byte in frame {
-            keep(inlet.receive::<PlanarReading<f32>>(black_box(byte)));
+    let mut inlet = Inlet::<64>::default();
+    let number = black_box(1);
+    let method = FixedCost::<5>::new(black_box(3))?.with_outputs::<7>();
+    let configure = |scene: &SceneConfig<f32>| Ok::<_, Refusal>(Simulated { scene: scene.scene()?, method });
+    let classifier = Simulated { scene: super::config::scene::<f32>()?, method };
+    let instrument: Instrument<_, _, f32, 6, 1> = Instrument::new(classifier, lines(), SpeedBins::new([any()])?);
+    let mut station = Station::new(instrument);
+    let mut outlet = Outlet::<f32, PlanarReading<f32>, Class, 160>::default();
+    let mut hear = |reply: &Reply<f32, Class>| {
+        for &byte in encoder.frame(reply).unwrap_or_default() {
+            keep(outlet.receive(black_box(byte)));
+        }
+    };
+    hear(&station.started::<PlanarReading<f32>>());
+    let requests = [
+        Request::Event { number, reading },
+        Request::Report { number },
+        Request::Describe { number },
+        Request::Counts { number },
+        Request::Reset { number },
+        Request::Configure { number, scene: super::config::any_scene() },
+    ];
+    let mut encoder = Encoder::<64>::default();
+    for request in &requests {
+        for &byte in encoder.frame(request).unwrap_or_default() {
+            if let Some(request) = inlet.receive::<PlanarReading<f32>, f32>(black_box(byte)) {
+                let received = Received { arrivals: inlet.arrivals(), lost: any::<f32>() as u32, ticks: 0 };
+                hear(&station.answer(&request, &received, configure));
+                hear(&station.answer(&request, &received, Station::<(), (), f32, 0, 0>::fixed));
+            }
         }
     }
+    keep(station.instrument().tally().classified());
     let report = Report { arrivals: inlet.arrivals(), ..black_box(Report::default()) };
     keep((report.is_complete(), report.arrivals.faults.total()));
-    let verdict = Verdict { class: black_box(Class::ReboundRolling), restitution: Some(any::<f32>()) };
-    let replies = [
-        Reply::Started { protocol: black_box(PROTOCOL) },
-        Reply::Classified { number: black_box(1), verdict },
-        Reply::Rejected { number: black_box(1), rejection: black_box(Rejection::Unsolved) },
-        Reply::Report { number: black_box(1), report },
-    ];
-    let mut decoder = Decoder::<160>::default();
     let mut faults = report.arrivals.faults;
     faults.add(black_box(FrameFault::Content));
     keep(faults);
-    for reply in &replies {
-        for &byte in encoder.frame(reply).unwrap_or_default() {
-            keep(decoder.push::<Reply<f32, Class>>(black_box(byte)));
-        }
-    }
+    Ok(())
 }

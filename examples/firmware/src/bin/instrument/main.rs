@@ -16,16 +16,16 @@ mod clock;
 
 #[rtic::app(device = lm3s6965, peripherals = false)]
 mod app {
-    use microimpact::instrument::link::{Encoder, Inlet, PROTOCOL, Reply, Report, Request};
+    use microimpact::instrument::link::{self, Encoder, Inlet, PROTOCOL, Received, Reply};
     use microimpact::instrument::{ClassLines, Instrument, Queue, Receiver, Sender};
     use microimpact_firmware::station::{
-        BINS, CLASSES, MESSAGE_BYTES, QUEUE, REPLY_BYTES, Scene, ToHost, ToInstrument, bins, scene,
+        BINS, CLASSES, Event, MESSAGE_BYTES, QUEUE, REPLY_BYTES, SCENE, Scenes, ToHost, ToInstrument, bins, classifier,
     };
 
     use crate::board::{self, Line, SerialInput, SerialOutput};
     use crate::clock::Clock;
 
-    type Station = Instrument<Scene<f32>, ClassLines<Line, CLASSES>, f32, CLASSES, BINS>;
+    type Station = link::Station<Scenes, ClassLines<Line, CLASSES>, f32, CLASSES, BINS>;
 
     #[shared]
     struct Shared {
@@ -59,7 +59,7 @@ mod app {
 
     #[init(local = [queue: Queue<ToInstrument, QUEUE> = Queue::new()])]
     fn init(context: init::Context) -> (Shared, Local) {
-        let (Ok(scene), Ok(bins)) = (scene(), bins()) else {
+        let (Ok(scene), Ok(bins)) = (classifier(&SCENE), bins()) else {
             panic!("the station's values are outside their ranges");
         };
         let (input, output, lines) = board::start();
@@ -68,7 +68,7 @@ mod app {
             input,
             sender,
             receiver,
-            station: Instrument::new(scene, ClassLines::new(lines), bins),
+            station: Station::new(Instrument::new(scene, ClassLines::new(lines), bins)),
             host: Host { output, encoder: Encoder::new() },
             clock: Clock::new(context.core.SYST),
         };
@@ -88,11 +88,11 @@ mod app {
     }
 
     /// Answers go out.
-    #[idle(shared = [inlet], local = [receiver, station, host, clock, reports: u64 = 0])]
+    #[idle(shared = [inlet], local = [receiver, station, host, clock])]
     fn idle(mut context: idle::Context) -> ! {
-        let idle::LocalResources { receiver, station, host, clock, reports, .. } = context.local;
+        let idle::LocalResources { receiver, station, host, clock, .. } = context.local;
         defmt::info!("started, protocol {=u16}", PROTOCOL);
-        host.tell(&Reply::Started { protocol: PROTOCOL });
+        host.tell(&station.started::<Event>());
         loop {
             let request = receiver.receive();
             #[cfg(feature = "busy")]
@@ -100,27 +100,17 @@ mod app {
                 cortex_m::asm::delay(microimpact_firmware::station::OTHER_WORK);
             }
             match request {
-                Some(Request::Event { number, reading }) => host.tell(&match station.process(&reading) {
-                    Ok(verdict) => Reply::Classified { number, verdict },
-                    Err(rejection) => {
-                        defmt::debug!("event {=u32} rejected: {}", number, rejection);
-                        Reply::Rejected { number, rejection }
-                    }
-                }),
-                Some(Request::Report { number }) => {
-                    *reports += 1;
-                    let tally = station.tally();
-                    let report = Report {
+                Some(request) => {
+                    let received = Received {
                         arrivals: context.shared.inlet.lock(|inlet| inlet.arrivals()),
                         lost: receiver.lost(),
-                        classified: tally.classified(),
-                        rejections: tally.rejections(),
-                        reports: *reports,
-                        signal_failures: tally.signal_failures(),
                         ticks: clock.awake(),
                     };
-                    defmt::debug!("{}", report);
-                    host.tell(&Reply::Report { number, report });
+                    let reply = station.answer(&request, &received, classifier);
+                    if let Reply::Rejected { number, rejection } = &reply {
+                        defmt::debug!("event {=u32} rejected: {}", number, rejection);
+                    }
+                    host.tell(&reply);
                 }
                 // An interrupt that comes between the question and the sleep ends the sleep at once, although it runs after it.
                 None => cortex_m::interrupt::free(|_| {
