@@ -227,7 +227,10 @@ impl<T: Real, S> Output<T, S> for Impulses {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Works;
 
-/// Energies that the two kinds of damping take from the normal motion, J.
+/// Energies that the normal motion loses to the materials and to adhesion, J: to their damping, and what either keeps at separation.
+///
+/// Those of a captured sphere are lost until it first turns back. Of a rebound they add up to the loss of kinetic energy along the
+/// normal.
 ///
 /// ```
 /// use microimpact::contact::{Adaptive, Contact, ContactWorks, Works};
@@ -243,17 +246,25 @@ pub struct Works;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactWorks<T> {
-    /// Lost to the damping in the materials.
+    /// Lost to the materials: to their damping, and what they have not given back where damping cancels their force.
     pub material: T,
-    /// Lost to the damping of adhesion.
+    /// Lost to adhesion: to its damping, and what lies between first contact and the end of contact if it pulls farther out than it
+    /// caught the sphere, as that of Johnson, Kendall and Roberts does.
     pub adhesion: T,
 }
 
 impl<T: Real> ContactWorks<T> {
-    fn new<L>(works: &integrals::Works<T>, end: &Ended<'_, T, L>) -> Self {
+    fn new<L: ContactLaw<T>>(works: &integrals::Works<T>, end: &Ended<'_, T, L>) -> Self {
+        let (mut material, mut adhesion) = (works.material, works.adhesion);
+        if end.path.end == End::Separation {
+            if end.law.release_speed(end.law.end()).is_some() {
+                material = end.units.energy - end.path.energy;
+            }
+            adhesion = adhesion - end.law.potential(end.law.start());
+        }
         // In this order no factor leaves the range of single precision.
         let energy = |work: T| end.sphere.mass() * end.units.speed * (end.units.speed * work);
-        Self { material: energy(works.material), adhesion: energy(works.adhesion) }
+        Self { material: energy(material), adhesion: energy(adhesion) }
     }
 }
 
@@ -312,17 +323,12 @@ impl Energy {
         let joules = |energy: T| end.sphere.mass() * end.units.speed * (end.units.speed * energy);
         let unit = end.units.speed * energy_speed;
         let [after, friction, peeling] = along.map(|energy| end.sphere.mass() * unit * (unit * energy));
-        let mut works = ContactWorks::new(works, end);
-        if end.law.release_speed(end.law.end()).is_some() {
-            // What the materials have not given back where damping cancels their force remains in them.
-            works.material = joules(end.units.energy - end.path.energy);
-        }
+        let works = ContactWorks::new(works, end);
         Some(EnergyLedger {
             before: joules(end.units.energy) + after + friction + peeling,
             after: joules(end.path.energy.max(T::ZERO)) + after,
             material: works.material,
-            // Adhesion that pulls farther out than it caught the sphere keeps what lies between.
-            adhesion: works.adhesion - joules(end.law.potential(end.law.start())),
+            adhesion: works.adhesion,
             friction,
             rolling: peeling,
             external: T::ZERO,

@@ -62,13 +62,15 @@ fn serve(mut stream: TcpStream, reset: &AtomicBool, defect: Defect) {
                 let lost = if defect == Defect::ForgetsOverruns { 0 } else { receiver.lost() };
                 let received = Received { arrivals: inlet.arrivals(), lost, ticks };
                 let mut reply = match request {
-                    Request::Configure { number, .. } if defect == Defect::KeepsItsScene => {
+                    Request::Configure { number, scene }
+                        if defect == Defect::KeepsItsScene && classifier(&scene).is_ok() =>
+                    {
                         Reply::Configured { number }
                     }
                     _ => station.answer(&request, &received, classifier),
                 };
                 if let (Reply::Classified { verdict, .. }, Defect::WrongClass) = (&mut reply, defect) {
-                    verdict.class = microimpact::Class::CapturedRolling;
+                    verdict.class = Class::CapturedRolling;
                 }
                 tell(&mut stream, &reply);
                 if special && defect == Defect::AnswersTwice {

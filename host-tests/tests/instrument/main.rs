@@ -3,4 +3,5 @@
 mod configuration;
 mod instrument;
 mod instrument_link;
+mod protocol;
 mod storage;

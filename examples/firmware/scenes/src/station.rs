@@ -27,7 +27,7 @@ pub const BINS: usize = 6;
 /// Bytes for the longest message to the instrument and its checksum.
 pub const MESSAGE_BYTES: usize = 64;
 /// Bytes of the longest frame to the host, a report.
-pub const REPLY_BYTES: usize = 160;
+pub const REPLY_BYTES: usize = 184;
 /// One more than the requests that can wait for the main loop.
 pub const QUEUE: usize = 64;
 /// Turns of a loop of two instructions that stand for other work of a busy main loop, before each request.

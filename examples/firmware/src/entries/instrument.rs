@@ -128,7 +128,7 @@ fn statistics<T: Real>() -> Result<(), InputError> {
 }
 
 fn link() -> Result<(), InputError> {
-    let mut encoder = Encoder::<160>::default();
+    let mut encoder = Encoder::<184>::default();
     let reading = PlanarReading { approach: any::<f32>(), tangential: any(), peripheral: any() };
     let mut inlet = Inlet::<64>::default();
     let number = black_box(1);
@@ -137,7 +137,7 @@ fn link() -> Result<(), InputError> {
     let classifier = Simulated { scene: super::config::scene::<f32>()?, method };
     let instrument: Instrument<_, _, f32, 6, 1> = Instrument::new(classifier, lines(), SpeedBins::new([any()])?);
     let mut station = Station::new(instrument);
-    let mut outlet = Outlet::<f32, PlanarReading<f32>, Class, 160>::default();
+    let mut outlet = Outlet::<f32, PlanarReading<f32>, Class, 184>::default();
     let mut hear = |reply: &Reply<f32, Class>| {
         for &byte in encoder.frame(reply).unwrap_or_default() {
             keep(outlet.receive(black_box(byte)));
