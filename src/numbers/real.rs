@@ -80,6 +80,18 @@ pub trait Real:
         (self * other).sqrt()
     }
 
+    /// Whether this number is above another; of a type with lanes, in any of them.
+    #[inline]
+    fn any_above(self, other: Self) -> bool {
+        self > other
+    }
+
+    /// `then` where this number is above another, `otherwise` elsewhere; a type with lanes chooses in each.
+    #[inline]
+    fn where_above(self, other: Self, then: Self, otherwise: Self) -> Self {
+        if self > other { then } else { otherwise }
+    }
+
     /// Absolute value.
     #[inline]
     fn abs(self) -> Self {

@@ -32,6 +32,7 @@
 mod column;
 mod contacts;
 mod impacts;
+mod lanes;
 mod motions;
 mod quantity;
 mod rigid_bodies;
@@ -40,6 +41,7 @@ mod simulate;
 pub use column::Column;
 pub use contacts::{Contacts, Damping, Law, Surface};
 pub use impacts::{Impacts, RowStatus};
+pub use lanes::{F32x8, F64x4};
 pub use motions::Motions;
 pub use quantity::Quantity;
 pub use rigid_bodies::{Adhesion, AnyRestitution, Restitution, RigidBodies};

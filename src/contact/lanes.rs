@@ -1,0 +1,108 @@
+//! Several impacts at once: a scene whose numbers hold one number of each impact.
+
+// The lanes are those of the arrays.
+#![allow(clippy::indexing_slicing)]
+
+use super::along::{Surface, TangentialVelocities};
+use super::law::{ContactLaw, Units};
+use super::result::{NormalContact, SimulatedImpact};
+use super::scene::Contact;
+use super::solve::path::NormalPath;
+use super::solve::{FixedCost, PhaseSamples, RunReport};
+use crate::{Approach, Coulomb, InputError, NoFriction, Oblique, ObliqueMotion, Real, Sphere};
+
+/// What happens along the surface to several spheres at once: the surface of a scene that [`Contact::solve_lanes`] takes. `V` is the
+/// number type with lanes, `T` that of one lane, and `B` the motion before the impact.
+///
+/// ```
+/// use microimpact::contact::SurfaceInLanes;
+/// use microimpact::{Coulomb, ObliqueMotion};
+///
+/// fn velocities<S: SurfaceInLanes<f64, f64, ObliqueMotion<f64>>>() -> usize {
+///     size_of::<S::AfterLane>()
+/// }
+/// assert!(velocities::<Coulomb<f64>>() > 0);
+/// ```
+pub trait SurfaceInLanes<V: Real, T: Real, B>: Surface<V, B, Observer: Copy> {
+    /// Velocities after the impact in one lane.
+    type AfterLane;
+
+    /// They, of the lane that `lane` takes out of each number.
+    fn after_lane(
+        observer: &Self::Observer,
+        lane: impl Fn(V) -> T,
+        path: &NormalPath<T>,
+        sphere: &Sphere<T>,
+        units: &Units<T>,
+    ) -> Self::AfterLane;
+}
+
+impl<V: Real, T: Real, B> SurfaceInLanes<V, T, B> for NoFriction {
+    type AfterLane = ();
+
+    #[inline]
+    fn after_lane((): &(), _: impl Fn(V) -> T, _: &NormalPath<T>, _: &Sphere<T>, _: &Units<T>) {}
+}
+
+impl<V: Real, T: Real, B: Oblique<V>> SurfaceInLanes<V, T, B> for Coulomb<V> {
+    type AfterLane = TangentialVelocities<T>;
+
+    #[inline]
+    fn after_lane(
+        observer: &Self::Observer,
+        lane: impl Fn(V) -> T,
+        path: &NormalPath<T>,
+        sphere: &Sphere<T>,
+        units: &Units<T>,
+    ) -> TangentialVelocities<T> {
+        <Coulomb<T> as Surface<T, ObliqueMotion<T>>>::after(&observer.map(lane), path, sphere, units)
+    }
+}
+
+impl<V: Real, L: ContactLaw<V>, S> Contact<V, L, S> {
+    /// `W` impacts at once, by a number type with `W` lanes of the type `T`: its numbers describe one scene and one motion in each
+    /// lane. A result is that of [`solve`](Self::solve) in its lane, within rounding, with a status and an outcome of its own.
+    ///
+    /// [`Real`] states what such a type has to do. It is as fast as the compiler or the crate makes its arithmetic. A law with an external
+    /// force is [`Unsupported`](super::Status::Unsupported).
+    ///
+    /// # Errors
+    /// As [`solve`](Self::solve), if it fails in any lane.
+    ///
+    /// ```
+    /// use microimpact::contact::{Contact, FixedCost, Status};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    /// # #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+    /// # struct One(f64);
+    /// let scene = Contact::hertz(Sphere::solid(5.06e-6, 2600.0)?, Stiffness::new(7.5e10)?).with_damping(10.5)?;
+    /// let (motion, method) = (NormalMotion::new(2.8_f64)?, FixedCost::<7>::new(3)?);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn solve_lanes<T, B, const N: usize, const M: usize, const W: usize>(
+        &self,
+        before: &B,
+        method: &FixedCost<N, M>,
+    ) -> Result<[SimulatedImpact<T, S::AfterLane>; W], InputError>
+    where
+        T: PhaseSamples<N, M>,
+        V: PhaseSamples<N, M> + Into<[T; W]>,
+        B: Approach<V>,
+        S: SurfaceInLanes<V, T, B>,
+    {
+        let (law, units, approach) = self.in_units_of(before)?;
+        let observer = S::observer(&self.surface.start(before, self.sphere(), &law, &units)?);
+        let solved = method.solve_lanes::<T, V, L, _, W>(&law, units.energy, observer);
+        let indentations: [T; W] = (units.length * law.indentation(solved.peak)).into();
+        Ok(core::array::from_fn(|index| {
+            let (path, observed) = solved.path(index, method);
+            let lane = |numbers: V| numbers.into()[index];
+            let (sphere, units) = (self.sphere().map(lane), units.map(lane));
+            let peak = if path.peak > T::ZERO { indentations[index] } else { T::ZERO };
+            SimulatedImpact {
+                normal: NormalContact::with_indentations(&path, lane(approach), units.energy, (peak, T::ZERO)),
+                tangential: S::after_lane(observed, lane, &path, &sphere, &units),
+                run: RunReport::new(&path),
+            }
+        }))
+    }
+}
