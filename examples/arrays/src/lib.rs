@@ -32,6 +32,7 @@
 mod column;
 mod contacts;
 mod impacts;
+mod in_lanes;
 mod lanes;
 mod motions;
 mod quantity;

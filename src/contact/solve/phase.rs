@@ -157,17 +157,15 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         }
     }
 
-    /// The same where a number is above another. Returns whether it is anywhere.
+    /// The same at the first nodes, where a number is above another.
     #[inline]
-    pub(crate) fn renew_where(&mut self, number: T, limit: T) -> bool {
-        let renewed = number.any_above(limit);
-        if renewed {
-            for j in 0..N {
+    pub(crate) fn renew_where(&mut self, number: T, limit: T, nodes: usize) {
+        if number.any_above(limit) {
+            for j in 0..nodes {
                 let inverse = T::constant(0.5) / self.speed[j];
                 self.half_inverse[j] = number.where_above(limit, inverse, self.half_inverse[j]);
             }
         }
-        renewed
     }
 
     /// Free squares and losses for the present peak.

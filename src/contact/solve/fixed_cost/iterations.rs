@@ -104,7 +104,7 @@ where
         if iteration > 0 {
             phase.describe(law, false);
         }
-        phase.renew_where(moved.abs(), unsteady);
+        phase.renew_where(moved.abs(), unsteady, N);
         let before = lost;
         lost = phase.iterate::<false>().0;
         (earlier, moved) = (moved, lost - before);
@@ -116,9 +116,8 @@ where
     let mut gained = T::ZERO;
     moved = energy;
     for _ in 0..iterations {
-        if !phase.renew_where(moved.abs(), unsteady) {
-            phase.renew_slowest();
-        }
+        phase.renew_slowest();
+        phase.renew_where(moved.abs(), unsteady, N - 1);
         let before = gained;
         gained = phase.iterate::<false>().0;
         (earlier, moved) = (moved, gained - before);
