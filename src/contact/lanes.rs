@@ -61,22 +61,19 @@ impl<V: Real, T: Real, B: Oblique<V>> SurfaceInLanes<V, T, B> for Coulomb<V> {
 
 impl<V: Real, L: ContactLaw<V>, S> Contact<V, L, S> {
     /// `W` impacts at once, by a number type with `W` lanes of the type `T`: its numbers describe one scene and one motion in each
-    /// lane. A result is that of [`solve`](Self::solve) in its lane, within rounding, with a status and an outcome of its own.
+    /// lane. A result is that of [`solve`](Self::solve) in its lane, with a status and an outcome of its own.
     ///
-    /// [`Real`] states what such a type has to do. It is as fast as the compiler or the crate makes its arithmetic. A law with an external
-    /// force is [`Unsupported`](super::Status::Unsupported).
+    /// [`Real`] states what such a type has to do. If its arithmetic in a lane is that of `T`, results are the same to the last bit. A law
+    /// with an external force is [`Unsupported`](super::Status::Unsupported).
     ///
     /// # Errors
     /// As [`solve`](Self::solve), if it fails in any lane.
     ///
-    /// ```
-    /// use microimpact::contact::{Contact, FixedCost, Status};
-    /// use microimpact::{NormalMotion, Sphere, Stiffness};
-    /// # #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-    /// # struct One(f64);
-    /// let scene = Contact::hertz(Sphere::solid(5.06e-6, 2600.0)?, Stiffness::new(7.5e10)?).with_damping(10.5)?;
-    /// let (motion, method) = (NormalMotion::new(2.8_f64)?, FixedCost::<7>::new(3)?);
-    /// # Ok::<(), microimpact::InputError>(())
+    /// The package `impact-arrays` of the repository has such types. With four f64 in each number:
+    ///
+    /// ```text
+    /// let scene = Contact::hertz(Sphere::solid(radii, densities)?, Stiffness::new(stiffnesses)?);
+    /// let impacts: [SimulatedImpact<f64, ()>; 4] = scene.solve_lanes(&NormalMotion::new(speeds)?, &method)?;
     /// ```
     pub fn solve_lanes<T, B, const N: usize, const M: usize, const W: usize>(
         &self,

@@ -15,7 +15,7 @@ const LANES: usize = 4;
 
 impl Contacts<'_> {
     /// Simulates the impacts of `count` rows on all threads, four rows at a time on each, by a method of fixed cost; `otherwise` solves
-    /// the rows that this method does not decide. The result of a row is that of a single call of one of the two, within rounding.
+    /// the rows that this method does not decide. The result of a row is that of a single call of one of the two.
     ///
     /// Rows with an external force, a peeling moment or compliance are computed one by one, and all are where a quantity is asked for
     /// that needs the motion in contact, such as a time or a work. Four rows take the time of one and a half if the program is built
@@ -53,7 +53,8 @@ impl Contacts<'_> {
             let mut records = Vec::with_capacity(rows.len());
             let mut next = rows.start;
             while next < rows.end {
-                let together = if follow || next + LANES > rows.end { None } else { self.together(motions, next, method) };
+                let together =
+                    if follow || next + LANES > rows.end { None } else { self.together(motions, next, method) };
                 let Some(together) = together else {
                     records.push(alone(next));
                     next += 1;

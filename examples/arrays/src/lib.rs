@@ -27,6 +27,8 @@
 //! # Ok::<(), microimpact::InputError>(())
 //! ```
 //!
+//! [`Contacts::simulate_in_lanes`] computes four rows at once on each thread, by a method of fixed cost.
+//!
 //! The number of threads is rayon's: that of the cores, or `RAYON_NUM_THREADS`.
 
 mod column;

@@ -128,7 +128,11 @@ impl Along for CompliantVelocities<f64> {
 }
 
 /// The result of an impact.
-pub(crate) fn record<V: Along>(arrival: &Arrival, impact: &SimulatedImpact<f64, V>, followed: Option<&Followed>) -> Record
+pub(crate) fn record<V: Along>(
+    arrival: &Arrival,
+    impact: &SimulatedImpact<f64, V>,
+    followed: Option<&Followed>,
+) -> Record
 where
     SimulatedImpact<f64, V>: Departing<f64>,
 {

@@ -108,7 +108,10 @@ fn arithmetic_is_that_of_each_lane() {
     same(wide_a.saturating_div(wide_b), |a, b| a.saturating_div(b));
     same(wide_a.where_above(wide_b, wide_a, wide_b), |a, b| if a > b { a } else { b });
     let root = |number: f64| Real::two_fifths_power(number);
-    assert_eq!(<[f64; 4]>::from(Real::two_fifths_power(F64x4::from([1.0, 2.0, 3.0, 4.0]))), [1.0, 2.0, 3.0, 4.0].map(root));
+    assert_eq!(
+        <[f64; 4]>::from(Real::two_fifths_power(F64x4::from([1.0, 2.0, 3.0, 4.0]))),
+        [1.0, 2.0, 3.0, 4.0].map(root)
+    );
     assert!(wide_a.any_above(wide_b) && !F64x4::ZERO.any_above(F64x4::ONE));
     // A comparison holds only if it does in all lanes.
     let mixed = F64x4::from([0.0, 2.0, 0.0, 0.0]);

@@ -84,6 +84,7 @@ impl<T> Found<T> {
 }
 
 /// Iterates an approach, looks at it `at_peak`, and iterates the rebound, which takes its place. Returns what was seen and found.
+// Always inlined, before other functions are inlined into it: a microcontroller's code is then smallest.
 #[inline(always)]
 pub(super) fn run<T, L, S, const N: usize>(
     phase: &mut Phase<T, N>,

@@ -37,6 +37,7 @@ pub(super) struct Seen<T> {
 
 impl<T: Real> Found<T> {
     /// The motion, whose sphere `is_moving` at all nodes on its way out.
+    // As the iterations.
     #[inline(always)]
     pub(super) fn path<const N: usize>(
         &self,
@@ -54,8 +55,8 @@ impl<T: Real> Found<T> {
         let escape = seen.barrier.unwrap_or(T::ZERO);
         let excess = self.left - escape;
         let clear = T::constant(BARRIER_MARGIN) * energy;
-        let passes = seen.barrier.is_none()
-            || (self.at_peak - escape > clear && (escape == T::ZERO || excess.abs() > clear));
+        let passes =
+            seen.barrier.is_none() || (self.at_peak - escape > clear && (escape == T::ZERO || excess.abs() > clear));
         let captured = uncertain <= T::constant(LARGEST_LOSS_ERROR) && excess < -(uncertain + uncertain);
         // What is told of a capture ends at the peak, where the energy is that of the adhesion too.
         let arrived = seen.arrives && self.uncertain_at_peak <= largest * (energy + self.lost);
