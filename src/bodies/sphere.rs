@@ -27,6 +27,18 @@ pub struct Sphere<T> {
     pub(crate) contact_inertia: T,
 }
 
+impl<T: Copy> Sphere<T> {
+    /// The same in another number type.
+    pub(crate) fn map<U>(&self, of: impl Fn(T) -> U) -> Sphere<U> {
+        Sphere {
+            radius: of(self.radius),
+            density: of(self.density),
+            gyration_ratio: of(self.gyration_ratio),
+            contact_inertia: of(self.contact_inertia),
+        }
+    }
+}
+
 impl<T: Real> Sphere<T> {
     /// Creates a homogeneous sphere of `radius` (m) and `density` (kg/m^3). Its gyration ratio kappa is 2/5.
     ///

@@ -40,6 +40,7 @@
 mod along;
 mod dimensionless;
 mod force;
+mod lanes;
 mod law;
 #[cfg(doc)]
 #[doc = include_str!("method.md")]
@@ -57,6 +58,7 @@ pub use along::{
 };
 pub use dimensionless::{DimensionlessContact, DimensionlessImpact};
 pub use force::ContactForce;
+pub use lanes::SurfaceInLanes;
 pub use law::{
     AnyDamping, AnyForce, AnyLaw, Attraction, ConstantDamping, ConstantForce, ContactLaw, Damping, Dmt, Fraction,
     Groups, HertzLaw, HystereticDamping, JkrEnd, JkrLaw, NoDamping, NoForce, NoTension, ProportionalDamping, Ring,

@@ -119,13 +119,19 @@ impl<T: Real> NormalContact<T> {
     #[inline]
     pub(super) fn new<L: ContactLaw<T>>(path: &NormalPath<T>, approach: T, law: &L, units: &Units<T>) -> Self {
         let indentation = |s: T| if s > T::ZERO { units.length * law.indentation(s) } else { T::ZERO };
+        Self::with_indentations(path, approach, units.energy, (indentation(path.peak), indentation(path.turning)))
+    }
+
+    /// The result of a motion from a kinetic energy, with the indentations of the peak and of a turning point.
+    #[inline]
+    pub(super) fn with_indentations(path: &NormalPath<T>, approach: T, energy: T, (peak, turning): (T, T)) -> Self {
         Self {
             status: Status::of(path),
             outcome: path.outcome(),
             approach,
-            restitution_squared: path.restitution_squared(units.energy),
-            peak_indentation: indentation(path.peak),
-            turning_indentation: indentation(path.turning),
+            restitution_squared: path.restitution_squared(energy),
+            peak_indentation: peak,
+            turning_indentation: turning,
         }
     }
 

@@ -31,6 +31,11 @@ pub struct Units<T> {
 }
 
 impl<T: Real> Units<T> {
+    /// The same in another number type.
+    pub(super) fn map<U>(&self, of: impl Fn(T) -> U) -> Units<U> {
+        Units { length: of(self.length), speed: of(self.speed), energy: of(self.energy) }
+    }
+
     /// Unit of time L/U, s.
     ///
     /// ```

@@ -9,6 +9,10 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 /// to signal anything. So fixed-point numbers, which have neither, and dual numbers, which carry derivatives, can implement
 /// this trait.
 ///
+/// A number type may also hold a number of each of several impacts, in *lanes*. Its comparisons are true only if they are true in every
+/// lane, and its functions act in each. [`Contact::solve_lanes`](crate::contact::Contact::solve_lanes) takes scenes in such a type; what
+/// decides by comparisons of its own, as every other method does, is not for it.
+///
 /// ```
 /// use microimpact::Real;
 ///
@@ -78,6 +82,26 @@ pub trait Real:
     #[inline]
     fn geometric_mean(self, other: Self) -> Self {
         (self * other).sqrt()
+    }
+
+    /// Whether this number is above another; of a type with lanes, in any of them.
+    ///
+    /// ```
+    /// assert!(microimpact::Real::any_above(2.0, 1.0));
+    /// ```
+    #[inline]
+    fn any_above(self, other: Self) -> bool {
+        self > other
+    }
+
+    /// `then` where this number is above another, `otherwise` elsewhere; a type with lanes chooses in each.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::Real::where_above(2.0, 1.0, 5.0, 7.0), 5.0);
+    /// ```
+    #[inline]
+    fn where_above(self, other: Self, then: Self, otherwise: Self) -> Self {
+        if self > other { then } else { otherwise }
     }
 
     /// Absolute value.

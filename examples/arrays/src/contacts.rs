@@ -1,7 +1,7 @@
 //! Scenes of the contact simulation: spheres, laws of contact, and what happens along the surface.
 
 use microimpact::contact::{AnyLaw, AnyScene, Contact, JkrEnd};
-use microimpact::{InputError, Sphere, Stiffness};
+use microimpact::{InputError, Real, Sphere, Stiffness};
 
 use crate::Column;
 
@@ -114,25 +114,25 @@ impl Contacts<'_> {
         Sphere::new(self.radius.at(row), self.density.at(row), self.gyration_ratio.at(row))
     }
 
-    /// The law of contact of a row.
-    fn law(&self, row: usize) -> Result<AnyLaw<f64>, InputError> {
-        let stiffness = Stiffness::new(self.stiffness.at(row))?;
-        let law = match self.law {
+    /// The law of contact whose numbers `at` takes from the columns: those of a row, or of several in lanes.
+    fn law<T: Real>(&self, at: impl Fn(&Column<'_>) -> T) -> Result<AnyLaw<T>, InputError> {
+        let stiffness = Stiffness::new(at(&self.stiffness))?;
+        let law = match &self.law {
             Law::Hertz => AnyLaw::hertz(stiffness),
             Law::WithoutTension => AnyLaw::without_tension(stiffness),
-            Law::Ring { strength, damping } => AnyLaw::ring(stiffness, strength.at(row), damping.at(row))?,
-            Law::Dmt { work } => AnyLaw::dmt(stiffness, work.at(row))?,
-            Law::Jkr { work, end } => AnyLaw::jkr(stiffness, work.at(row), end)?,
+            Law::Ring { strength, damping } => AnyLaw::ring(stiffness, at(strength), at(damping))?,
+            Law::Dmt { work } => AnyLaw::dmt(stiffness, at(work))?,
+            Law::Jkr { work, end } => AnyLaw::jkr(stiffness, at(work), *end)?,
         };
-        let law = match self.damping {
+        let law = match &self.damping {
             Damping::None => law,
-            Damping::Hysteretic(zeta) => law.with_damping(zeta.at(row))?,
-            Damping::Viscoelastic(time) => law.with_viscoelastic_damping(time.at(row))?,
-            Damping::Constant(restitution) => law.with_constant_damping(restitution.at(row))?,
+            Damping::Hysteretic(zeta) => law.with_damping(at(zeta))?,
+            Damping::Viscoelastic(time) => law.with_viscoelastic_damping(at(time))?,
+            Damping::Constant(restitution) => law.with_constant_damping(at(restitution))?,
         };
-        let force = self.external_force.at(row);
+        let force = at(&self.external_force);
         // A force of zero is none, which the solver can tell.
-        if force == 0.0 { Ok(law) } else { law.with_external_force(force) }
+        if force == T::ZERO { Ok(law) } else { law.with_external_force(force) }
     }
 
     /// The scene of a row, with its friction but without a peeling moment or compliance.
@@ -140,13 +140,17 @@ impl Contacts<'_> {
     /// # Errors
     /// A number outside its range, or that does not go with the law.
     pub fn scene(&self, row: usize) -> Result<AnyScene<f64>, InputError> {
-        self.scene_of(self.sphere(row)?, row)
+        self.scene_of(self.sphere(row)?, |column| column.at(row))
     }
 
-    /// The same scene of another sphere.
-    pub(crate) fn scene_of(&self, sphere: Sphere<f64>, row: usize) -> Result<AnyScene<f64>, InputError> {
+    /// The same scene of another sphere, with the numbers that `at` takes from the columns.
+    pub(crate) fn scene_of<T: Real>(
+        &self,
+        sphere: Sphere<T>,
+        at: impl Fn(&Column<'_>) -> T,
+    ) -> Result<AnyScene<T>, InputError> {
         let (Surface::Coulomb { friction } | Surface::Peeling { friction, .. } | Surface::Compliant { friction, .. }) =
-            self.surface;
-        Contact::new(sphere, self.law(row)?).with_friction(friction.at(row))
+            &self.surface;
+        Contact::new(sphere, self.law(&at)?).with_friction(at(friction))
     }
 }

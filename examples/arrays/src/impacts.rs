@@ -1,5 +1,7 @@
 //! Results of rows.
 
+use std::ops::Range;
+
 use microimpact::space::Departing;
 use microimpact::{Class, InputError};
 use rayon::prelude::*;
@@ -64,6 +66,11 @@ impl Record {
         Self { class: Some(class), ..Self::without(RowStatus::Solved) }
     }
 
+    /// Whether the sphere rebounds or is captured, beyond doubt.
+    pub(crate) fn is_decided(&self) -> bool {
+        self.class.is_some_and(|class| class != Class::Undecided)
+    }
+
     pub(crate) fn put(&mut self, quantity: Quantity, number: f64) {
         self.numbers[quantity as usize] = number;
     }
@@ -110,11 +117,16 @@ pub(crate) fn gather(
     quantities: &[Quantity],
     row: impl Fn(usize) -> Result<Record, InputError> + Sync,
 ) -> Impacts {
-    let part = |part: usize| {
-        let rows = part * ROWS..count.min((part + 1) * ROWS);
-        let records = rows.map(|index| row(index).unwrap_or_else(|error| Record::without(RowStatus::Refused(error))));
-        records.collect::<Vec<_>>()
-    };
+    gather_ranges(count, quantities, |rows| rows.map(&row).collect())
+}
+
+/// Computes ranges of rows on all threads.
+pub(crate) fn gather_ranges(
+    count: usize,
+    quantities: &[Quantity],
+    compute: impl Fn(Range<usize>) -> Vec<Result<Record, InputError>> + Sync,
+) -> Impacts {
+    let part = |part: usize| compute(part * ROWS..count.min((part + 1) * ROWS));
     let numbers = || Vec::with_capacity(count);
     let mut impacts = Impacts {
         status: Vec::with_capacity(count),
@@ -124,8 +136,9 @@ pub(crate) fn gather(
     // In rounds, so that the records of all rows are never in memory at once.
     let parts: Vec<usize> = (0..count.div_ceil(ROWS)).collect();
     for round in parts.chunks(PARTS) {
-        let records: Vec<Vec<Record>> = round.par_iter().map(|index| part(*index)).collect();
-        for record in records.iter().flatten() {
+        let records: Vec<Vec<_>> = round.par_iter().map(|index| part(*index)).collect();
+        for record in records.into_iter().flatten() {
+            let record = record.unwrap_or_else(|error| Record::without(RowStatus::Refused(error)));
             impacts.status.push(record.status);
             impacts.class.push(record.class);
             for (quantity, numbers) in &mut impacts.quantities {

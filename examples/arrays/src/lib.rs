@@ -27,11 +27,15 @@
 //! # Ok::<(), microimpact::InputError>(())
 //! ```
 //!
+//! [`Contacts::simulate_in_lanes`] computes four rows at once on each thread, by a method of fixed cost.
+//!
 //! The number of threads is rayon's: that of the cores, or `RAYON_NUM_THREADS`.
 
 mod column;
 mod contacts;
 mod impacts;
+mod in_lanes;
+mod lanes;
 mod motions;
 mod quantity;
 mod rigid_bodies;
@@ -40,6 +44,7 @@ mod simulate;
 pub use column::Column;
 pub use contacts::{Contacts, Damping, Law, Surface};
 pub use impacts::{Impacts, RowStatus};
+pub use lanes::{F32x8, F64x4};
 pub use motions::Motions;
 pub use quantity::Quantity;
 pub use rigid_bodies::{Adhesion, Restitution, RigidBodies};

@@ -36,6 +36,8 @@ macro_rules! by_law {
     };
 }
 
+pub(crate) use by_law;
+
 impl Contacts<'_> {
     /// Simulates the impacts of `count` rows on all threads. The result of a row is that of a single call of the method.
     pub fn simulate(
@@ -49,7 +51,8 @@ impl Contacts<'_> {
         gather(count, quantities, |row| self.row(motions, row, method, follow))
     }
 
-    fn row(
+    /// The result of a row.
+    pub(crate) fn row(
         &self,
         motions: &Motions<'_>,
         row: usize,
@@ -58,7 +61,7 @@ impl Contacts<'_> {
     ) -> Result<Record, InputError> {
         let arrival = motions.arrival(self.sphere(row)?, row)?;
         arrival.check_on_one_body(self.external_force.at(row))?;
-        let scene = self.scene_of(arrival.sphere, row)?;
+        let scene = self.scene_of(arrival.sphere, |column| column.at(row))?;
         let before = &arrival.motion;
         match self.surface {
             Surface::Coulomb { friction } if !follow => {
@@ -108,7 +111,7 @@ fn is_decided(normal: &NormalContact<f64>) -> bool {
 }
 
 /// The velocities along the surface that all scenes have.
-trait Along: Classified<f64, Contact = ContactClass<f64>> {
+pub(crate) trait Along: Classified<f64, Contact = ContactClass<f64>> {
     fn velocity_and_spin(&self) -> (f64, f64);
 }
 
@@ -124,8 +127,12 @@ impl Along for CompliantVelocities<f64> {
     }
 }
 
-/// The result of a row.
-fn record<V: Along>(arrival: &Arrival, impact: &SimulatedImpact<f64, V>, followed: Option<&Followed>) -> Record
+/// The result of an impact.
+pub(crate) fn record<V: Along>(
+    arrival: &Arrival,
+    impact: &SimulatedImpact<f64, V>,
+    followed: Option<&Followed>,
+) -> Record
 where
     SimulatedImpact<f64, V>: Departing<f64>,
 {

@@ -1,7 +1,10 @@
 //! Run times of builds for several processors of one family, as ratios to the default build.
 //!
 //! `cargo processors` builds this program once for each processor and lets the builds take turns. It fails if one is slower than the default
-//! by more than a fifth.
+//! by more than a fifth. It also compares the throughput of impacts in lanes with that of single calls, and fails if lanes gain less than
+//! expected where the processor has vectors for them.
+
+mod lanes;
 
 use std::error::Error;
 use std::hint::black_box;
@@ -22,6 +25,9 @@ const PROCESSORS: [&str; 2] = ["generic", "native"];
 /// Largest run time over that of the default build.
 const LARGEST_RATIO: f64 = 1.2;
 
+/// Least throughput of lanes over that of single calls where vectors hold four f64.
+const LEAST_GAIN: f64 = 1.8;
+
 /// Turns that each build takes; the least time of each counts.
 const TURNS: usize = 15;
 
@@ -37,14 +43,15 @@ const TASKS: [&str; 4] = ["Adaptive, 1e-6", "Adaptive, 1e-9", "Adaptive, 1e-12",
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
     if std::env::args().any(|argument| argument == MEASURE) {
-        for seconds in measure()? {
+        for seconds in measure()?.into_iter().chain(lanes::measure()?) {
             println!("{seconds:e}");
         }
         return Ok(ExitCode::SUCCESS);
     }
     let programs: Vec<PathBuf> =
         runnable().into_iter().map(|processor| build(processor)).collect::<Result<_, Box<dyn Error>>>()?;
-    let mut least = vec![[f64::INFINITY; TASKS.len()]; programs.len()];
+    // Those of lanes come in pairs.
+    let mut least = vec![[f64::INFINITY; TASKS.len() + 2 * lanes::TASKS.len()]; programs.len()];
     for _ in 0..TURNS {
         for (program, least) in programs.iter().zip(&mut least) {
             for (least, seconds) in least.iter_mut().zip(turn(program)?) {
@@ -62,16 +69,38 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         table.add_row([(*name).to_owned()].into_iter().chain(times().map(|seconds| format!("{:.2}", seconds / first))));
     }
     println!("Run times of Table 1 over those of the default build\n{table}\nlargest: {worst:.2}");
-    Ok(if worst <= LARGEST_RATIO { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    let (table, gain) = in_lanes(&least);
+    println!("Throughput of FixedCost<7>, 3 iterations, in lanes over that of single calls in the same build\n{table}");
+    println!("smallest with vectors of four f64: {gain:.2}");
+    Ok(if worst <= LARGEST_RATIO && gain >= LEAST_GAIN { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// The table of gains by lanes, and the smallest of a build with vectors of four f64: of all but the first.
+fn in_lanes(least: &[[f64; TASKS.len() + 2 * lanes::TASKS.len()]]) -> (Table, f64) {
+    let mut table = Table::new();
+    table.set_header(["lanes"].into_iter().chain(runnable()));
+    let mut smallest = f64::INFINITY;
+    for (task, name) in lanes::TASKS.iter().enumerate() {
+        let place = TASKS.len() + 2 * task;
+        let gains: Vec<f64> = least.iter().map(|times| times[place] / times[place + 1]).collect();
+        let without_vectors = if has_v3() { 1 } else { gains.len() };
+        smallest = gains.iter().skip(without_vectors).fold(smallest, |smallest, gain| smallest.min(*gain));
+        table.add_row([(*name).to_owned()].into_iter().chain(gains.iter().map(|gain| format!("{gain:.2}"))));
+    }
+    (table, smallest)
+}
+
+/// Whether this machine runs code for x86-64-v3.
+fn has_v3() -> bool {
+    #[cfg(target_arch = "x86_64")]
+    return is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") && is_x86_feature_detected!("bmi2");
+    #[cfg(not(target_arch = "x86_64"))]
+    false
 }
 
 /// The processors whose code this machine runs.
 fn runnable() -> Vec<&'static str> {
-    #[cfg(target_arch = "x86_64")]
-    let v3 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") && is_x86_feature_detected!("bmi2");
-    #[cfg(not(target_arch = "x86_64"))]
-    let v3 = false;
-    PROCESSORS.into_iter().filter(|name| v3 || *name != "x86-64-v3").collect()
+    PROCESSORS.into_iter().filter(|name| has_v3() || *name != "x86-64-v3").collect()
 }
 
 /// This program for a processor.
@@ -106,21 +135,21 @@ fn measure() -> Result<[f64; TASKS.len()], Box<dyn Error>> {
     let adaptive = |tolerance: f64| -> Result<f64, Box<dyn Error>> {
         let method = Adaptive::new(tolerance)?;
         scene.solve_for(&motion, &method, (Times, Impulses))?;
-        Ok(least(|| black_box(&scene).solve_for(black_box(&motion), &method, (Times, Impulses))))
+        Ok(least(RUNS, || black_box(&scene).solve_for(black_box(&motion), &method, (Times, Impulses))))
     };
     let fixed = FixedCost::<7>::new(3)?;
-    let of_fixed = least(|| black_box(&scene).solve(black_box(&motion), &fixed));
+    let of_fixed = least(RUNS, || black_box(&scene).solve(black_box(&motion), &fixed));
     Ok([adaptive(1e-6)?, adaptive(1e-9)?, adaptive(1e-12)?, of_fixed])
 }
 
 /// Least seconds of a run.
-fn least<R>(mut run: impl FnMut() -> R) -> f64 {
+fn least<R>(runs: u32, mut run: impl FnMut() -> R) -> f64 {
     let times = (0..MEASUREMENTS).map(|_| {
         let start = Instant::now();
-        for _ in 0..RUNS {
+        for _ in 0..runs {
             black_box(run());
         }
-        start.elapsed().as_secs_f64() / f64::from(RUNS)
+        start.elapsed().as_secs_f64() / f64::from(runs)
     });
     times.fold(f64::INFINITY, f64::min)
 }

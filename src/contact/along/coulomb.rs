@@ -23,6 +23,20 @@ pub struct SurfaceImpulse<T, P> {
     pressed: T,
 }
 
+impl<T: Copy, P: Copy> SurfaceImpulse<T, P> {
+    /// The same in another number type.
+    pub(crate) fn map<U>(&self, of: impl Fn(T) -> U) -> SurfaceImpulse<U, P> {
+        SurfaceImpulse {
+            friction: of(self.friction),
+            pressing: self.pressing,
+            gyration_ratio: of(self.gyration_ratio),
+            velocity: of(self.velocity),
+            peripheral: of(self.peripheral),
+            pressed: of(self.pressed),
+        }
+    }
+}
+
 impl<T: Real, P: PressingForce<T>> Quantities<T> for SurfaceImpulse<T, P> {
     #[inline]
     fn combine(self, other: Self, of: impl Fn(T, T) -> T + Copy) -> Self {

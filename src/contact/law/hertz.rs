@@ -390,22 +390,28 @@ impl<T: Real, D: ProportionalDamping<T>, A: RingStrength<T>, X: Attraction<T>> H
 pub(super) fn undamped_peak<T: Real>(law: &impl ContactLaw<T>, from: T, energy: T) -> Option<T> {
     let mut peak = from;
     for _ in 0..PEAK_SEARCH {
-        if law.potential(peak) >= energy {
+        let potential = law.potential(peak);
+        if !energy.any_above(potential) {
             break;
         }
-        peak = peak * T::constant(PEAK_GROWTH);
+        peak = energy.where_above(potential, peak * T::constant(PEAK_GROWTH), peak);
     }
-    // From above Newton's method comes down without passing the root, as the potential is convex there.
+    // From above Newton's method comes down without passing the root, as the potential is convex there. In lanes, those that have
+    // converged wait for the others.
+    let (mut change, mut enough) = (T::ONE, T::ZERO);
     for _ in 0..PEAK_SEARCH {
+        if !change.any_above(enough) {
+            break;
+        }
         let slope = law.slope(peak);
         if slope <= T::ZERO {
             return None;
         }
         let step = (law.potential(peak) - energy) / slope;
-        peak = peak - step;
-        if step.abs() <= T::constant(PEAK_ROUNDING) * T::EPSILON * peak {
-            break;
-        }
+        let next = peak - step;
+        let open = |new: T, old: T| change.where_above(enough, new, old);
+        let rounding = T::constant(PEAK_ROUNDING) * T::EPSILON * next;
+        (peak, change, enough) = (open(next, peak), open(step.abs(), change), open(rounding, enough));
     }
     Some(peak)
 }
@@ -656,16 +662,19 @@ fn inverse_peak_contact_radius<T: Real>(p: T) -> (T, T) {
     let ratio = T::ONE + p * (T::constant(PEAK_RATIO.0) + T::constant(PEAK_RATIO.1) * p);
     let mut b = (ratio / (p * ratio + T::ONE)).sqrt();
     let mut fifth = T::ONE;
+    // Square of the last step. In lanes, those that have converged wait for the others.
+    let (mut error, enough) = (T::ONE, T::constant(PEAK_ACCURACY) * T::EPSILON);
     for _ in 0..PEAK_STEPS {
-        let square = b * b;
-        let pull = p * square;
-        fifth = square * square * b;
-        let excess = (pull - T::ONE + fifth) / (five * fifth + two * pull);
-        b = b - b * excess;
-        fifth = fifth - five * fifth * excess;
-        if excess * excess <= T::constant(PEAK_ACCURACY) * T::EPSILON {
+        if !error.any_above(enough) {
             break;
         }
+        let square = b * b;
+        let pull = p * square;
+        let power = square * square * b;
+        let excess = (pull - T::ONE + power) / (five * power + two * pull);
+        b = error.where_above(enough, b - b * excess, b);
+        fifth = error.where_above(enough, power - five * power * excess, fifth);
+        error = error.where_above(enough, excess * excess, error);
     }
     (b, T::constant(0.5) * fifth)
 }

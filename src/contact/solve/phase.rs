@@ -157,6 +157,17 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
         }
     }
 
+    /// The same at the first nodes, where a number is above another.
+    #[inline]
+    pub(crate) fn renew_where(&mut self, number: T, limit: T, nodes: usize) {
+        if number.any_above(limit) {
+            for j in 0..nodes {
+                let inverse = T::constant(0.5) / self.speed[j];
+                self.half_inverse[j] = number.where_above(limit, inverse, self.half_inverse[j]);
+            }
+        }
+    }
+
     /// Free squares and losses for the present peak.
     pub(crate) fn describe(&mut self, law: &impl ContactLaw<T>, rebound: bool) {
         // A copy, which the compiler knows to stay the same from node to node.
@@ -231,8 +242,15 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     /// Whether damping is so mild that iterations converge to the solution.
     #[inline]
     pub(crate) fn is_represented(&self, strongest: f64) -> bool {
+        let (drag, free) = self.drag_beside(strongest);
+        drag <= free
+    }
+
+    /// Squares of the losses next to the peak over the `strongest`, and of the speed without losses there.
+    #[inline]
+    pub(crate) fn drag_beside(&self, strongest: f64) -> (T, T) {
         let part = T::constant(1.0 / strongest) * self.loss[0];
-        part * part <= self.free[0]
+        (part * part, self.free[0])
     }
 
     /// Square of the drag, losses over the speed without losses next to the peak, up to that of the `strongest`: fixed point holds no
@@ -247,6 +265,12 @@ impl<T: PhaseNodes<N>, const N: usize> Phase<T, N> {
     #[inline]
     pub(crate) fn is_moving(&self) -> bool {
         self.speed.iter().all(|speed| *speed > T::SLOWEST)
+    }
+
+    /// The least speed over z at the nodes.
+    #[inline]
+    pub(crate) fn slowest(&self) -> T {
+        self.speed.iter().fold(self.speed[0], |least, speed| least.min(*speed))
     }
 
     /// Half the losses at the first and the last node.
