@@ -12,24 +12,36 @@
 //! The type of the classifier decides whether a rigid-body model, a simulation or a table classifies the impacts. This module
 //! needs the feature `instrument`.
 
+mod bins;
 mod classes;
 mod classifier;
+mod confidence;
+mod counting;
+mod drift;
 mod lines;
 #[cfg(feature = "link")]
 pub mod link;
 mod pipeline;
 mod queue;
 mod reading;
+mod sized;
+mod sized_tally;
 mod statistics;
 mod tabulated;
 mod tally;
 
+pub use bins::{SizeBins, SpeedBins};
 pub use classes::ClassSet;
 pub use classifier::{Classified, Classifier, Rejection, Simulated, Verdict};
+pub use confidence::{Confident, UncertainMotion, UncertainReading};
+pub use counting::{Arrival, EventCounter, EventCounts, EventRate, corrected_rate};
+pub use drift::{Drift, DriftAlarm};
 pub use lines::{ClassLines, NoLines, Signal};
 pub use pipeline::Instrument;
 pub use queue::{Queue, Receiver, Sender};
 pub use reading::{NormalReading, ObliqueReading, PlanarReading, Reading};
+pub use sized::{PerParticle, SizedMotion, SizedReading, Stamped};
+pub use sized_tally::{Cell, SizedTally};
 pub use statistics::Statistics;
 pub use tabulated::{Tabulated, TabulatedClass};
-pub use tally::{Rejections, SpeedBins, Tally};
+pub use tally::{Rejections, Tally};

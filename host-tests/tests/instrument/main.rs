@@ -1,4 +1,6 @@
-//! Tests of the instrument and of its link to a host.
+//! Tests of the instrument, of its events and sensors, and of its link to a host.
 
+mod counting;
+mod events;
 mod instrument;
 mod instrument_link;
