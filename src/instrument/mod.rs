@@ -24,6 +24,7 @@ pub mod link;
 mod pipeline;
 mod queue;
 mod reading;
+pub mod sensor;
 mod sized;
 mod sized_tally;
 mod statistics;

@@ -4,3 +4,4 @@ mod counting;
 mod events;
 mod instrument;
 mod instrument_link;
+mod sensors;
