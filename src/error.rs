@@ -25,7 +25,8 @@ macro_rules! parameters {
         /// A quantity that a caller supplies, with its unit and its valid range.
         ///
         /// Most parameters are physical quantities. Others are settings of a solver or of a table
-        /// ([`is_setting`](Self::is_setting)), and the last ones belong to instruments and their sensors. The ranges cover particles from a nanometre to centimetres, and within them
+        /// ([`is_setting`](Self::is_setting)). The last ones belong to instruments and their sensors, and need the feature
+        /// `instrument`. The ranges cover particles from a nanometre to centimetres, and within them
         /// neither f32 nor f64 overflows in any formula.
         ///
         /// ```
@@ -53,12 +54,17 @@ macro_rules! parameters {
             $(
                 $(#[doc = $remark])+
                 #[doc = concat!("\n\nRange: ", $lowest, " to ", $highest, ", unit ", $measure, ".")]
+                #[cfg(feature = "instrument")]
                 $instrumental,
             )+
         }
 
         impl Parameter {
-            const COUNT: usize = [$(Self::$physical,)+ $(Self::$setting,)+ $(Self::$instrumental,)+].len();
+            const COUNT: usize = [
+                $(Self::$physical,)+
+                $(Self::$setting,)+
+                $(#[cfg(feature = "instrument")] Self::$instrumental,)+
+            ].len();
 
             /// Every parameter.
             ///
@@ -67,7 +73,11 @@ macro_rules! parameters {
             ///
             /// assert!(Parameter::ALL.iter().all(|parameter| parameter.range().0 < parameter.range().1));
             /// ```
-            pub const ALL: [Self; Self::COUNT] = [$(Self::$physical,)+ $(Self::$setting,)+ $(Self::$instrumental,)+];
+            pub const ALL: [Self; Self::COUNT] = [
+                $(Self::$physical,)+
+                $(Self::$setting,)+
+                $(#[cfg(feature = "instrument")] Self::$instrumental,)+
+            ];
 
             /// Whether this is a setting of a solver or of a table, and not a physical quantity.
             ///
@@ -86,7 +96,7 @@ macro_rules! parameters {
                 match self {
                     $(Self::$physical => ($name, $unit, ($smallest, $largest)),)+
                     $(Self::$setting => ($label, "1", ($least, $most)),)+
-                    $(Self::$instrumental => ($title, $measure, ($lowest, $highest)),)+
+                    $(#[cfg(feature = "instrument")] Self::$instrumental => ($title, $measure, ($lowest, $highest)),)+
                 }
             }
         }

@@ -21,6 +21,7 @@ mod drift;
 mod lines;
 #[cfg(feature = "link")]
 pub mod link;
+mod observed;
 mod pipeline;
 mod queue;
 mod reading;
@@ -38,6 +39,7 @@ pub use confidence::{Confident, UncertainMotion, UncertainReading};
 pub use counting::{Arrival, EventCounter, EventCounts, EventRate, corrected_rate};
 pub use drift::{Drift, DriftAlarm};
 pub use lines::{ClassLines, NoLines, Signal};
+pub use observed::{Agreement, Comparison, ObservedRebound, Scatter};
 pub use pipeline::Instrument;
 pub use queue::{Queue, Receiver, Sender};
 pub use reading::{NormalReading, ObliqueReading, PlanarReading, Reading};

@@ -5,8 +5,6 @@
 //!   bounded number of steps. [`estimate`] adds the standard error, from derivatives.
 //! * **Many impacts** determine the restitution law and the work of adhesion ([`RestitutionFit`]), the friction coefficient
 //!   ([`friction`]) or the spin ([`rolling_motion`]), each with its standard error. Outliers do not change the result.
-//! * **Both legs of an impact** give e and mu with their standard errors, and how well they agree with the prediction of a model
-//!   ([`ObservedRebound`]).
 //! * **Uncertain inputs** give [probabilities of the classes](ClassProbabilities), of the rigid body and of the simulation. With
 //!   standard errors of up to 10 %, the error of a probability is below 0.01.
 //!
@@ -14,7 +12,6 @@
 
 mod contact;
 mod error;
-mod observed;
 mod restitution;
 mod robust;
 mod tangential;
@@ -22,7 +19,6 @@ mod uncertainty;
 
 pub use contact::{adhesion_damping, estimate, material_damping, parameter, ring_strength};
 pub use error::CalibrationError;
-pub use observed::{Agreement, Comparison, ObservedRebound, Scatter};
 pub use restitution::{Interval, MeasuredImpact, RestitutionFit};
 pub use robust::{Estimate, Location};
 pub use tangential::{ImpulseRatios, friction, rolling_motion};

@@ -2,10 +2,11 @@
 
 use microimpact::contact::{Adaptive, Contact};
 use microimpact::instrument::{
-    ClassSet, Classifier, Confident, Drift, DriftAlarm, Instrument, NoLines, ObliqueReading, PerParticle, Reading,
-    Rejection, SizeBins, SizedReading, SizedTally, SpeedBins, Stamped, UncertainReading,
+    ClassSet, Classifier, Confident, Drift, DriftAlarm, Instrument, NoLines, ObliqueReading, ObservedRebound,
+    PerParticle, Reading, Rejection, Scatter, SizeBins, SizedReading, SizedTally, SpeedBins, Stamped, UncertainMotion,
+    UncertainReading, Verdict,
 };
-use microimpact::measure::{Estimate, ObservedRebound, Scatter};
+use microimpact::measure::Estimate;
 use microimpact::rigid::{Departure, WorkOfAdhesion};
 use microimpact::{
     Approach, Class, Coulomb, CriticalSpeed, Fault, InputError, NormalMotion, Oblique, Outcome, Parameter,
@@ -105,9 +106,7 @@ fn certain(
     critical: f64,
     readings: usize,
     draws: usize,
-    verdict: impl Fn(
-        &microimpact::instrument::UncertainMotion<f64>,
-    ) -> Result<microimpact::instrument::Verdict<f64, Class>, Rejection>,
+    verdict: impl Fn(&UncertainMotion<f64>) -> Result<Verdict<f64, Class>, Rejection>,
     class: impl Fn(f64, &PlanarMotion<f64>) -> Class,
 ) {
     let random = &mut StdRng::seed_from_u64(1);

@@ -1,6 +1,6 @@
 //! An impact of which both legs are measured, compared with the prediction of a model.
 
-use super::{Estimate, NormalDistribution};
+use crate::measure::{Estimate, NormalDistribution};
 use crate::rigid::Departure;
 use crate::{InputError, NormalMotion, Parameter, PlanarMotion, Real};
 
@@ -9,7 +9,8 @@ use crate::{InputError, NormalMotion, Parameter, PlanarMotion, Real};
 /// A [rigid body](crate::rigid::infer) gives the energies and the class of such an impact.
 ///
 /// ```
-/// use microimpact::measure::{Estimate, ObservedRebound, Scatter};
+/// use microimpact::instrument::{ObservedRebound, Scatter};
+/// use microimpact::measure::Estimate;
 /// use microimpact::rigid::Departure;
 /// use microimpact::{InputError, RigidBody, SpeedRestitution, Sphere};
 ///
@@ -55,7 +56,7 @@ pub struct ObservedRebound<T> {
 /// adhesion, particles that are no perfect spheres. Zero if the model is exact.
 ///
 /// ```
-/// use microimpact::measure::Scatter;
+/// use microimpact::instrument::Scatter;
 ///
 /// assert!(Scatter { restitution: 0.03, impulse_ratio: 0.02 }.restitution > 0.0);
 /// ```
@@ -72,7 +73,8 @@ pub struct Scatter<T> {
 /// An observed rebound compared with its prediction.
 ///
 /// ```
-/// use microimpact::measure::{Agreement, Comparison, Estimate};
+/// use microimpact::instrument::{Agreement, Comparison};
+/// use microimpact::measure::Estimate;
 ///
 /// let exact = Agreement { measured: Estimate { value: 0.7, standard_error: 0.01 }, predicted: 0.7, error: 0.01 };
 /// let comparison = Comparison { restitution: exact, impulse_ratio: exact };
@@ -91,7 +93,8 @@ pub struct Comparison<T> {
 /// A measured quantity, its prediction, and how well both agree.
 ///
 /// ```
-/// use microimpact::measure::{Agreement, Estimate};
+/// use microimpact::instrument::Agreement;
+/// use microimpact::measure::Estimate;
 ///
 /// let measured = Estimate { value: 0.74, standard_error: 0.01 };
 /// let agreement = Agreement { measured, predicted: 0.70, error: 0.02 };
@@ -115,7 +118,8 @@ impl<T: Real> Agreement<T> {
     /// are zero.
     ///
     /// ```
-    /// use microimpact::measure::{Agreement, Estimate};
+    /// use microimpact::instrument::Agreement;
+    /// use microimpact::measure::Estimate;
     ///
     /// let measured = Estimate { value: 0.7, standard_error: 0.0 };
     /// assert_eq!(Agreement { measured, predicted: 0.7, error: 0.0 }.residual(), None);
@@ -127,7 +131,8 @@ impl<T: Real> Agreement<T> {
     /// Probability of a residual that is at least as large, of either sign, if the model and the errors are right.
     ///
     /// ```
-    /// use microimpact::measure::{Agreement, Estimate};
+    /// use microimpact::instrument::Agreement;
+    /// use microimpact::measure::Estimate;
     ///
     /// let measured = Estimate { value: 0.7, standard_error: 0.01 };
     /// assert_eq!(Agreement { measured, predicted: 0.7, error: 0.01 }.probability(), Some(1.0));
@@ -151,7 +156,8 @@ impl<T: Real> ObservedRebound<T> {
     /// A velocity or an error is outside its range, the error of the approach speed exceeds a fifth of the speed, or `predict` fails.
     ///
     /// ```
-    /// use microimpact::measure::{Estimate, ObservedRebound, Scatter};
+    /// use microimpact::instrument::{ObservedRebound, Scatter};
+    /// use microimpact::measure::Estimate;
     /// use microimpact::rigid::Departure;
     /// use microimpact::{Approach, InputError, Parameter};
     ///
