@@ -108,9 +108,11 @@ impl<T: Real> Approach<T> for UncertainMotion<T> {
 
 /// A classifier that states a class if its probability reaches a confidence. Otherwise the class is [`Class::Undecided`].
 ///
-/// `scene` makes an impact from a radius (m) and a motion: see [`Classifiable`]. It is called about 2 x 4 + 1 times for a reading;
-/// a rigid body takes some ten thousand instructions for each reading with single precision. A sphere that may rest counts as
-/// rolling. The restitution is not computed.
+/// `scene` makes an impact from a radius (m) and a motion: see [`Classifiable`]. It is called about nine times for a reading, which
+/// takes 12 000 instructions and 2.6 KiB of stack with a rigid body in single precision on a Cortex-M4F. A simulation searches for
+/// the critical speed in each call, and takes 7.5 million; the critical speed of a [boundary table](crate::table::BoundaryTable)
+/// with the normal motion takes its place where the outcome is enough. A sphere that may rest counts as rolling. The restitution
+/// is not computed.
 ///
 /// ```
 /// use microimpact::instrument::{Confident, Instrument, NoLines, SpeedBins, UncertainReading};

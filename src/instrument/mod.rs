@@ -11,6 +11,15 @@
 //! (refused), a motion for which the classifier does not converge (unsolved), and a class line that does not switch (failed).
 //! The type of the classifier decides whether a rigid-body model, a simulation or a table classifies the impacts. This module
 //! needs the feature `instrument`.
+//!
+//! | an instrument that | uses |
+//! | --- | --- |
+//! | has a sensor that delivers integers | [`sensor`], without floating point in the interrupt |
+//! | measures the size, or knows the material | [`SizedReading`] and [`PerParticle`]: a scene for each particle |
+//! | knows the errors of its readings | [`UncertainReading`] and [`Confident`]: a class with a confidence, or undecided |
+//! | has many events | [`Stamped`], [`EventCounter`] and [`corrected_rate`]: dead time and coincidence |
+//! | sees the rebound too | [`ObservedRebound`]: e, mu, and how well they agree with the model |
+//! | runs for long | [`SizedTally`] and [`DriftAlarm`]: counts against expectation, and an alarm with a stated rate of false alarms |
 
 mod bins;
 mod classes;

@@ -43,7 +43,8 @@ const TOLERANCE: f64 = 1e-5;
 ///
 /// The standard error has the errors of impulse, speed and density to first order, with the changes of e over one standard error of
 /// speed and radius. The errors of the model are not in it. Where a standard error reaches to the critical
-/// radius, the stated error is up to half as large again as the scatter. The scene is made up to 170 times, and some twenty times usually.
+/// radius, the stated error is up to half as large again as the scatter. The scene is made up to 170 times, and some twenty times usually. On a
+/// Cortex-M4F in single precision that takes 3400 instructions with a rigid body, and 36 000 with `FixedCost::<5>`.
 ///
 /// # Errors
 /// [`Rejection::Input`] if a value is outside its range or a relative error exceeds a fifth. [`Rejection::Unsolved`] if no radius,
