@@ -377,6 +377,7 @@ pub enum Fault {
     /// The bodies move apart along the normal, or stay as they are.
     Receding,
     /// The table has no such entry.
+    #[cfg(feature = "instrument")]
     NotInTable,
 }
 
@@ -450,6 +451,7 @@ impl fmt::Display for InputError {
                 "be positive, so that the bodies approach; the normal points from the wall to the sphere, or from the second sphere to the \
                  first",
             ),
+            #[cfg(feature = "instrument")]
             Fault::NotInTable => f.write_str("be the index of an entry of the table; the first entry has the index 0"),
             Fault::TwoBodies => f.write_str("be zero where two spheres meet; it acts on one of them"),
             Fault::OutOfOrder if parameter == Parameter::ReboundSpeed => {
