@@ -214,3 +214,10 @@ where
         Ok(Verdict { class: class.map_or(Class::Undecided, |(class, _)| *class), restitution: None })
     }
 }
+
+#[cfg(feature = "defmt")]
+impl<T: defmt::Format, F> defmt::Format for Confident<T, F> {
+    fn format(&self, f: defmt::Formatter<'_>) {
+        defmt::write!(f, "Confident {{ confidence: {} }}", self.confidence);
+    }
+}

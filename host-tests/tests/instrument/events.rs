@@ -1,6 +1,7 @@
 //! Events of sized particles: their scenes, their confidence, and whether what was observed agrees with what was expected.
 
 use microimpact::contact::{Adaptive, Contact};
+use microimpact::instrument::link::{Decoder, Encoder, Inlet, Reply, Request};
 use microimpact::instrument::{
     ClassSet, Classifier, Confident, Drift, DriftAlarm, Instrument, NoLines, ObliqueReading, ObservedRebound,
     PerParticle, Reading, Rejection, Scatter, SizeBins, SizedReading, SizedTally, SpeedBins, Stamped, UncertainMotion,
@@ -292,4 +293,35 @@ fn observed_rebounds_agree_with_their_model() {
         // 4000 x 0.05 = 200, four standard deviations.
         assert!((145..255).contains(&improbable), "{improbable}");
     }
+}
+
+/// A sized event with errors and a time goes over the link, and an undecided class comes back.
+#[test]
+fn undecided_classes_are_counted_and_sent() {
+    let classifier = Confident::new(0.95, |radius, motion| Ok((scene(&MATERIALS[0], radius)?, motion))).unwrap();
+    let mut instrument: Instrument<_, _, f64, 6, 1> =
+        Instrument::new(classifier, NoLines, SpeedBins::new([10.0]).unwrap());
+    let estimate = |value, standard_error| Estimate { value, standard_error };
+    let (mut inlet, mut encoder, mut decoder) = (Inlet::<128>::new(), Encoder::<128>::new(), Decoder::<128>::new());
+    for (number, (approach, expected)) in
+        [(2.8, Class::ReboundRolling), (1.8, Class::Undecided)].into_iter().enumerate()
+    {
+        let reading = UncertainReading {
+            approach: estimate(approach, 0.05),
+            tangential: estimate(0.0, 0.01),
+            peripheral: estimate(0.2, 0.01),
+            radius: estimate(5.06e-6, 1e-8),
+        };
+        let request = Request::Event { number: number as u32, reading: Stamped { ticks: u32::MAX, reading } };
+        let frame = encoder.frame(&request).unwrap();
+        let received = frame.iter().find_map(|&byte| inlet.receive::<Stamped<UncertainReading<f64>>>(byte));
+        assert_eq!(received, Some(request));
+        let Some(Request::Event { number, reading }) = received else { panic!("{received:?}") };
+        let verdict = instrument.process(&reading).unwrap();
+        assert_eq!(verdict.class, expected);
+        let reply = Reply::Classified { number, verdict };
+        let answered = encoder.frame(&reply).unwrap().iter().find_map(|&byte| decoder.push::<Reply<f64, Class>>(byte));
+        assert_eq!(answered, Some(Ok(reply)));
+    }
+    assert_eq!((instrument.tally().count(Class::Undecided), instrument.tally().classified()), (1, 2));
 }
