@@ -30,9 +30,9 @@ pub enum Drift {
 /// start again at zero.
 ///
 /// While the expectation is right, the statistics less the sums of the weights are martingales. So the mean sum of the weights
-/// between two alarms is at least N, whatever the probabilities of the readings are (Pollak, Ann. Statist. 13:206, 1985). It exceeds N
-/// by the amount by which the last reading exceeds the limit only. No weight is larger than one, so that at least N readings lie between two
-/// false alarms on average.
+/// between two alarms is at least N, whatever the probabilities of the readings are (Pollak, Ann. Statist. 13:206, 1985). It is
+/// larger than N only because the last reading carries the statistics beyond the limit. No weight exceeds one, so that at least N
+/// readings lie between two false alarms on average.
 ///
 /// ```
 /// use microimpact::instrument::{Drift, DriftAlarm};

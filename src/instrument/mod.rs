@@ -19,7 +19,7 @@
 //! | knows the errors of its readings | [`UncertainReading`] and [`Confident`]: a class with a confidence, or undecided |
 //! | has many events | [`Stamped`], [`EventCounter`] and [`corrected_rate`]: dead time and coincidence |
 //! | sees the rebound too | [`ObservedRebound`]: e, mu, and how well they agree with the model |
-//! | runs for long | [`SizedTally`] and [`DriftAlarm`]: counts against expectation, and an alarm with a stated rate of false alarms |
+//! | runs for long | [`SizedTally`]: counts against expectation; [`DriftAlarm`], with a stated rate of false alarms |
 
 mod bins;
 mod classes;

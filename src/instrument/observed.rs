@@ -153,7 +153,8 @@ impl<T: Real> ObservedRebound<T> {
     /// times.
     ///
     /// # Errors
-    /// A velocity or an error is outside its range, the error of the approach speed exceeds a fifth of the speed, or `predict` fails.
+    /// A velocity or an error is outside its range, the error of the approach speed exceeds a fifth of the speed, or `predict`
+    /// fails.
     ///
     /// ```
     /// use microimpact::instrument::{ObservedRebound, Scatter};

@@ -18,7 +18,7 @@ use crate::{InputError, Parameter, Real};
 /// use microimpact::Outcome;
 /// use microimpact::instrument::{SizeBins, SizedTally, SpeedBins};
 ///
-/// let mut tally = SizedTally::<f32, 3, 1, 2>::new(SizeBins::new([2e-6, 8e-6])?, SpeedBins::new([10.0])?);
+/// let mut tally = SizedTally::<f32, 3, 2, 1>::new(SizeBins::new([2e-6, 8e-6])?, SpeedBins::new([10.0])?);
 /// for reading in 0..100 {
 ///     // The model expects as many rebounds as captures. Three in four rebound.
 ///     let class = if reading % 4 == 0 { Outcome::Capture } else { Outcome::Rebound };
@@ -33,21 +33,21 @@ use crate::{InputError, Parameter, Real};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct SizedTally<T, const CLASSES: usize, const SPEEDS: usize, const SIZES: usize> {
+pub struct SizedTally<T, const CLASSES: usize, const SIZES: usize, const SPEEDS: usize> {
     sizes: SizeBins<T, SIZES>,
     speeds: SpeedBins<T, SPEEDS>,
     cells: [[Cell<T, CLASSES>; SPEEDS]; SIZES],
     beyond: Cell<T, CLASSES>,
 }
 
-impl<T: Real, const CLASSES: usize, const SPEEDS: usize, const SIZES: usize> SizedTally<T, CLASSES, SPEEDS, SIZES> {
+impl<T: Real, const CLASSES: usize, const SIZES: usize, const SPEEDS: usize> SizedTally<T, CLASSES, SIZES, SPEEDS> {
     /// Creates an empty tally.
     ///
     /// ```
     /// use microimpact::Class;
     /// use microimpact::instrument::{SizeBins, SizedTally, SpeedBins};
     ///
-    /// let tally = SizedTally::<f32, 6, 1, 2>::new(SizeBins::new([2e-6, 8e-6])?, SpeedBins::new([10.0])?);
+    /// let tally = SizedTally::<f32, 6, 2, 1>::new(SizeBins::new([2e-6, 8e-6])?, SpeedBins::new([10.0])?);
     /// assert_eq!(tally.total().count(Class::ReboundRolling), 0);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
@@ -98,7 +98,7 @@ impl<T: Real, const CLASSES: usize, const SPEEDS: usize, const SIZES: usize> Siz
     /// ```
     /// use microimpact::instrument::{SizeBins, SizedTally, SpeedBins};
     ///
-    /// let tally = SizedTally::<f32, 3, 1, 2>::new(SizeBins::new([2e-6, 8e-6])?, SpeedBins::new([10.0])?);
+    /// let tally = SizedTally::<f32, 3, 2, 1>::new(SizeBins::new([2e-6, 8e-6])?, SpeedBins::new([10.0])?);
     /// assert!(tally.cell(1, 0).is_some());
     /// assert!(tally.cell(2, 0).is_none());
     /// # Ok::<(), microimpact::InputError>(())

@@ -202,7 +202,7 @@ fn counts_agree_with_expectations_if_the_expectations_are_right() {
     let speeds = SpeedBins::new([1.0, 3.0]).unwrap();
     let (mut residuals, mut shifted) = (Vec::new(), Vec::new());
     for _ in 0..60 {
-        let mut tallies = [SizedTally::<f32, 3, 2, 3>::new(sizes, speeds); 2];
+        let mut tallies = [SizedTally::<f32, 3, 3, 2>::new(sizes, speeds); 2];
         let mut counted = [[[0_u64; 3]; 2]; 3];
         for reading in 0..3000 {
             let (size, speed) = (random.random_range(0..4), random.random_range(0..3));

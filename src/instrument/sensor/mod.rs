@@ -4,8 +4,8 @@
 //! | --- | --- | --- |
 //! | [two light beams](Transit) | ticks between two pulses | speed |
 //! | [laser Doppler](Doppler) | periods, and ticks that they take | velocity, with its sign if the light is shifted |
-//! | [image charge](ImageCharge) | height of a pulse, and its width in ticks | charge and speed; mass and radius of an accelerated particle |
-//! | [impulse on a piezo sensor](ImpulseSensor) | sum of samples, and their number | impulse; [radius](radius_from_impulse), with the rebound taken into account |
+//! | [image charge](ImageCharge) | height and width of a pulse | charge and speed; radius of an accelerated particle |
+//! | [impulse on a piezo sensor](ImpulseSensor) | sum of samples, and their number | impulse; [radius](radius_from_impulse) |
 //!
 //! The interrupt needs no floating point. The main loop takes the integers from a [`Queue`](super::Queue) and calls the front end.
 //!

@@ -86,7 +86,7 @@ fn confident<T: AnyNodes>() -> Result<(), Rejection> {
 
 fn tally<T: Real>() -> Result<(), InputError> {
     let (sizes, speeds) = (SizeBins::new([any(), any()])?, SpeedBins::new([any::<T>(), any(), any()])?);
-    let mut tally = SizedTally::<T, 6, 3, 2>::new(sizes, speeds);
+    let mut tally = SizedTally::<T, 6, 2, 3>::new(sizes, speeds);
     tally.record(any(), any(), black_box(Class::ReboundRolling), Some(&[any(); 6]))?;
     tally.record(any(), any(), black_box(Class::Undecided), black_box(None))?;
     keep((*tally.sizes().edges(), *tally.speeds().edges(), *tally.beyond()));
@@ -94,7 +94,7 @@ fn tally<T: Real>() -> Result<(), InputError> {
     for cell in [tally.cell(black_box(1), black_box(2)).copied(), Some(tally.total())].into_iter().flatten() {
         keep((cell.count(class), cell.readings(), cell.excess(class), cell.residual(class)));
     }
-    let mut outcomes = SizedTally::<T, 3, 3, 2>::new(sizes, speeds);
+    let mut outcomes = SizedTally::<T, 3, 2, 3>::new(sizes, speeds);
     outcomes.record(any(), any(), black_box(Outcome::Rebound), Some(&[any(); 3]))
 }
 
