@@ -53,7 +53,7 @@ pub use pipeline::Instrument;
 pub use queue::{Queue, Receiver, Sender};
 pub use reading::{NormalReading, ObliqueReading, PlanarReading, Reading};
 pub use sized::{PerParticle, SizedMotion, SizedReading, Stamped};
-pub use sized_tally::{Cell, SizedTally};
+pub use sized_tally::{SizedTally, TallyCell};
 pub use statistics::Statistics;
 pub use tabulated::{Tabulated, TabulatedClass};
 pub use tally::{Rejections, Tally};

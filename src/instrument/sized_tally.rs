@@ -36,8 +36,8 @@ use crate::{InputError, Parameter, Real};
 pub struct SizedTally<T, const CLASSES: usize, const SIZES: usize, const SPEEDS: usize> {
     sizes: SizeBins<T, SIZES>,
     speeds: SpeedBins<T, SPEEDS>,
-    cells: [[Cell<T, CLASSES>; SPEEDS]; SIZES],
-    beyond: Cell<T, CLASSES>,
+    cells: [[TallyCell<T, CLASSES>; SPEEDS]; SIZES],
+    beyond: TallyCell<T, CLASSES>,
 }
 
 impl<T: Real, const CLASSES: usize, const SIZES: usize, const SPEEDS: usize> SizedTally<T, CLASSES, SIZES, SPEEDS> {
@@ -52,7 +52,7 @@ impl<T: Real, const CLASSES: usize, const SIZES: usize, const SPEEDS: usize> Siz
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub const fn new(sizes: SizeBins<T, SIZES>, speeds: SpeedBins<T, SPEEDS>) -> Self {
-        Self { sizes, speeds, cells: [[Cell::EMPTY; SPEEDS]; SIZES], beyond: Cell::EMPTY }
+        Self { sizes, speeds, cells: [[TallyCell::EMPTY; SPEEDS]; SIZES], beyond: TallyCell::EMPTY }
     }
 
     /// Counts the observed class of a particle with a `radius` (m) and an approach `speed` (m/s).
@@ -103,7 +103,7 @@ impl<T: Real, const CLASSES: usize, const SIZES: usize, const SPEEDS: usize> Siz
     /// assert!(tally.cell(2, 0).is_none());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn cell(&self, size: usize, speed: usize) -> Option<&Cell<T, CLASSES>> {
+    pub fn cell(&self, size: usize, speed: usize) -> Option<&TallyCell<T, CLASSES>> {
         self.cells.get(size)?.get(speed)
     }
 
@@ -118,7 +118,7 @@ impl<T: Real, const CLASSES: usize, const SIZES: usize, const SPEEDS: usize> Siz
     /// assert_eq!(tally.beyond().readings(), 1);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn beyond(&self) -> &Cell<T, CLASSES> {
+    pub fn beyond(&self) -> &TallyCell<T, CLASSES> {
         &self.beyond
     }
 
@@ -134,7 +134,7 @@ impl<T: Real, const CLASSES: usize, const SIZES: usize, const SPEEDS: usize> Siz
     /// assert_eq!(tally.total().readings(), 2);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
-    pub fn total(&self) -> Cell<T, CLASSES> {
+    pub fn total(&self) -> TallyCell<T, CLASSES> {
         let mut total = self.beyond;
         self.cells.iter().flatten().for_each(|cell| total.merge(cell));
         total
@@ -184,7 +184,7 @@ impl<T: Real, const CLASSES: usize, const SIZES: usize, const SPEEDS: usize> Siz
     feature = "serde",
     serde(bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>"))
 )]
-pub struct Cell<T, const CLASSES: usize> {
+pub struct TallyCell<T, const CLASSES: usize> {
     #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
     counts: [u64; CLASSES],
     /// Observed less expected counts of the readings that have an expectation.
@@ -199,7 +199,7 @@ pub struct Cell<T, const CLASSES: usize> {
 /// approximation of a binomial distribution, n p (1 - p) >= 9.
 const LEAST_VARIANCE: f64 = 9.0;
 
-impl<T: Real, const CLASSES: usize> Cell<T, CLASSES> {
+impl<T: Real, const CLASSES: usize> TallyCell<T, CLASSES> {
     const EMPTY: Self = Self { counts: [0; CLASSES], excess: [Sum::ZERO; CLASSES], variance: [Sum::ZERO; CLASSES] };
 
     fn record(&mut self, class: usize, expected: Option<&[T; CLASSES]>) {

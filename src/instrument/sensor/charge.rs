@@ -1,6 +1,6 @@
 //! Charge, speed and mass from the pulse that a charged particle induces in a tube.
 
-use super::{Clock, calibration, relative_error, with_relative_errors};
+use super::{Clock, ROUNDING, calibration, radius_of, relative_error, with_relative_errors};
 use crate::measure::Estimate;
 use crate::{InputError, Parameter, Real};
 
@@ -48,9 +48,6 @@ pub struct ImageCharge<T> {
     height_variance: T,
     clock: Clock<T>,
 }
-
-/// Variance of a number that is rounded to an integer.
-pub(super) const ROUNDING: f64 = 1.0 / 12.0;
 
 impl<T: Real> ImageCharge<T> {
     /// Creates the front end from the `length` of the tube (m), the charge of one count (C), the `noise` of the height (standard
@@ -165,6 +162,6 @@ impl<T: Real> ChargedParticle<T> {
         ];
         let energy = self.charge.value.abs() * voltage.value;
         let mass = (energy + energy) / speed / speed;
-        with_relative_errors(Parameter::Radius.check(super::sizing::radius(mass, density.value))?, &errors)
+        with_relative_errors(Parameter::Radius.check(radius_of(mass, density.value))?, &errors)
     }
 }

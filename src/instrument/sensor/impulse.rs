@@ -1,7 +1,6 @@
 //! Impulse of an impact on a force sensor.
 
-use super::charge::ROUNDING;
-use super::{calibration, relative_error, with_relative_errors};
+use super::{ROUNDING, calibration, relative_error, with_relative_errors};
 use crate::measure::Estimate;
 use crate::{InputError, Parameter, Real};
 

@@ -26,8 +26,14 @@ pub use impulse::{ImpulseSensor, PulseSum};
 pub use sizing::{SizedImpact, radius_from_impulse};
 pub use transit::Transit;
 
+use core::f64::consts::PI;
+
 use crate::measure::Estimate;
+use crate::numbers::cube_root;
 use crate::{InputError, Parameter, Real};
+
+/// Variance of the rounding error of an integer.
+const ROUNDING: f64 = 1.0 / 12.0;
 
 /// Checks the value of a calibration and its standard error.
 fn calibration<T: Real>(parameter: Parameter, estimate: &Estimate<T>) -> Result<Estimate<T>, InputError> {
@@ -47,4 +53,9 @@ fn with_relative_errors<T: Real>(value: T, errors: &[T]) -> Result<Estimate<T>, 
     let squares = errors.iter().fold(T::ZERO, |sum, &error| sum + error * error);
     let standard_error = Parameter::RelativeError.check(squares.sqrt())? * value.abs();
     Ok(Estimate { value, standard_error })
+}
+
+/// Radius of a sphere of a `mass` (kg) and a `density` (kg/m^3), m.
+fn radius_of<T: Real>(mass: T, density: T) -> T {
+    cube_root(T::constant(3.0 / (4.0 * PI)) * mass / density)
 }

@@ -1,11 +1,9 @@
 //! Size from the impulse of an impact, with the rebound taken into account.
 
-use core::f64::consts::PI;
-
-use super::{calibration, relative_error, with_relative_errors};
+use super::{calibration, radius_of, relative_error, with_relative_errors};
 use crate::instrument::{Classifier, Rejection};
 use crate::measure::Estimate;
-use crate::numbers::{NotConverged, cube_root, root};
+use crate::numbers::{NotConverged, root};
 use crate::{InputError, NormalMotion, Parameter, Real};
 
 /// A particle that was sized by its impact.
@@ -87,7 +85,7 @@ where
         verdict.restitution.ok_or(Rejection::Unsolved)
     };
     // The radius of a captured particle with this impulse is the largest possible.
-    let largest = Parameter::Radius.check(radius(impulse.value / speed.value, density.value))?;
+    let largest = Parameter::Radius.check(radius_of(impulse.value / speed.value, density.value))?;
     // The impulse of a fraction of this radius, over the measured impulse, less one.
     let excess = |fraction: T| {
         let e = restitution(fraction * largest, speed.value)?;
@@ -142,9 +140,4 @@ fn only_root<T: Real>(excess: impl Fn(T) -> Result<T, Rejection>) -> Result<T, R
     }
     let (low, high) = bracket.ok_or(Rejection::Unsolved)?;
     root(low, high, T::constant(TOLERANCE), excess)
-}
-
-/// Radius of a sphere of a `mass` (kg) and a `density` (kg/m^3), m.
-pub(super) fn radius<T: Real>(mass: T, density: T) -> T {
-    cube_root(T::constant(3.0 / (4.0 * PI)) * mass / density)
 }
