@@ -17,11 +17,16 @@ macro_rules! parameters {
             $(#[doc = $note:literal])+
             $setting:ident: $label:literal, $least:literal to $most:literal;
         )+}
+        instruments {$(
+            $(#[doc = $remark:literal])+
+            $instrumental:ident: $title:literal, $measure:literal, $lowest:literal to $highest:literal;
+        )+}
     ) => {
         /// A quantity that a caller supplies, with its unit and its valid range.
         ///
-        /// Most parameters are physical quantities. The others are settings of a solver or of a table
-        /// ([`is_setting`](Self::is_setting)). The ranges cover particles from a nanometre to centimetres, and within them
+        /// Most parameters are physical quantities. Others are settings of a solver or of a table
+        /// ([`is_setting`](Self::is_setting)). The last ones belong to instruments and their sensors, and need the feature
+        /// `instrument`. The ranges cover particles from a nanometre to centimetres, and within them
         /// neither f32 nor f64 overflows in any formula.
         ///
         /// ```
@@ -46,10 +51,20 @@ macro_rules! parameters {
                 #[doc = concat!("\n\nRange: ", $least, " to ", $most, ".")]
                 $setting,
             )+
+            $(
+                $(#[doc = $remark])+
+                #[doc = concat!("\n\nRange: ", $lowest, " to ", $highest, ", unit ", $measure, ".")]
+                #[cfg(feature = "instrument")]
+                $instrumental,
+            )+
         }
 
         impl Parameter {
-            const COUNT: usize = [$(Self::$physical,)+ $(Self::$setting,)+].len();
+            const COUNT: usize = [
+                $(Self::$physical,)+
+                $(Self::$setting,)+
+                $(#[cfg(feature = "instrument")] Self::$instrumental,)+
+            ].len();
 
             /// Every parameter.
             ///
@@ -58,7 +73,11 @@ macro_rules! parameters {
             ///
             /// assert!(Parameter::ALL.iter().all(|parameter| parameter.range().0 < parameter.range().1));
             /// ```
-            pub const ALL: [Self; Self::COUNT] = [$(Self::$physical,)+ $(Self::$setting,)+];
+            pub const ALL: [Self; Self::COUNT] = [
+                $(Self::$physical,)+
+                $(Self::$setting,)+
+                $(#[cfg(feature = "instrument")] Self::$instrumental,)+
+            ];
 
             /// Whether this is a setting of a solver or of a table, and not a physical quantity.
             ///
@@ -77,6 +96,7 @@ macro_rules! parameters {
                 match self {
                     $(Self::$physical => ($name, $unit, ($smallest, $largest)),)+
                     $(Self::$setting => ($label, "1", ($least, $most)),)+
+                    $(#[cfg(feature = "instrument")] Self::$instrumental => ($title, $measure, ($lowest, $highest)),)+
                 }
             }
         }
@@ -214,6 +234,45 @@ parameters! {
         /// Largest speed of a restitution table, divided by the critical speed.
         SpeedRatio: "largest over critical speed", 1.1 to 1e4;
     }
+    instruments {
+        /// Index of a material in the table of an instrument.
+        MaterialIndex: "index of the material", "1", 0.0 to 255.0;
+        /// Time during which an instrument counted events.
+        ObservationTime: "observation time", "s", 1e-9 to 1e12;
+        /// Fraction of the observation time in which an instrument was dead. The rate of the events is then corrected by up to
+        /// a factor of ten.
+        DeadFraction: "dead fraction of the time", "1", 0.0 to 0.9;
+        /// Probability that a model predicts for a class.
+        Probability: "probability", "1", 0.0 to 1.0;
+        /// Smallest probability for which a class is stated.
+        Confidence: "confidence", "1", 0.5 to 1.0;
+        /// Change of the odds of a class that a drift alarm is to find: the odds afterwards divided by the odds before.
+        OddsRatio: "odds ratio", "1", 1.01 to 100.0;
+        /// Smallest mean number of readings between two false alarms.
+        FalseAlarmInterval: "readings between false alarms", "1", 10.0 to 1e12;
+        /// Distance between two light beams, spacing of interference fringes, or length of a tube.
+        SensorLength: "length of the sensor", "m", 1e-9 to 10.0;
+        /// Frequency of a clock.
+        ClockFrequency: "clock frequency", "Hz", 1.0 to 1e12;
+        /// Number of ticks of a clock between two edges of a signal.
+        Ticks: "number of clock ticks", "1", 1.0 to 4294967295.0;
+        /// Standard error of the time of one edge of a signal, in ticks of the clock.
+        EdgeError: "error of an edge in clock ticks", "1", 0.0 to 1e6;
+        /// Number of periods of a signal.
+        SignalCycles: "number of signal periods", "1", 1.0 to 4294967295.0;
+        /// Frequency by which light of one beam is shifted.
+        FrequencyShift: "frequency shift", "Hz", -1e12 to 1e12;
+        /// Quantity that one count of a converter stands for.
+        Sensitivity: "sensitivity", "in the unit of its quantity per count", 1e-30 to 1e6;
+        /// Standard deviation of a signal, in counts of a converter.
+        SignalNoise: "noise of the signal in counts", "1", 0.0 to 1e9;
+        /// Voltage that accelerated a charged particle.
+        AcceleratingVoltage: "accelerating voltage", "V", 1e-3 to 1e9;
+        /// Impulse of an impact on a sensor.
+        MeasuredImpulse: "measured impulse", "N s", 1e-30 to 1e6;
+        /// Standard error of a result divided by the result. Beyond the range, first-order propagation of errors does not hold.
+        RelativeError: "relative standard error", "1", 0.0 to 0.2;
+    }
 }
 
 impl Parameter {
@@ -317,6 +376,9 @@ pub enum Fault {
     TwoBodies,
     /// The bodies move apart along the normal, or stay as they are.
     Receding,
+    /// The table has no such entry.
+    #[cfg(feature = "instrument")]
+    NotInTable,
 }
 
 /// An invalid input: the parameter, the value found, and how the value misses its range.
@@ -389,6 +451,8 @@ impl fmt::Display for InputError {
                 "be positive, so that the bodies approach; the normal points from the wall to the sphere, or from the second sphere to the \
                  first",
             ),
+            #[cfg(feature = "instrument")]
+            Fault::NotInTable => f.write_str("be the index of an entry of the table; the first entry has the index 0"),
             Fault::TwoBodies => f.write_str("be zero where two spheres meet; it acts on one of them"),
             Fault::OutOfOrder if parameter == Parameter::ReboundSpeed => {
                 f.write_str("not be below that of the point before; R v never falls with the speed v")

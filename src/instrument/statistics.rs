@@ -71,8 +71,7 @@ impl<T: Real> Statistics<T> {
         let delta = self.mean.difference(other.mean.large) + other.mean.small;
         self.count = self.count.saturating_add(other.count);
         self.mean.add(delta * T::constant(others / (own + others)));
-        self.squares.add(other.squares.large);
-        self.squares.add(other.squares.small);
+        self.squares.merge(&other.squares);
         self.squares.add(delta * delta * T::constant(own / (own + others) * others));
     }
 
@@ -123,13 +122,19 @@ impl<T: Real> Default for Statistics<T> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-struct Sum<T> {
+pub(super) struct Sum<T> {
     large: T,
     small: T,
 }
 
 impl<T: Real> Sum<T> {
-    const ZERO: Self = Self { large: T::ZERO, small: T::ZERO };
+    pub(super) const ZERO: Self = Self { large: T::ZERO, small: T::ZERO };
+
+    /// The sum, rounded.
+    #[inline]
+    pub(super) fn value(&self) -> T {
+        self.large
+    }
 
     /// `x` minus this sum.
     #[inline]
@@ -139,11 +144,18 @@ impl<T: Real> Sum<T> {
 
     /// Adds `x`. Only the smaller part is rounded (D. E. Knuth, The Art of Computer Programming 2, 4.2.2).
     #[inline]
-    fn add(&mut self, x: T) {
+    pub(super) fn add(&mut self, x: T) {
         let x = x + self.small;
         let total = self.large + x;
         let part = total - self.large;
         self.small = (self.large - (total - part)) + (x - part);
         self.large = total;
+    }
+
+    /// Adds another sum with its rounding error.
+    #[inline]
+    pub(super) fn merge(&mut self, other: &Self) {
+        self.add(other.large);
+        self.add(other.small);
     }
 }

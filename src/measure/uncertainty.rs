@@ -468,6 +468,30 @@ impl<T: Real> ClassProbabilities<T> {
         .max(T::ZERO)
     }
 
+    /// Probabilities of all classes, in the order [`ReboundSliding`](Class::ReboundSliding),
+    /// [`ReboundRolling`](Class::ReboundRolling), [`CapturedSliding`](Class::CapturedSliding),
+    /// [`CapturedRolling`](Class::CapturedRolling), [`CapturedResting`](Class::CapturedResting) and
+    /// [`Undecided`](Class::Undecided). The last two are zero. All add up to one.
+    ///
+    /// ```
+    /// use microimpact::measure::{ClassProbabilities, Uncertain};
+    /// use microimpact::{CriticalSpeed, NormalMotion};
+    ///
+    /// // The speed is equal to the critical speed, and friction stops every slip.
+    /// let probabilities = ClassProbabilities::new(&[Uncertain::new(2.0_f64, 0.1)?], |[speed]| {
+    ///     Ok((NormalMotion::new(speed)?, CriticalSpeed::At(2.0)))
+    /// })?;
+    /// let [_, rebound_rolling, _, captured_rolling, ..] = probabilities.by_class();
+    /// assert!((rebound_rolling - 0.5).abs() < 1e-3 && (captured_rolling - 0.5).abs() < 1e-3);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn by_class(&self) -> [T; 6] {
+        let [rebound_sliding, rebound_rolling, captured_sliding, captured_rolling] =
+            [Class::ReboundSliding, Class::ReboundRolling, Class::CapturedSliding, Class::CapturedRolling]
+                .map(|class| self.of(class));
+        [rebound_sliding, rebound_rolling, captured_sliding, captured_rolling, T::ZERO, T::ZERO]
+    }
+
     /// Probability of a rebound, sliding or rolling.
     ///
     /// ```

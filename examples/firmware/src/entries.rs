@@ -24,8 +24,12 @@ mod config;
 mod contact;
 mod fixed_point;
 #[cfg(feature = "probe")]
+mod events;
+#[cfg(feature = "probe")]
 mod instrument;
 mod measure;
+#[cfg(feature = "probe")]
+mod sensors;
 mod space;
 mod table;
 
@@ -43,6 +47,10 @@ where
     measure::call_all::<T>();
     #[cfg(feature = "probe")]
     keep(instrument::call_all::<T>());
+    #[cfg(feature = "probe")]
+    keep(events::call_all::<T>());
+    #[cfg(feature = "probe")]
+    keep(sensors::call_all::<T>());
 }
 
 /// Calls everything but the contact simulation, with one number type.

@@ -120,7 +120,7 @@ fn written() -> String {
 }
 
 /// Every fault in words.
-const FAULTS: [(Fault, &str); 10] = [
+const FAULTS: [(Fault, &str); 11] = [
     (Fault::NotFinite, "not a number, or infinite"),
     (Fault::TooSmall, "below the range"),
     (Fault::TooLarge, "above the range"),
@@ -131,6 +131,7 @@ const FAULTS: [(Fault, &str); 10] = [
     (Fault::OutOfOrder, "values that do not rise"),
     (Fault::TwoBodies, "a quantity of one body where two meet"),
     (Fault::Receding, "bodies that move apart"),
+    (Fault::NotInTable, "an index beyond the end of a table"),
 ];
 
 #[test]

@@ -1,8 +1,12 @@
 //! Every input has a range, and every value outside it is an error that names the input.
 
 use microimpact::contact::{Adaptive, Collocation, Compliance, Contact, DimensionlessImpact, FixedCost, RestCriterion};
+use microimpact::instrument::sensor::{
+    ChargedParticle, Clock, Doppler, ImageCharge, ImpulseSensor, Transit, radius_from_impulse,
+};
+use microimpact::instrument::{Confident, DriftAlarm, Rejection, corrected_rate};
 use microimpact::measure::ring_strength;
-use microimpact::measure::{NormalDistribution, Uncertain};
+use microimpact::measure::{Estimate, NormalDistribution, Uncertain};
 use microimpact::rigid::{
     AdhesionCoefficient, Departure, ElasticPlasticRestitution, PowerRestitution, SpeedAdhesion, TabulatedRestitution,
     WorkOfAdhesion, image_charge_energy, infer, infer_with_spins,
@@ -10,8 +14,9 @@ use microimpact::rigid::{
 use microimpact::space::{SpatialMotion, Wall};
 use microimpact::table::{BoundaryTable, RestitutionTable, Single, TableRebound};
 use microimpact::{
-    AdhesionRegime, ConstantRestitution, Coulomb, CriticalSpeed, Fault, Hertz, ImpactError, InFixedPoint, InputError,
-    Material, NormalMotion, Parameter, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Sticking, Stiffness,
+    AdhesionRegime, Approach, ConstantRestitution, Coulomb, CriticalSpeed, Fault, Hertz, ImpactError, InFixedPoint,
+    InputError, Material, NormalMotion, Parameter, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere, Sticking,
+    Stiffness,
 };
 
 type Checked = Result<(), ImpactError>;
@@ -133,9 +138,53 @@ fn supply<T: Single + NormalDistribution + Into<f64>>(parameter: Parameter, valu
         Parameter::DimensionlessAdhesion => DimensionlessImpact::new(value, T::ZERO, T::ZERO).map(drop),
         Parameter::DimensionlessDamping => DimensionlessImpact::new(T::ZERO, T::ZERO, value).map(drop),
         Parameter::SpeedUnit => scene.in_fixed_point(value).map(drop),
-        other => panic!("{other:?} is not tested"),
+        instrumental => of_an_instrument(instrumental, value),
     };
     Ok(checked?)
+}
+
+/// The same for the parameters of an instrument and of its sensors.
+fn of_an_instrument<T: Single + NormalDistribution + Into<f64>>(
+    parameter: Parameter,
+    value: T,
+) -> Result<(), InputError> {
+    let c = T::constant;
+    let exact = |value| Estimate { value, standard_error: T::ZERO };
+    let clock = |frequency, edge_error| Clock::new(&exact(frequency), edge_error);
+    let usual = clock(c(1e6), T::ZERO)?;
+    match parameter {
+        Parameter::ObservationTime => corrected_rate(0, value, &exact(T::ZERO)).map(drop),
+        Parameter::Probability => DriftAlarm::new(c(2.0), c(100.0))?.observe(true, value).map(drop),
+        Parameter::Confidence => {
+            let impact = |_, motion: PlanarMotion<T>| Ok((motion.normal(), CriticalSpeed::At(T::ONE)));
+            Confident::new(value, impact).map(drop)
+        }
+        Parameter::OddsRatio => DriftAlarm::new(value, c(100.0)).map(drop),
+        Parameter::FalseAlarmInterval => DriftAlarm::new(c(2.0), value).map(drop),
+        Parameter::SensorLength => Transit::new(&exact(value), usual).map(drop),
+        Parameter::ClockFrequency => clock(value, T::ZERO).map(drop),
+        Parameter::EdgeError => clock(c(1e6), value).map(drop),
+        Parameter::FrequencyShift => Doppler::new(&exact(c(1e-6)), value, usual).map(drop),
+        Parameter::Sensitivity => ImpulseSensor::new(&exact(value), T::ONE, T::ZERO).map(drop),
+        Parameter::SignalNoise => ImageCharge::new(&exact(T::ONE), &exact(T::ONE), value, usual).map(drop),
+        Parameter::AcceleratingVoltage => {
+            // A radius of a millimetre at a voltage of one, so that no voltage makes one out of range.
+            let particle = ChargedParticle { charge: exact(c(1e-3)), speed: exact(c(22.0)) };
+            particle.radius(&exact(value), &exact(c(1000.0))).map(drop)
+        }
+        Parameter::MeasuredImpulse => {
+            // The speed that makes a millimetre of it; the bounds of the impulse come first.
+            let speed = (value / c(4e-6)).max(c(1e-12)).min(c(1e6));
+            let sized = radius_from_impulse(&exact(value), &exact(speed), &exact(c(1000.0)), |radius| {
+                Ok(RigidBody::new(Sphere::solid(radius, c(1000.0))?, perfect()))
+            });
+            match sized {
+                Err(Rejection::Input(error)) if error.parameter == parameter => Err(error),
+                _ => Ok(()),
+            }
+        }
+        other => panic!("{other:?} is not tested"),
+    }
 }
 
 /// The value next to a bound, away from or into the range.
@@ -144,9 +193,9 @@ fn beyond(bound: f64, outwards: bool) -> f64 {
     if outwards { bound + step } else { bound - step }
 }
 
-/// Parameters that follow from others, or are counted: tested one by one below, the margin with its tables, and what fixed
-/// point holds with the rigid body in it.
-const DERIVED: [Parameter; 10] = [
+/// Parameters that follow from others, or are counted: tested one by one below, the margin with its tables, what fixed
+/// point holds with the rigid body in it, and the last five with the instrument and its sensors.
+const DERIVED: [Parameter; 15] = [
     Parameter::AdhesionRatio,
     Parameter::ForceRatio,
     Parameter::DampingRatio,
@@ -157,6 +206,11 @@ const DERIVED: [Parameter; 10] = [
     Parameter::VelocityInUnits,
     Parameter::RestitutionSpeedInUnits,
     Parameter::FixedPointFriction,
+    Parameter::MaterialIndex,
+    Parameter::DeadFraction,
+    Parameter::Ticks,
+    Parameter::SignalCycles,
+    Parameter::RelativeError,
 ];
 
 fn assert_bounds_hold<T: Single + NormalDistribution + Into<f64>>(not_a_number: [T; 3]) {
