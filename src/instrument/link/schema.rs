@@ -1,6 +1,8 @@
 //! What the numbers in the messages of a link mean.
 
-use crate::instrument::{NormalReading, ObliqueReading, PlanarReading, TabulatedClass};
+use crate::instrument::{
+    NormalReading, ObliqueReading, PlanarReading, SizedReading, Stamped, TabulatedClass, UncertainReading,
+};
 use crate::table::TableOutcome;
 use crate::{Class, Outcome};
 
@@ -51,6 +53,18 @@ impl<T> Described for ObliqueReading<T> {
 
 impl<T> Described for PlanarReading<T> {
     const ID: u8 = 3;
+}
+
+impl<T> Described for UncertainReading<T> {
+    const ID: u8 = 4;
+}
+
+impl<T, R: Described> Described for SizedReading<T, R> {
+    const ID: u8 = R::ID | 0x10;
+}
+
+impl<R: Described> Described for Stamped<R> {
+    const ID: u8 = R::ID | 0x20;
 }
 
 /// What an instrument speaks of: its number type, its readings and its classes.
