@@ -11,8 +11,8 @@ use serde_json::Value;
 
 use crate::{Output, microimpact};
 
-const DENSITY: f64 = 2600.0;
-const DIAMETER: f64 = 1.012e-5;
+pub const DENSITY: f64 = 2600.0;
+pub const DIAMETER: f64 = 1.012e-5;
 const K: f64 = 130.0;
 const WORK: f64 = 2.22e-12;
 
@@ -21,7 +21,7 @@ fn mass(diameter: f64) -> f64 {
 }
 
 /// e of the paper's law (A34), zero for a capture.
-fn restitution(speed: f64, diameter: f64) -> f64 {
+pub fn restitution(speed: f64, diameter: f64) -> f64 {
     let r = K / (K + speed);
     (r * r - 2.0 * WORK / (mass(diameter) * speed * speed)).max(0.0).sqrt()
 }
