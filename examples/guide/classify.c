@@ -3,8 +3,8 @@
 #include "microimpact.h"
 
 int main(void) {
-    const MicroimpactRigidScene fitted = {.radius = 5.06e-6f, .density = 2600.0f, .restitution_speed = 128.0f,
-                                          .work_of_adhesion = 2.22e-12f, .friction = 0.152f};
+    const MicroimpactRigidScene fitted = {.radius = 5.06e-6f, .density = 2600.0f, .restitution_speed = 129.0f,
+                                          .work_of_adhesion = 2.22e-12f, .friction = 0.150f};
     const MicroimpactMotion motion = {.approach = 2.8f, .tangential = 0.5f};
     MicroimpactRigidScene scene;
     MicroimpactClassification result;

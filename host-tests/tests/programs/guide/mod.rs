@@ -54,6 +54,16 @@ fn rustdoc_has_every_page() {
     }
 }
 
+/// The programs in C and Python are files that the gate runs, and the page shows them.
+#[test]
+fn page_shows_its_programs() {
+    let page = page("step_5_programs.md");
+    for (language, file) in [("c", "classify.c"), ("python", "classify.py")] {
+        let program = fs::read_to_string(folder().join(file)).unwrap();
+        assert!(page.contains(&format!("```{language}\n{program}```")), "{file}");
+    }
+}
+
 /// Equations and text of the page with MathML are those of its source, where they are written in LaTeX.
 #[test]
 fn page_of_equations_is_made_from_its_source() {
