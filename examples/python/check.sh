@@ -14,6 +14,10 @@ for command in "check" "format --check"; do
     ruff $command --quiet --no-cache --config examples/python/pyproject.toml examples/python examples/lammps
 done
 
+answer=$(python examples/guide/classify.py)
+echo "the guide's example: $answer"
+test "$answer" = "rebound rolling 1.557"
+
 captures=$(python examples/python/sweeps/dask_sweep.py)
 echo "dask, two processes: $captures"
 on_ranks=$(mpiexec -n 2 python examples/python/sweeps/mpi_sweep.py)

@@ -98,6 +98,14 @@ mod sanitized {
     }
 
     #[test]
+    fn program_of_the_guide_prints_what_its_page_shows() {
+        let output = run("../guide/classify.c", "classify", &[]);
+        let page = include_str!("../../../examples/guide/pages/step_5_programs.md");
+        let printed = String::from_utf8(output.stdout).unwrap();
+        assert!(output.status.success() && page.contains(&format!("```text\n{printed}```")), "{printed}");
+    }
+
+    #[test]
     fn the_sanitizer_sees_what_rust_writes() {
         let output = run("check.c", "overflow", &["overflow"]);
         let complaint = String::from_utf8_lossy(&output.stderr);

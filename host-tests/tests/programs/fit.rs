@@ -11,17 +11,17 @@ use serde_json::Value;
 
 use crate::{Output, microimpact};
 
-const DENSITY: f64 = 2600.0;
-const DIAMETER: f64 = 1.012e-5;
-const K: f64 = 130.0;
-const WORK: f64 = 2.22e-12;
+pub const DENSITY: f64 = 2600.0;
+pub const DIAMETER: f64 = 1.012e-5;
+pub const K: f64 = 130.0;
+pub const WORK: f64 = 2.22e-12;
 
 fn mass(diameter: f64) -> f64 {
     std::f64::consts::PI / 6.0 * diameter.powi(3) * DENSITY
 }
 
 /// e of the paper's law (A34), zero for a capture.
-fn restitution(speed: f64, diameter: f64) -> f64 {
+pub fn restitution(speed: f64, diameter: f64) -> f64 {
     let r = K / (K + speed);
     (r * r - 2.0 * WORK / (mass(diameter) * speed * speed)).max(0.0).sqrt()
 }
@@ -216,7 +216,13 @@ fn few_rebounds_are_not_enough() {
     }
     let answer = answer(&few, &[]);
     assert!(answer["fits"].is_null() && answer["parameters"].as_object().unwrap().is_empty(), "{answer}");
-    assert!(answer["reason"].as_str().unwrap().contains("not enough data: there are 6 rebounds"), "{answer}");
+    assert!(
+        answer["reason"]
+            .as_str()
+            .unwrap()
+            .contains("not enough data: a fit needs at least 12 rebounds; the table has 6"),
+        "{answer}"
+    );
     // Nor is one speed, however often.
     let alike = String::from("speed_normal_m_s,overall_restitution\n") + &"2,0.8\n".repeat(30);
     for table in [few, alike] {

@@ -11,6 +11,7 @@ mod documentation;
 mod exporters;
 mod fit;
 mod formats;
+mod guide;
 mod joint_fit;
 mod laws;
 mod methods;

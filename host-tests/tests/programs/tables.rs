@@ -310,7 +310,7 @@ fn absent_required_columns_are_one_error() {
         "radius_m or diameter_m (did you mean it by `radius`?)",
         "density_kg_m3 (did you mean it by `density`?)",
         "speed_normal_m_s or velocity_x_m_s or velocity_y_m_s or velocity_z_m_s (did you mean it by `velocity`?); ",
-        "the header is: radius, density, restitution_speed_m_s, velocity, remark",
+        "the header is: Radius, density, restitution_speed_m_s, velocity, remark",
     ] {
         assert!(output.complaint().contains(words), "{words}: {}", output.complaint());
     }

@@ -63,6 +63,26 @@ fn an_error_of_the_speed() {
     }
 }
 
+/// A table may give the size as a diameter, with its own error.
+#[test]
+fn an_error_of_the_diameter_is_twice_that_of_the_radius() {
+    for (model, error) in [("rigid-body", 1.0), ("simulation", 1.0), ("rigid-body", 6.0)] {
+        let probabilities = |size: &str, number: f64, error: f64| {
+            let header = HEADER.replace("radius_m", size);
+            let cells = CELLS.replace("5.06e-6", &number.to_string());
+            let speed = 0.99 * critical(model);
+            let table = format!("{header},{}_error_um\n{cells},{speed},0,{error}\n", &size[..size.len() - 2]);
+            let output = run(&["-", "--format", "csv", "--model", model], table.as_bytes());
+            assert_eq!(output.status, 0, "{}", output.complaint());
+            Written::read(&output.stdout, b',').number(0, "probability_capture")
+        };
+        let (by_radius, by_diameter) =
+            (probabilities("radius_m", 5.06e-6, 0.1 * error), probabilities("diameter_m", 1.012e-5, 0.2 * error));
+        assert!((0.01..0.99).contains(&by_radius), "{model}: {by_radius}");
+        assert!((by_radius - by_diameter).abs() < 1e-6, "{model}: {by_radius} {by_diameter}");
+    }
+}
+
 /// A rigid body with errors of all its numbers against draws of this test.
 #[test]
 fn errors_of_all_numbers() {

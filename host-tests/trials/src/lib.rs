@@ -13,7 +13,7 @@ pub use judge::{Finding, Judge, OutputError};
 pub use output::Output;
 pub use solver::{Answer, Number, Solver, solvers};
 pub use statistics::{Count, Statistics};
-pub use stored::{SCENES, SEED, readme_table, store, stored};
+pub use stored::{SCENES, SEED, guide_table, store, stored};
 pub use tally::{Example, OutputErrors, Tally};
 
 use rayon::prelude::*;

@@ -29,7 +29,7 @@ struct Arguments {
     /// zeta_A, friction, peeling, force, speed, tangential velocity and spin, all in SI units
     #[arg(long, default_value_t = 0)]
     worst: usize,
-    /// Store the statistics over all kinds in host-tests/data/trials.csv, and README's table of them
+    /// Store the statistics over all kinds in host-tests/data/trials.csv, and the guide's table of them
     #[arg(long, conflicts_with_all = ["scenes", "seed", "kind", "method"])]
     store: bool,
 }

@@ -1,4 +1,4 @@
-//! Statistics that are kept in the repository, and README's table of them.
+//! Statistics that are kept in the repository, and the guide's table of them.
 
 use std::error::Error;
 use std::fs;
@@ -13,21 +13,21 @@ pub const SCENES: u64 = 1500;
 pub const SEED: u64 = 1;
 
 const STATISTICS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../data/trials.csv");
-const README: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../README.md");
+const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/guide/pages/accuracy.md");
 
-/// Writes statistics to `host-tests/data/trials.csv`, and README's table of them.
+/// Writes statistics to `host-tests/data/trials.csv`, and the guide's table of them.
 ///
 /// # Errors
-/// A file that cannot be read or written, or a README without the table.
+/// A file that cannot be read or written, or a page without the table.
 pub fn store(statistics: &[Statistics]) -> Result<(), Box<dyn Error>> {
-    let readme = with_table(&fs::read_to_string(README)?, &readme_table(statistics)?)?;
+    let page = with_table(&fs::read_to_string(PAGE)?, &guide_table(statistics)?)?;
     let mut writer = csv::WriterBuilder::new().has_headers(false).from_path(STATISTICS)?;
     writer.write_record(Statistics::columns())?;
     for Statistics { names, counts } in statistics {
         writer.serialize((names, counts))?;
     }
     writer.flush()?;
-    Ok(fs::write(README, readme)?)
+    Ok(fs::write(PAGE, page)?)
 }
 
 /// Reads the statistics that are stored, in the order of the solvers.
@@ -46,8 +46,8 @@ pub fn stored() -> Result<Vec<Statistics>, Box<dyn Error>> {
     rows.collect()
 }
 
-/// The solvers in README: the recommended method, those that have a footprint there, and the paper's.
-const IN_README: [(&str, Number); 11] = [
+/// The solvers in the guide: the recommended method, those that have a footprint there, and the paper's.
+const IN_GUIDE: [(&str, Number); 11] = [
     ("Adaptive 1e-4", Number::Double),
     ("Adaptive 1e-6", Number::Double),
     ("Adaptive 1e-9", Number::Double),
@@ -61,7 +61,7 @@ const IN_README: [(&str, Number); 11] = [
     ("RungeKuttaGill 2000", Number::Double),
 ];
 
-/// The counts in README, in percent.
+/// The counts in the guide, in percent.
 const PERCENT: [Count; 7] = [
     Count::Refused,
     Count::Unsolved,
@@ -72,7 +72,7 @@ const PERCENT: [Count; 7] = [
     Count::FarBeyond,
 ];
 
-/// The first line of README's table.
+/// The first line of the guide's table.
 fn header() -> String {
     row([&Statistics::NAMES[..], &["scenes"], &PERCENT.map(Count::name)].concat())
 }
@@ -81,13 +81,13 @@ fn row(cells: Vec<&str>) -> String {
     format!("| {} |\n", cells.join(" | "))
 }
 
-/// README's table, with a line for each solver in it.
+/// The guide's table, with a line for each solver in it.
 ///
 /// # Errors
 /// A solver without statistics.
-pub fn readme_table(statistics: &[Statistics]) -> Result<String, String> {
+pub fn guide_table(statistics: &[Statistics]) -> Result<String, String> {
     let mut table = header() + &row(vec!["---"; 4 + PERCENT.len()]);
-    for (method, number) in IN_README.map(|(method, number)| (method, number.name())) {
+    for (method, number) in IN_GUIDE.map(|(method, number)| (method, number.name())) {
         let found = statistics.iter().find(|found| found.names[..2] == [method, number]);
         let found = found.ok_or_else(|| format!("no statistics of {method} in {number}"))?;
         let percent = PERCENT.map(|count| found.percent(count).map_or_else(String::new, two_digits));
@@ -112,7 +112,7 @@ fn two_digits(percent: f64) -> String {
 fn with_table(text: &str, table: &str) -> Result<String, String> {
     let split = text.split_once(&header());
     let rest = split.and_then(|(before, rest)| Some((before, rest.split_once("\n\n")?.1)));
-    let (before, after) = rest.ok_or_else(|| format!("README.md has no table that begins with\n{}", header()))?;
+    let (before, after) = rest.ok_or_else(|| format!("{PAGE} has no table that begins with\n{}", header()))?;
     Ok(format!("{before}{table}\n{after}"))
 }
 

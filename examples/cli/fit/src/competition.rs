@@ -106,7 +106,7 @@ pub fn compete(observations: &[Observation], laws: &[Law], scatter: ScatterModel
     let rebounds = observations.iter().filter(|observation| observation.rebounds()).count();
     if rebounds < LEAST_REBOUNDS {
         return Verdict::NotEnough(format!(
-            "not enough data: there are {rebounds} rebounds, but a fit needs at least {LEAST_REBOUNDS}"
+            "not enough data: a fit needs at least {LEAST_REBOUNDS} rebounds; the table has {rebounds}"
         ));
     }
     let speeds = observations.iter().filter(|observation| observation.rebounds()).map(|observation| observation.speed);

@@ -253,7 +253,8 @@ pub(crate) fn check(headings: &[Heading], inputs: &[Input]) -> Result<(), String
     if absent.is_empty() {
         return Ok(());
     }
-    Err(format!("the table lacks required columns: {}; the header is: {}", absent.join(", "), header.join(", ")))
+    let written: Vec<_> = headings.iter().map(|heading| heading.text.as_str()).collect();
+    Err(format!("the table lacks required columns: {}; the header is: {}", absent.join(", "), written.join(", ")))
 }
 
 /// The names of columns.

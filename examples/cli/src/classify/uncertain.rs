@@ -35,8 +35,10 @@ const fn or_zero(column: &'static str, error: &'static str, parameter: Parameter
 const MOST: usize = 14;
 
 /// The numbers of both models.
-const SHARED: [Quantity; 6] = [
+const SHARED: [Quantity; 7] = [
     quantity("radius_m", "radius_error_m", Parameter::Radius),
+    // A table has one of them. No sphere is so large or so small that the range of the other matters.
+    quantity("diameter_m", "diameter_error_m", Parameter::Radius),
     quantity("density_kg_m3", "density_error_kg_m3", Parameter::Density),
     quantity("speed_normal_m_s", "speed_normal_error_m_s", Parameter::ApproachSpeed),
     or_zero("speed_tangential_m_s", "speed_tangential_error_m_s", Parameter::TangentialVelocity),

@@ -159,7 +159,7 @@ fn no_law(candidates: &[Candidate]) -> String {
 }
 
 fn quantity_table(statement: &Statement) -> Table {
-    let mut table = table(["", "value", "95 % from", "to", "unit"]);
+    let mut table = table(&["", "value", "95 % from", "to", "unit"]);
     for quantity in &statement.quantities {
         let Interval { value, low, high } = quantity.interval;
         let numbers =
@@ -170,20 +170,18 @@ fn quantity_table(statement: &Statement) -> Table {
 }
 
 fn candidate_table(candidates: &[Candidate]) -> Table {
-    let mut table = table(["law", "AIC above the best", "p", "fits", ""]);
+    let mut table = table(&["law", "AIC above the best", "p", "fits"]);
     for candidate in candidates {
         let fits = if candidate.fits() { "yes" } else { "no" };
         let p_value = format!("{:.1e}", candidate.p_value);
-        table.add_row([candidate.law.name(), &format!("{:.1}", candidate.aic), &p_value, fits, ""]);
+        table.add_row([candidate.law.name(), &format!("{:.1}", candidate.aic), &p_value, fits]);
     }
     table
 }
 
-fn table(heads: [&str; 5]) -> Table {
+fn table(heads: &[&str]) -> Table {
     let mut table = Table::new();
-    table
-        .load_preset(presets::UTF8_FULL_CONDENSED)
-        .set_header(heads.into_iter().filter(|head| !head.is_empty() || heads[0].is_empty()));
+    table.load_preset(presets::UTF8_FULL_CONDENSED).set_header(heads);
     for column in table.column_iter_mut().skip(1).take(3) {
         column.set_cell_alignment(CellAlignment::Right);
     }
