@@ -161,7 +161,7 @@ mod tests {
     fn drawing(cells: &[Vec<Shade>]) -> Result<String, String> {
         let axis = Axis::logarithmic("length", "x", "m");
         let scale = Axis::linear("error", "ε", "1");
-        super::map(&axis, &axis, &Map { columns: &GRID, rows: &GRID, cells, scale }, &[])
+        map(&axis, &axis, &Map { columns: &GRID, rows: &GRID, cells, scale }, &[])
     }
 
     #[test]
