@@ -100,6 +100,12 @@ impl Impact {
         Some((groups.adhesion / 0.75) / (groups.elasticity / 1.25))
     }
 
+    /// The stronger of both damping groups, h and g; `None` outside the range of the library.
+    pub fn damping(&self) -> Option<f64> {
+        let groups = self.scene::<f64>().ok()?.groups(&self.motion().ok()?).ok()?;
+        Some(groups.material_damping.max(groups.adhesion_damping))
+    }
+
     /// Mass, kg.
     pub fn mass(&self) -> f64 {
         4.0 / 3.0 * PI * self.radius.powi(3) * DENSITY
@@ -124,15 +130,19 @@ impl Impact {
 
 /// A logarithmic axis of a plane.
 pub struct Coordinate {
-    /// With unit.
-    pub description: &'static str,
+    /// In words.
+    pub name: &'static str,
+    /// In formulas.
+    pub symbol: &'static str,
+    /// 1 for a pure number.
+    pub unit: &'static str,
     low: f64,
     high: f64,
 }
 
 impl Coordinate {
-    const fn new(description: &'static str, low: f64, high: f64) -> Self {
-        Self { description, low, high }
+    const fn new([name, symbol, unit]: [&'static str; 3], low: f64, high: f64) -> Self {
+        Self { name, symbol, unit, low, high }
     }
 
     /// So many values from end to end.
@@ -160,7 +170,9 @@ pub struct Plane {
     pub impact: fn(f64, f64) -> Option<Impact>,
 }
 
-const MATERIAL: &str = "damping h of the materials";
+const MATERIAL: [&str; 3] = ["damping of materials", "h", "1"];
+const SPEED: [&str; 3] = ["speed", "v", "m/s"];
+const ZETA_H: [&str; 3] = ["damping of materials", "ζ_H", "1"];
 
 /// Damping of adhesion over that of the materials in the paper.
 const ADHESION_OVER_MATERIAL: f64 = Impact::PAPER.zeta_a / Impact::PAPER.zeta_h;
@@ -172,41 +184,41 @@ const WEAK: f64 = 0.1;
 pub const PLANES: [Plane; 6] = [
     Plane {
         name: "damping",
-        title: "h and g",
+        title: "dampings h and g",
         text: "Damping h of the materials against damping g of adhesion, both in units of the largest speed of the \
                undamped motion, over eight decades. Adhesion is weak, q = 0.1.",
         x: Coordinate::new(MATERIAL, 1e-4, 1e4),
-        y: Coordinate::new("damping g of adhesion", 1e-4, 1e4),
+        y: Coordinate::new(["damping of adhesion", "g", "1"], 1e-4, 1e4),
         rebounds: None,
         impact: |material, adhesion| Impact::of_groups(WEAK, material, adhesion).ok(),
     },
     Plane {
         name: "adhesion",
-        title: "q and h",
+        title: "adhesion q and damping h",
         text: "Adhesion against damping. The ratio q is (5/3) of the equilibrium indentation over the peak indentation of \
                Hertz's impact: adhesion is negligible at the left and dominates at the right. Its damping is half that \
                of the materials.",
-        x: Coordinate::new("adhesion over inertia q", 1e-4, 1e7),
+        x: Coordinate::new(["adhesion over inertia", "q", "1"], 1e-4, 1e7),
         y: Coordinate::new(MATERIAL, 1e-4, 1e4),
         rebounds: None,
         impact: |ratio, material| Impact::of_groups(ratio, material, 0.5 * material).ok(),
     },
     Plane {
         name: "above-critical",
-        title: "above the critical speed",
+        title: "speeds above the critical speed",
         text: "The paper's sphere, at speeds from a billionth above the critical speed to a million times that speed. \
                zeta_H runs from 1e-4 to 1e4, zeta_A in proportion.",
-        x: Coordinate::new("speed over critical speed, less 1", 1e-9, 1e6),
-        y: Coordinate::new("zeta_H", 1e-4, 1e4),
+        x: Coordinate::new(["speed over critical", "v/V_s - 1", "1"], 1e-9, 1e6),
+        y: Coordinate::new(ZETA_H, 1e-4, 1e4),
         rebounds: Some(true),
         impact: beside_critical,
     },
     Plane {
         name: "below-critical",
-        title: "below the critical speed",
+        title: "speeds below the critical speed",
         text: "The same sphere, at speeds from a billionth below the critical speed to half of it.",
-        x: Coordinate::new("1 less speed over critical speed", 1e-9, 0.5),
-        y: Coordinate::new("zeta_H", 1e-4, 1e4),
+        x: Coordinate::new(["speed over critical", "1 - v/V_s", "1"], 1e-9, 0.5),
+        y: Coordinate::new(ZETA_H, 1e-4, 1e4),
         rebounds: Some(false),
         impact: |distance, material| beside_critical(-distance, material),
     },
@@ -214,8 +226,8 @@ pub const PLANES: [Plane; 6] = [
         name: "size",
         title: "radius and speed",
         text: "Spheres of the paper's materials from a nanometre to a centimetre, from 1e-9 to 1e4 m/s.",
-        x: Coordinate::new("radius, m", 1e-9, 1e-2),
-        y: Coordinate::new("speed, m/s", 1e-9, 1e4),
+        x: Coordinate::new(["radius", "r", "m"], 1e-9, 1e-2),
+        y: Coordinate::new(SPEED, 1e-9, 1e4),
         rebounds: None,
         impact: |radius, speed| Some(Impact { radius, speed, ..Impact::PAPER }),
     },
@@ -223,8 +235,8 @@ pub const PLANES: [Plane; 6] = [
         name: "stiffness",
         title: "stiffness and speed",
         text: "The paper's sphere on surfaces of any stiffness, from 1e-9 to 1e4 m/s.",
-        x: Coordinate::new("stiffness K, Pa", 1e3, 1e14),
-        y: Coordinate::new("speed, m/s", 1e-9, 1e4),
+        x: Coordinate::new(["stiffness", "K", "Pa"], 1e3, 1e14),
+        y: Coordinate::new(SPEED, 1e-9, 1e4),
         rebounds: None,
         impact: |stiffness, speed| Some(Impact { stiffness, speed, ..Impact::PAPER }),
     },
@@ -252,14 +264,6 @@ pub fn decades(low: i32, high: i32, in_each: u32) -> impl Iterator<Item = f64> {
 /// Groups h of the damping of the materials, from next to none to a million.
 pub fn dampings() -> impl Iterator<Item = f64> {
     decades(-4, 6, 20)
-}
-
-/// Captured spheres that ring long: slow ones of 5 um diameter, which lose from some thousandths of the energy of a small
-/// swing down to next to nothing.
-pub const RINGING: [Impact; 4] = [ringing(3e-3), ringing(3e-5), ringing(3e-7), ringing(3e-11)];
-
-const fn ringing(zeta_h: f64) -> Impact {
-    Impact { radius: 2.5e-6, stiffness: 7.5e10, speed: 1e-7, zeta_h, strength: 250.0, zeta_a: 0.0 }
 }
 
 /// Random groups over all that fixed point holds: strength p of adhesion, and damping h of the materials and g of adhesion.

@@ -1,26 +1,48 @@
-//! What a report consists of: sections of text, tables and figures, each table and figure with a CSV file beside it.
+//! What a report consists of: sections of text, tables, figures and folded parts. Each table and figure has a CSV file beside
+//! it.
 
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 
 /// A part of the report under a heading of its own.
+#[derive(Default)]
 pub(crate) struct Section {
     /// Heading.
     pub(crate) title: &'static str,
     /// Name in links and file names: lower case, joined by hyphens.
     pub(crate) name: &'static str,
+    /// What the first screen shows of it; its caption is one sentence.
+    pub(crate) lead: Option<Figure>,
+    /// What this run leaves out, as the end of a sentence.
+    pub(crate) left_out: Option<String>,
     pub(crate) parts: Vec<Part>,
 }
 
 /// One block of a section, from top to bottom.
 pub(crate) enum Part {
-    /// Heading of the parts up to the next.
-    Heading(String),
     /// A paragraph, without markup but for code between backticks.
     Text(String),
     Table(Table),
     Figure(Figure),
+    /// Parts that are shown on demand, under this line.
+    Fold(String, Vec<Part>),
+}
+
+impl Section {
+    /// All tables, those of figures and of folded parts included.
+    pub(crate) fn tables(&self) -> Vec<&Table> {
+        self.lead.iter().map(|figure| &figure.data).chain(tables(&self.parts)).collect()
+    }
+}
+
+fn tables<'a>(parts: &'a [Part]) -> Vec<&'a Table> {
+    let of = |part: &'a Part| match part {
+        Part::Text(_) => Vec::new(),
+        Part::Table(table) | Part::Figure(Figure { data: table, .. }) => vec![table],
+        Part::Fold(_, parts) => tables(parts),
+    };
+    parts.iter().flat_map(of).collect()
 }
 
 /// Cells under columns; also the data of a figure.
@@ -36,6 +58,8 @@ pub(crate) struct Table {
 /// A value with as many digits as it has; the page shows few, the CSV file all of them.
 pub(crate) enum Cell {
     Text(String),
+    /// A text, and the address that it leads to.
+    Link(&'static str, &'static str),
     /// Empty where there is no number.
     Number(Option<f64>),
     Count(u64),
@@ -61,6 +85,7 @@ impl From<Option<f64>> for Cell {
 
 /// A drawing and what it shows.
 pub(crate) struct Figure {
+    pub(crate) title: String,
     /// A whole `<svg>` element, as a backend of `plotters` writes it.
     pub(crate) drawing: String,
     pub(crate) data: Table,

@@ -32,7 +32,8 @@ const STRIDE: usize = 20;
 const RATIO: &str = "approach speed over critical speed, v/V_s";
 
 pub(crate) fn section(run: &Run) -> Result<Section, String> {
-    parts(run).map(|parts| Section { title: "Laws of contact", name: "laws", parts }).map_err(|error| error.to_string())
+    let parts = parts(run).map_err(|error| error.to_string())?;
+    Ok(Section { title: "Laws of contact", name: "laws", parts, ..Section::default() })
 }
 
 fn parts(run: &Run) -> Result<Vec<Part>, Box<dyn Error>> {
@@ -40,15 +41,11 @@ fn parts(run: &Run) -> Result<Vec<Part>, Box<dyn Error>> {
     let elastic = Elastic::of(rows.first().ok_or("no impact by LAMMPS")?)?;
     let unit = elastic.critical(JkrEnd::SnapOff);
     Ok(vec![
-        Part::Text(source),
-        Part::Heading("Elastic contact with the adhesion of Johnson, Kendall and Roberts".to_owned()),
-        Part::Text(elastic.ends()),
         elastic.figure(&rows)?,
-        Part::Heading("The same laws in LAMMPS".to_owned()),
         damped(&rows, unit)?,
-        comparison(&rows, unit)?,
-        Part::Heading("Errors of every law".to_owned()),
-        errors()?,
+        Part::Fold("Errors of every law and damping".to_owned(), vec![errors()?]),
+        Part::Fold("Every impact by LAMMPS".to_owned(), vec![Part::Text(source), comparison(&rows, unit)?]),
+        Part::Fold("The two ends of an adhesive contact".to_owned(), vec![Part::Text(elastic.ends())]),
     ])
 }
 
@@ -167,7 +164,8 @@ impl Elastic {
              that of snap-off. Ours differ by at most {largest:.1e} in e^2."
         );
         Ok(figure(
-            plot::chart("Restitution of an elastic adhesive sphere", &ratio_axis(), &restitution_axis(), &lines)?,
+            "Elastic contact with the adhesion of Johnson, Kendall and Roberts",
+            plot::chart(&ratio_axis(), &restitution_axis(), &lines)?,
             "laws-jkr",
             &caption,
             [RATIO, "e, exact, snap-off", "e, ours, snap-off", "e, exact, pull-off", "e, ours, pull-off"],
@@ -177,11 +175,11 @@ impl Elastic {
 }
 
 fn ratio_axis() -> Axis {
-    Axis::logarithmic(RATIO).between(SPEEDS.0, SPEEDS.1)
+    Axis::logarithmic("approach speed over critical speed", "v/V_s", "1").between(SPEEDS.0, SPEEDS.1)
 }
 
 fn restitution_axis() -> Axis {
-    Axis::linear("restitution e").between(0.0, 1.05)
+    Axis::linear("restitution", "e", "1").between(0.0, 1.05)
 }
 
 /// Impacts by a law with a damping.
@@ -224,7 +222,8 @@ fn damped(lammps: &[Row], unit: f64) -> Result<Part, Box<dyn Error>> {
         })
         .collect();
     Ok(figure(
-        plot::chart("Restitution by both models of adhesion of LAMMPS", &ratio_axis(), &restitution_axis(), &lines)?,
+        "The same laws in LAMMPS",
+        plot::chart(&ratio_axis(), &restitution_axis(), &lines)?,
         "laws-damped",
         "The sphere of the figure above with the adhesion of Derjaguin, Muller and Toporov (dmt), where without damping e = 1, \
          and with viscoelastic damping. Both programs have the same law, damping and end of contact; that of jkr is pull-off.",

@@ -13,6 +13,7 @@ mod content;
 mod cost;
 mod device;
 mod laws;
+mod look;
 mod page;
 mod paper;
 mod plot;
@@ -20,9 +21,8 @@ mod price;
 mod published;
 mod stability;
 
-pub use cost::is_counted;
-
 use content::{Run, Section};
+use device::Device;
 use page::Chapter;
 
 /// Write a report with pictures and tables into a folder: `index.html`, and the numbers of each as CSV beside it.
@@ -40,12 +40,18 @@ pub struct Options {
     /// Only these sections
     #[arg(long, value_name = "SECTION", value_parser = PossibleValuesParser::new(SECTIONS.map(|(name, _)| name)))]
     only: Vec<String>,
+    /// Open the report in Chromium without a window, if it is installed, and fail where it is too long or too wide
+    #[arg(long)]
+    look: bool,
     /// Draw the figures of the documentation, and nothing else
-    #[arg(long, conflicts_with_all = ["check", "quick", "output", "only"])]
+    #[arg(long, group = "other", conflicts_with_all = ["quick", "output", "only", "look"])]
     figures: bool,
     /// Check whether the figures of the documentation are current, and do nothing else
-    #[arg(long, conflicts_with_all = ["quick", "output", "only"])]
+    #[arg(long, group = "other", conflicts_with_all = ["quick", "output", "only", "look"])]
     check: bool,
+    /// Count the instructions of all methods on emulated boards, store them in host-tests/data/methods, and do nothing else
+    #[arg(long, group = "other", conflicts_with_all = ["quick", "output", "only", "look"])]
+    boards: bool,
 }
 
 type Write = fn(&Run) -> Result<Section, String>;
@@ -67,9 +73,10 @@ const REPOSITORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 /// # Errors
 /// A file that cannot be written.
 pub fn run(options: &Options) -> Result<bool, Box<dyn Error>> {
-    match (options.figures, options.check) {
-        (true, _) => committed::write().map(|()| true),
-        (_, true) => check(),
+    match options {
+        Options { figures: true, .. } => committed::write().map(|()| true),
+        Options { check: true, .. } => check(),
+        Options { boards: true, .. } => Ok(cost::store_boards(&Run { quick: false }).map(|()| true)?),
         _ => write(options),
     }
 }
@@ -100,10 +107,11 @@ fn write(options: &Options) -> Result<bool, Box<dyn Error>> {
     }
     let default = || Path::new(REPOSITORY).join("target/report");
     let folder = options.output.clone().unwrap_or_else(default);
-    let facts = device::facts(options.quick, begin.elapsed())?;
-    let index = page::write(&folder, &facts, &chapters)?;
+    let device = Device::of(options.quick, begin.elapsed())?;
+    let index = page::write(&folder, &device, &chapters, options.quick)?;
     eprintln!("{}", index.display());
-    Ok(chapters.iter().all(|chapter| chapter.section.is_ok()))
+    let fits = !options.look || look::fits(&index)?;
+    Ok(fits && chapters.iter().all(|chapter| chapter.section.is_ok()))
 }
 
 impl Options {

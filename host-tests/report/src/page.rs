@@ -7,14 +7,31 @@ use std::time::Duration;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::content::{Cell, Figure, Part, Section, Table};
+use crate::content::{Figure, Section};
+use crate::device::Device;
+
+mod numbers;
+mod parts;
+
+use numbers::exact;
+use parts::{file, link, render_parts, with_code};
 
 const STYLE: &str = include_str!("page.css");
+/// The sphere before, in and after the contact, with the symbols of speeds and forces.
+const SCENE: &str = include_str!("scene.svg");
 
-/// Rows from which on a table is folded.
-const LONG: usize = 25;
-/// Letters from which on the text of a cell is broken into lines.
-const WIDE: usize = 25;
+/// Symbols of the drawing and of the axes.
+const SYMBOLS: [(&str, &str); 9] = [
+    ("v", "approach speed along the normal; after the impact V"),
+    ("v_t, ω", "velocity along the surface and spin; after the impact V_t and Ω"),
+    ("e", "restitution V/v, zero if the surface captures the sphere"),
+    ("R", "restitution without adhesion"),
+    ("x", "indentation"),
+    ("F_H, F_A", "elastic force (Hertz) and adhesion"),
+    ("F_t", "friction, at most f F_H"),
+    ("h, g", "damping of the materials and of adhesion, at the largest speed without damping"),
+    ("ε", "error"),
+];
 
 /// A section as it came out.
 pub(crate) struct Chapter {
@@ -26,72 +43,27 @@ pub(crate) struct Chapter {
 /// Writes the page and its tables into a folder; where the page is.
 pub(crate) fn write(
     folder: &Path,
-    facts: &[(&'static str, String)],
+    device: &Device,
     chapters: &[Chapter],
+    quick: bool,
 ) -> Result<PathBuf, Box<dyn Error>> {
     fs::create_dir_all(folder)?;
-    for section in chapters.iter().filter_map(|chapter| chapter.section.as_ref().ok()) {
-        for part in &section.parts {
-            if let Part::Table(table) | Part::Figure(Figure { data: table, .. }) = part {
-                write_csv(&folder.join(file(table)), table)?;
-            }
+    for table in chapters.iter().filter_map(|chapter| chapter.section.as_ref().ok()).flat_map(Section::tables) {
+        let mut writer = csv::Writer::from_path(folder.join(file(table)))?;
+        writer.write_record(&table.columns)?;
+        for row in &table.rows {
+            writer.write_record(row.iter().map(exact))?;
         }
+        writer.flush()?;
     }
     let index = folder.join("index.html");
-    fs::write(&index, page(facts, chapters).into_string())?;
+    fs::write(&index, page(device, chapters, quick).into_string())?;
     Ok(index)
 }
 
-fn file(table: &Table) -> String {
-    format!("{}.csv", table.name)
-}
-
-fn write_csv(path: &Path, table: &Table) -> Result<(), Box<dyn Error>> {
-    let mut writer = csv::Writer::from_path(path)?;
-    writer.write_record(&table.columns)?;
-    for row in &table.rows {
-        writer.write_record(row.iter().map(exact))?;
-    }
-    Ok(writer.flush()?)
-}
-
-/// All digits.
-fn exact(cell: &Cell) -> String {
-    match cell {
-        Cell::Text(text) => text.clone(),
-        Cell::Number(None) => String::new(),
-        Cell::Number(Some(number)) if *number == 0.0 || (1e-4..1e7).contains(&number.abs()) => number.to_string(),
-        Cell::Number(Some(number)) => format!("{number:e}"),
-        Cell::Count(count) => count.to_string(),
-    }
-}
-
-/// Four significant digits.
-fn short(cell: &Cell) -> String {
-    match cell {
-        Cell::Number(Some(number)) => significant(*number),
-        _ => exact(cell),
-    }
-}
-
-fn significant(number: f64) -> String {
-    if number == 0.0 || !number.is_finite() {
-        return number.to_string();
-    }
-    // The exponent after rounding: 9.9996 is 10.00.
-    let scientific = format!("{number:.3e}");
-    let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
-    let zeros = |text: &str| match text.split_once('.') {
-        Some(_) => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        None => text.to_owned(),
-    };
-    match exponent.parse::<i32>() {
-        Ok(exponent @ -3..=4) => zeros(&format!("{number:.*}", usize::try_from(3 - exponent).unwrap_or(0))),
-        _ => format!("{}e{exponent}", zeros(digits)),
-    }
-}
-
-fn page(facts: &[(&'static str, String)], chapters: &[Chapter]) -> Markup {
+fn page(device: &Device, chapters: &[Chapter], quick: bool) -> Markup {
+    let sections = || chapters.iter().filter_map(|chapter| chapter.section.as_ref().ok());
+    let leads: Vec<_> = sections().filter_map(|section| Some((section.lead.as_ref()?, section.name))).collect();
     html! {
         (DOCTYPE)
         html lang="en" {
@@ -104,15 +76,18 @@ fn page(facts: &[(&'static str, String)], chapters: &[Chapter]) -> Markup {
             }
             body {
                 header {
-                    h1 { "microimpact: report" }
-                    p {
-                        "Impacts of microspheres by both models of Brach and Dunn (1995). Every picture and table has its
-                        numbers as CSV beside this page."
-                    }
+                    h1 { "microimpact: does a microsphere bounce off a surface or stick to it?" }
                     (contents(chapters))
-                    (made_with(facts))
                 }
-                main { @for chapter in chapters { (render(chapter)) } }
+                @if !leads.is_empty() {
+                    div.leads { @for (figure, name) in leads { (render_lead(figure, name)) } }
+                }
+                (left_out(quick, sections()))
+                main {
+                    @for chapter in chapters { (render(chapter)) }
+                    (scene())
+                    (made_with(device, chapters))
+                }
             }
         }
     }
@@ -121,43 +96,40 @@ fn page(facts: &[(&'static str, String)], chapters: &[Chapter]) -> Markup {
 fn contents(chapters: &[Chapter]) -> Markup {
     html! {
         nav {
-            ul {
-                @for chapter in chapters {
-                    li {
-                        @match &chapter.section {
-                            Ok(section) => {
-                                a href={ "#" (section.name) } { (section.title) }
-                                (subsections(section))
-                            }
-                            Err(_) => a href={ "#" (chapter.name) } { (chapter.name) " (failed)" },
-                        }
-                    }
+            @for chapter in chapters {
+                @match &chapter.section {
+                    Ok(section) => a href={ "#" (section.name) } { (section.title) },
+                    Err(_) => a href={ "#" (chapter.name) } { (chapter.name) " (failed)" },
                 }
             }
+            a href="#scene" { "Symbols" }
         }
     }
 }
 
-fn subsections(section: &Section) -> Markup {
-    let headings =
-        section.parts.iter().filter_map(|part| if let Part::Heading(text) = part { Some(text) } else { None });
+/// One line on what a run does not show, and how to see it.
+fn left_out<'a>(quick: bool, sections: impl Iterator<Item = &'a Section>) -> Markup {
+    let missing: Vec<_> = sections.filter_map(|section| section.left_out.as_deref()).collect();
     html! {
-        ul.subsections { @for heading in headings { li { a href={ "#" (anchor(section, heading)) } { (heading) } } } }
+        @if quick {
+            p.left-out {
+                "Quick run, with fewer settings, scenes and points"
+                @if !missing.is_empty() { ", without " (missing.join(", without ")) }
+                ". All of it: " code { "cargo write-report" } "."
+            }
+        } @else if !missing.is_empty() {
+            p.left-out { "Without " (with_code(&missing.join(", without "))) "." }
+        }
     }
 }
 
-/// Where a heading is, by its letters and digits.
-fn anchor(section: &Section, heading: &str) -> String {
-    let words = heading.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
-    let words: Vec<_> = words.map(str::to_lowercase).collect();
-    format!("{}--{}", section.name, words.join("-"))
-}
-
-fn made_with(facts: &[(&'static str, String)]) -> Markup {
+/// A picture of the first screen, its title, and its sentence.
+fn render_lead(figure: &Figure, section: &str) -> Markup {
     html! {
-        details {
-            summary { "Made with" }
-            dl { @for (name, value) in facts { dt { (name) } dd { (value) } } }
+        figure id=(figure.data.name) {
+            h2 { (figure.title) }
+            (PreEscaped(&figure.drawing))
+            figcaption { (figure.data.caption) " " a href={ "#" (section) } { "more" } " " (link(&figure.data)) }
         }
     }
 }
@@ -167,15 +139,7 @@ fn render(chapter: &Chapter) -> Markup {
         Ok(section) => html! {
             section id=(section.name) {
                 h2 { (section.title) }
-                @for part in &section.parts {
-                    @match part {
-                        Part::Heading(text) => h3 id=(anchor(section, text)) { (text) },
-                        Part::Text(text) => p { (with_code(text)) },
-                        Part::Table(table) => (render_table(table)),
-                        Part::Figure(figure) => (render_figure(figure)),
-                    }
-                }
-                p.elapsed { (format!("{:.1} s", chapter.elapsed.as_secs_f64())) }
+                (render_parts(&section.parts))
             }
         },
         Err(error) => html! {
@@ -187,68 +151,34 @@ fn render(chapter: &Chapter) -> Markup {
     }
 }
 
-/// Text with code between backticks.
-fn with_code(text: &str) -> Markup {
+fn scene() -> Markup {
     html! {
-        @for (index, piece) in text.split('`').enumerate() {
-            @if index % 2 == 1 { code { (piece) } } @else { (piece) }
+        section #scene {
+            h2 { "The scene and its symbols" }
+            figure { (PreEscaped(SCENE)) }
+            dl.symbols { @for (symbol, meaning) in SYMBOLS { dt { (symbol) } dd { (meaning) } } }
         }
     }
 }
 
-fn render_figure(figure: &Figure) -> Markup {
+fn made_with(device: &Device, chapters: &[Chapter]) -> Markup {
+    let seconds = |chapter: &Chapter| format!("{} {:.1} s", chapter.name, chapter.elapsed.as_secs_f64());
     html! {
-        figure id=(figure.data.name) {
-            (PreEscaped(&figure.drawing))
-            figcaption { (figure.data.caption) " " (link(&figure.data)) }
-        }
-    }
-}
-
-fn render_table(table: &Table) -> Markup {
-    let cells = html! {
-        div.scroll tabindex="0" {
-            table {
-                thead {
-                    tr {
-                        @for (index, column) in table.columns.iter().enumerate() {
-                            th.number[has_numbers(table, index)] scope="col" { (column) }
-                        }
-                    }
-                }
-                tbody {
-                    @for row in &table.rows {
-                        tr { @for cell in row { (render_cell(cell)) } }
+        details {
+            summary { "What this report was made with" }
+            dl {
+                @for (name, value) in &device.facts { dt { (name) } dd { (value) } }
+                dt { "Sections" }
+                dd { (chapters.iter().map(seconds).collect::<Vec<_>>().join(", ")) }
+                dt { "Crates" }
+                dd {
+                    @for (name, version) in &device.crates {
+                        a href={ "https://docs.rs/" (name) "/" (version) } { (name) " " (version) } " "
                     }
                 }
             }
         }
-    };
-    html! {
-        figure id=(table.name) {
-            figcaption { (table.caption) " " (link(table)) }
-            @if table.rows.len() < LONG {
-                (cells)
-            } @else {
-                details { summary { (table.rows.len()) " rows" } (cells) }
-            }
-        }
     }
-}
-
-fn has_numbers(table: &Table, column: usize) -> bool {
-    table.rows.first().and_then(|row| row.get(column)).is_some_and(|cell| !matches!(cell, Cell::Text(_)))
-}
-
-fn render_cell(cell: &Cell) -> Markup {
-    match cell {
-        Cell::Text(text) => html! { td.wide[text.chars().count() >= WIDE] { (text) } },
-        Cell::Number(_) | Cell::Count(_) => html! { td.number { (short(cell)) } },
-    }
-}
-
-fn link(table: &Table) -> Markup {
-    html! { a.csv href=(file(table)) { "CSV" } }
 }
 
 #[cfg(test)]
@@ -256,47 +186,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_have_four_digits() {
-        for (number, text) in [
-            (0.0, "0"),
-            (1.0, "1"),
-            (-2.8, "-2.8"),
-            (0.746_193_2, "0.7462"),
-            (9.999_96, "10"),
-            (41_714.3, "41714"),
-            (0.001_234_56, "0.001235"),
-            (4.251_18e-8, "4.251e-8"),
-            (-7.5e10, "-7.5e10"),
-        ] {
-            assert_eq!(significant(number), text);
-        }
-    }
-
-    #[test]
-    fn files_have_all_digits() {
-        for number in [0.1 + 0.2, 4.251_184_950_650_474_4e-8, -1e300, 5e-324, 0.0] {
-            assert_eq!(exact(&Cell::Number(Some(number))).parse(), Ok(number));
-        }
-        assert_eq!(exact(&Cell::Number(None)), "");
-    }
-
-    #[test]
     fn failed_section_is_on_the_page() {
         let chapter = Chapter { name: "cost", section: Err("no <peer> ran".to_owned()), elapsed: Duration::ZERO };
-        let page = page(&[], &[chapter]).into_string();
+        let page = page(&Device::default(), &[chapter], true).into_string();
         assert!(page.contains("<section class=\"failure\" id=\"cost\">") && page.contains("no &lt;peer&gt; ran"));
         assert!(page.contains("href=\"#cost\""));
     }
 
     #[test]
-    fn long_tables_are_folded() {
-        let table = |rows: usize| Table {
-            name: "t".to_owned(),
-            caption: "c".to_owned(),
-            columns: vec!["x".to_owned()],
-            rows: (0..rows).map(|row| vec![Cell::Count(row as u64)]).collect(),
-        };
-        assert!(render_table(&table(LONG)).into_string().contains("<details>"));
-        assert!(!render_table(&table(LONG - 1)).into_string().contains("<details>"));
+    fn what_a_run_leaves_out_is_one_line() {
+        let section = Section { left_out: Some("the boards: `qemu` is missing".to_owned()), ..Section::default() };
+        let line = |quick| left_out(quick, [&section, &Section::default()].into_iter()).into_string();
+        assert!(line(true).contains("without the boards") && line(true).contains("cargo write-report"));
+        assert_eq!(line(false), "<p class=\"left-out\">Without the boards: <code>qemu</code> is missing.</p>");
+        assert_eq!(left_out(false, std::iter::empty()).into_string(), "");
     }
 }

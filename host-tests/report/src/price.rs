@@ -1,12 +1,12 @@
 //! What each part costs: scenes that differ by one term, and the differences of their instructions, bytes and stack on each
 //! board, from the figures that `cargo qemu --overwrite` has stored.
 
-use boards::BOARDS;
 use boards::absent::PROOFS;
 use boards::figures::{self, Figure as Measured, Quantity, Stored};
+use boards::{BOARDS, REFERENCE_CORE};
 
 use crate::content::{Cell, Figure, Part, Run, Section, Table};
-use crate::plot::{self, Line, Mark};
+use crate::plot::{self, Axis, Bar, Panel};
 
 /// A scene, and the one that it has a term more than.
 struct Step {
@@ -31,13 +31,6 @@ struct Family {
     /// What is counted.
     work: (Quantity, &'static str),
     steps: &'static [Step],
-}
-
-impl Family {
-    /// The title as far as the settings.
-    fn short_title(&self) -> &'static str {
-        self.title.split([',', ':']).next().unwrap_or(self.title)
-    }
 }
 
 const CLASSIFICATION: (Quantity, &str) = (Quantity::Classify, "instructions of the most expensive impact");
@@ -147,6 +140,42 @@ const MEMORY: [(Quantity, &str); 2] = [
     (Quantity::Stack, "bytes of stack, painted"),
 ];
 
+/// Cores with floating point of their own, and those without: bars of both would not fit on one axis.
+const WITH_FLOATING_POINT: [&str; 3] = ["Cortex-M4F", "Cortex-M7", "Cortex-M33"];
+const WITHOUT: [&str; 3] = ["Cortex-M3", "Cortex-M0", "RV32IMAC"];
+
+/// A chain of scenes, each with a term more than the one before, and the names of the terms.
+struct Chain {
+    title: &'static str,
+    scenes: &'static [(&'static str, &'static str)],
+}
+
+const CHAINS: [Chain; 3] = [
+    Chain {
+        title: "Rigid body",
+        scenes: &[
+            ("rigid/bare", "restitution alone"),
+            ("rigid/adhesion", "work of adhesion"),
+            ("rigid/friction", "friction"),
+            ("rigid/spin", "spin"),
+            ("rigid/rolling-dissipation", "rolling dissipation"),
+        ],
+    },
+    Chain {
+        title: "Simulation, FixedCost<5>, 3 iterations",
+        scenes: &[
+            ("fixed-cost/bare", "undamped contact"),
+            ("fixed-cost/damping", "damping"),
+            ("fixed-cost/adhesion", "adhesion"),
+            ("fixed-cost/friction", "friction and spin"),
+        ],
+    },
+    Chain {
+        title: "Simulation, Collocation<7>, 1e-6",
+        scenes: &[("simulation/normal", "contact with adhesion"), ("simulation/oblique", "friction and spin")],
+    },
+];
+
 pub(crate) fn section(_: &Run) -> Result<Section, String> {
     let stored = Stored::read(&Stored::path())?;
     let first = FAMILIES[0].steps[0].scene;
@@ -155,29 +184,45 @@ pub(crate) fn section(_: &Run) -> Result<Section, String> {
         return Err(format!("no figures of {first} are stored; `cargo qemu --overwrite` stores them"));
     };
     let prices = Prices { figures: stored.rows_of(compiler).collect() };
-    let mut parts = vec![Part::Text(format!(
-        "Measured by `cargo qemu --all-cores --counts` with {compiler}, optimised for speed, on emulated boards. The first row of each \
-         number type is the cost of its scene. Each row below is what its term adds to the scene with one term less. \
-         Instructions are not cycles: a division counts 1. Code and constants are all that the firmware needs to set up \
-         a scene, to validate a motion and to classify it, or to calibrate, including the compiler's routines for \
-         arithmetic in software. Two scenes may use the same function, so a price can be negative."
-    ))];
+    let work = (FAMILIES[0].work.0, Axis::linear("instructions", "N", "1"));
+    let memory = (Quantity::Code, Axis::linear("code and constants", "m", "bytes"));
+    let lead = Figure {
+        title: "What does each term cost?".to_owned(),
+        ..prices.bars("price-lead", &WITH_FLOATING_POINT, &work, prices.sentence())?
+    };
+    let soft = prices.in_software();
+    let flash = "Memory for code and constants, set-up and validation included.".to_owned();
+    let mut parts = vec![
+        Part::Figure(Figure {
+            title: "Instructions on cores without floating point".to_owned(),
+            ..prices.bars("price-without-floating-point", &WITHOUT, &work, soft)?
+        }),
+        Part::Figure(Figure {
+            title: "Bytes on cores with floating point".to_owned(),
+            ..prices.bars("price-bytes", &WITH_FLOATING_POINT, &memory, flash)?
+        }),
+    ];
     for family in &FAMILIES {
-        parts.push(Part::Heading(family.short_title().to_owned()));
         let quantities = [family.work].into_iter().chain(MEMORY);
-        parts.extend(quantities.map(|(quantity, unit)| Part::Table(prices.table(family, quantity, unit))));
-        if family.steps.iter().any(|step| step.without.is_some()) {
-            parts.push(Part::Figure(prices.figure(family)?));
-        }
+        let tables = quantities.map(|(quantity, unit)| Part::Table(prices.table(family, quantity, unit)));
+        parts.push(Part::Fold(family.title.to_owned(), tables.collect()));
     }
-    parts.push(Part::Heading("Absent terms".to_owned()));
-    parts.push(Part::Text(
-        "An absent term costs nothing. The firmware of each scene below is built twice: with the library as it is, and with a \
-         copy of its source without any item that names an absent term. The table counts the bytes in which both differ."
-            .to_owned(),
+    let absent = "The firmware of each scene below is built twice: with the library as it is, and with a copy of its source without \
+                  any item that names an absent term. The table counts the bytes in which both differ.";
+    parts.push(Part::Fold(
+        "An absent term costs nothing".to_owned(),
+        vec![Part::Text(absent.to_owned()), Part::Table(prices.absent())],
     ));
-    parts.push(Part::Table(prices.absent()));
-    Ok(Section { title: "What each part costs", name: "price", parts })
+    let method = format!(
+        "The figures are stored in `host-tests/data/footprint`; `cargo qemu --all-cores --counts` measures them again. They come \
+         from {compiler}, optimised for speed, on emulated boards. In a table the first row of each number type is the cost of its \
+         scene, and each row below is what its term adds to the scene with one term less. Instructions are not cycles: a division \
+         counts 1. Code and constants are all that the firmware needs to set up a scene, to validate a motion and to classify it, \
+         or to calibrate, including the compiler's routines for arithmetic in software. Two scenes may use the same function, so a \
+         price can be negative; a bar shows it as zero."
+    );
+    parts.push(Part::Fold("How it is measured".to_owned(), vec![Part::Text(method)]));
+    Ok(Section { title: "Price of each term", name: "price", lead: Some(lead), left_out: None, parts })
 }
 
 struct Prices<'a> {
@@ -188,6 +233,56 @@ impl Prices<'_> {
     /// The largest figure of a scene.
     fn of(&self, scene: &str, scalar: &str, core: &str, quantity: Quantity) -> Option<f64> {
         figures::largest(self.figures.iter().copied(), core, scene, scalar, quantity)
+    }
+
+    /// The most that a chain costs on a core in f32.
+    fn whole(&self, chain: &Chain, core: &str) -> f64 {
+        let of = |(scene, _): &(&str, &str)| self.of(scene, SCALARS[0], core, Quantity::Classify);
+        chain.scenes.iter().filter_map(of).fold(0.0, f64::max)
+    }
+
+    /// What the first picture says.
+    fn sentence(&self) -> String {
+        let [rigid, fixed, collocation] = CHAINS.each_ref().map(|chain| self.whole(chain, REFERENCE_CORE));
+        format!(
+            "On a {REFERENCE_CORE} the rigid body takes at most {rigid:.0} instructions with all its terms, the simulation {fixed:.0} at \
+             a fixed cost and {collocation:.0} with a bounded error; each colour is the price of one term (stored figures, f32)."
+        )
+    }
+
+    /// How many times as many instructions a core without floating point takes.
+    fn in_software(&self) -> String {
+        let ratio = |chain, core| self.whole(chain, core) / self.whole(chain, REFERENCE_CORE);
+        let ratios = || CHAINS.iter().flat_map(|chain| WITHOUT.map(|core| ratio(chain, core)));
+        let (least, most) = (ratios().fold(f64::INFINITY, f64::min), ratios().fold(0.0, f64::max));
+        format!(
+            "A core that computes with floating point in software takes {least:.0} to {most:.0} times as many instructions as a \
+             {REFERENCE_CORE} for the same scene."
+        )
+    }
+
+    /// A panel for each chain with a bar for each core, in f32.
+    fn bars(&self, name: &str, cores: &[&str], work: &(Quantity, Axis), caption: String) -> Result<Figure, String> {
+        let mut rows = Vec::new();
+        let mut panels = Vec::new();
+        for Chain { title, scenes } in &CHAINS {
+            let mut bars = Vec::new();
+            for core in cores {
+                let (mut before, mut pieces) = (0.0, Vec::new());
+                for (scene, term) in *scenes {
+                    let Some(whole) = self.of(scene, SCALARS[0], core, work.0) else { continue };
+                    rows.push(vec![(*title).into(), (*core).into(), (*term).into(), (whole - before).into()]);
+                    pieces.push((whole - before).max(0.0));
+                    before = whole;
+                }
+                bars.push(Bar { name: (*core).to_owned(), pieces });
+            }
+            let names = scenes.iter().map(|(_, term)| *term).collect();
+            panels.push(Panel { title: (*title).to_owned(), axis: work.1.clone(), names, bars });
+        }
+        let columns = ["method", "core", "term", work.0.unit()].map(str::to_owned).to_vec();
+        let data = Table { name: name.to_owned(), caption, columns, rows };
+        Ok(Figure { title: String::new(), drawing: plot::bars(&panels)?, data })
     }
 
     /// What each term adds, a column for each core.
@@ -216,35 +311,6 @@ impl Prices<'_> {
                 .collect(),
             rows,
         }
-    }
-
-    /// Instructions of the scenes in f32 against their bytes.
-    fn figure(&self, family: &Family) -> Result<Figure, String> {
-        let scalar = SCALARS[0];
-        let (mut lines, mut rows) = (Vec::new(), Vec::new());
-        for core in BOARDS.map(|board| board.core) {
-            let mut points = Vec::new();
-            for Step { scene, term, .. } in family.steps {
-                let figure = |quantity| self.of(scene, scalar, core, quantity);
-                if let (Some(bytes), Some(instructions)) = (figure(Quantity::Code), figure(Quantity::Classify)) {
-                    points.push((bytes, instructions));
-                    rows.push(vec![core.into(), (*term).into(), bytes.into(), instructions.into()]);
-                }
-            }
-            lines.push(Line::new(core, Mark::Joined, points));
-        }
-        let drawing = plot::log_log(family.short_title(), "code and constants, bytes", "instructions", &lines)?;
-        let columns = ["core", "scene or term", "code and constants, bytes", "instructions"];
-        let data = Table {
-            name: format!("price-{}", family.name),
-            caption: format!(
-                "{}: instructions against bytes in f32, a point for each row of the tables, joined in their order",
-                family.title
-            ),
-            columns: columns.map(str::to_owned).to_vec(),
-            rows,
-        };
-        Ok(Figure { drawing, data })
     }
 
     /// Bytes of absent terms.

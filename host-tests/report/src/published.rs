@@ -23,8 +23,8 @@ struct Quantity {
     /// Name in the published values.
     published: &'static str,
     title: &'static str,
-    /// With symbol and unit.
-    label: &'static str,
+    /// Name, symbol and unit on its axis.
+    axis: [&'static str; 3],
     /// Place in what [`at_angle`] gives.
     place: usize,
     /// Of the computed values.
@@ -35,21 +35,21 @@ const QUANTITIES: [Quantity; 3] = [
     Quantity {
         published: "tangential restitution",
         title: "Velocity of the centre along the surface",
-        label: "tangential restitution V_t/v_t",
+        axis: ["tangential restitution", "V_t/v_t", "1"],
         place: 0,
         sign: 1.0,
     },
     Quantity {
         published: "spin rad/s",
         title: "Spin after the impact",
-        label: "spin after W, rad/s",
+        axis: ["spin after", "Ω", "rad/s"],
         place: 1,
         sign: -1.0,
     },
     Quantity {
         published: "rebound angle of the contact point deg",
         title: "Direction in which the contact point rebounds",
-        label: "angle from the normal, degrees",
+        axis: ["angle from the normal", "φ", "°"],
         place: 2,
         sign: 1.0,
     },
@@ -62,23 +62,28 @@ pub(crate) fn section(run: &Run) -> Result<Section, String> {
     let parts = || -> Result<Vec<Part>, Box<dyn Error>> {
         let _progress = run.progress(1, "published impacts");
         let ball = scene(Sphere::solid(2.5e-3, OXIDE.density)?, &OXIDE, (0.98, SPEED), 0.092)?;
-        let mut parts = vec![Part::Text(
-            "A contact that gives sideways sticks elastically before it slips (Mindlin 1949). Its stiffness along the surface follows from \
-             the materials. The default rule rescales the force where the contact shrinks, so that no energy is made; the incremental \
-             rule is that of other codes."
+        let [along, spin, angle] = QUANTITIES.each_ref().map(|quantity| balls(&ball, quantity));
+        let about = Part::Text(
+            "A contact that gives sideways sticks elastically before it slips (Mindlin 1949). Its stiffness along the surface \
+             follows from the materials. The default rule rescales the force where the contact shrinks, so that no energy is made; \
+             the incremental rule is that of other codes. Balls of alumina: 5 mm, 3.9 m/s, restitution 0.98, friction 0.092. Values \
+             read from printed figures are exact to about one percent of the axis."
                 .to_owned(),
-        )];
-        parts.push(Part::Heading("Balls of alumina: 5 mm, 3.9 m/s, restitution 0.98, friction 0.092".to_owned()));
-        for quantity in &QUANTITIES {
-            parts.push(balls(&ball, quantity)?);
-        }
-        parts.push(differences(&ball)?);
-        parts.push(Part::Heading("Spheres of Thornton, Cummins and Cleary".to_owned()));
-        parts.push(spheres()?);
-        Ok(parts)
+        );
+        Ok(vec![
+            along?,
+            angle?,
+            Part::Fold(
+                "Spin of the balls, and how far measured values are from ours".to_owned(),
+                vec![spin?, differences(&ball)?],
+            ),
+            Part::Fold("Spheres of Thornton, Cummins and Cleary".to_owned(), vec![spheres()?]),
+            Part::Fold("The models and the balls".to_owned(), vec![about]),
+        ])
     };
-    let title = "Impacts that others measured or solved";
-    parts().map(|parts| Section { title, name: "published", parts }).map_err(|error| error.to_string())
+    let section =
+        |parts| Section { title: "Impacts that others measured", name: "published", parts, ..Section::default() };
+    parts().map(section).map_err(|error| error.to_string())
 }
 
 /// Tangential restitution, spin, and rebound angle of the contact point of a ball at an angle from the normal.
@@ -89,7 +94,7 @@ fn at_angle(scene: &Scene, degrees: f64, along: Along) -> Result<[f64; 3], Box<d
 }
 
 fn balls(ball: &Scene, quantity: &Quantity) -> Result<Part, Box<dyn Error>> {
-    let &Quantity { published, title, label, place, sign } = quantity;
+    let &Quantity { published, title, axis: [axis, symbol, unit], place, sign } = quantity;
     let row = |angle: f64| {
         let of = |(_, along): (&str, Along)| Ok::<_, Box<dyn Error>>(at_angle(ball, angle, along)?[place]);
         let [rescaled, incremental, rigid] = MODELS;
@@ -105,13 +110,14 @@ fn balls(ball: &Scene, quantity: &Quantity) -> Result<Part, Box<dyn Error>> {
         Line::new(MODELS[1].0, Mark::Dashed, column(&rows, 2)).like(1),
         Line::new(MODELS[2].0, Mark::Solid, column(&rows, 3)).like(2),
     ];
-    let x = Axis::linear(ANGLE).between(0.0, 90.0);
+    let x = Axis::linear("angle of incidence from the normal", "α", "°").between(0.0, 90.0);
     let name = format!("published-{}", published.split(' ').next().unwrap_or_default());
     Ok(figure(
-        plot::chart(title, &x, &Axis::linear(label), &lines)?,
+        title,
+        plot::chart(&x, &Axis::linear(axis, symbol, unit), &lines)?,
         &name,
-        "Measured by Kharaz, Gorham and Salman (2001), computed by Chung and Ooi (2011), and ours by three models of the contact along the \
-         surface. Read from printed figures, published values are exact to about one percent of the axis.",
+        "Measured by Kharaz, Gorham and Salman (2001), computed by Chung and Ooi (2011), and ours by three models of the contact \
+         along the surface.",
         [ANGLE, MODELS[0].0, MODELS[1].0, MODELS[2].0],
         rows,
     ))
@@ -120,13 +126,13 @@ fn balls(ball: &Scene, quantity: &Quantity) -> Result<Part, Box<dyn Error>> {
 /// How far measured values are from ours.
 fn differences(ball: &Scene) -> Result<Part, Box<dyn Error>> {
     let mut rows = Vec::new();
-    for Quantity { published, title, label, place, .. } in QUANTITIES {
+    for Quantity { published, title, axis: [_, symbol, unit], place, .. } in QUANTITIES {
         for (from, to) in RANGES {
             let inside = || {
                 values(MEASURED, "al oxide", published).into_iter().filter(|(angle, _)| *angle >= from && *angle < to)
             };
             let mut cells = vec![
-                Cell::Text(format!("{title}: {label}")),
+                Cell::Text(format!("{title} {symbol} [{unit}]")),
                 Cell::Text(format!("{from} to {to}")),
                 Cell::Count(inside().count() as u64),
             ];
@@ -151,7 +157,6 @@ fn differences(ball: &Scene) -> Result<Part, Box<dyn Error>> {
 
 fn spheres() -> Result<Part, Box<dyn Error>> {
     const BEFORE: &str = "slip before, 2 v_ct/(f (1 + e) v_n)";
-    const AFTER: &str = "slip after, 2 V_ct/(f (1 + e) v_n)";
     let mut lines = Vec::new();
     let mut curves = Vec::new();
     for (place, (series, restitution)) in [("e .90", 0.9), ("e .75", 0.75), ("e .50", 0.5)].into_iter().enumerate() {
@@ -168,7 +173,12 @@ fn spheres() -> Result<Part, Box<dyn Error>> {
     }
     let rows = (0..100).map(|row| [curves[0][row].0, curves[0][row].1, curves[1][row].1, curves[2][row].1]);
     Ok(figure(
-        plot::chart("Velocity v_ct of the contact point", &Axis::linear(BEFORE), &Axis::linear(AFTER), &lines)?,
+        "Velocity v_ct of the contact point",
+        plot::chart(
+            &Axis::linear("slip before", "2 v_ct/(f (1 + e) v_n)", "1"),
+            &Axis::linear("slip after", "2 V_ct/(f (1 + e) v_n)", "1"),
+            &lines,
+        )?,
         "published-slip",
         "Spheres of 25 mm radius, friction f 0.1, v_n 5 m/s, restitution e (Thornton, Cummins and Cleary 2013). Their damping is not the hysteretic one, which \
          counts more where e is less. A sphere that slides throughout has seven less after than before.",

@@ -13,19 +13,29 @@ pub(crate) fn report(arguments: &[&str]) -> Result<bool, String> {
     report::run(&options.map_err(|error| error.to_string())?).map_err(|error| error.to_string())
 }
 
-/// The folder of a quick report on the paper.
+/// The folder of a quick report on the sections that measure nothing.
 static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report");
     if folder.exists() {
         fs::remove_dir_all(&folder).expect("the folder of the run before can be removed");
     }
     let path = folder.to_str().expect("the folder has a name in Unicode");
-    assert_eq!(report(&["--quick", "--only", "paper", "--output", path]), Ok(true));
+    let only = SECTIONS.iter().flat_map(|section| ["--only", section]);
+    let arguments: Vec<_> = ["--quick", "--output", path].into_iter().chain(only).collect();
+    assert_eq!(report(&arguments), Ok(true));
     folder
 });
 
+const SECTIONS: [&str; 4] = ["price", "laws", "published", "paper"];
+
 fn page() -> String {
     fs::read_to_string(FOLDER.join("index.html")).expect("the report has a page")
+}
+
+/// The figures of the page with their names.
+fn figures(page: &str) -> Vec<(&str, &str)> {
+    let named = page.split("<figure id=\"").skip(1);
+    named.filter_map(|rest| rest.split_once("</figure>")?.0.split_once('"')).collect()
 }
 
 /// Values of an attribute on the page.
@@ -35,43 +45,88 @@ fn attributes<'a>(page: &'a str, name: &str) -> Vec<&'a str> {
 }
 
 fn rows(name: &str) -> Vec<csv::StringRecord> {
-    rows_in(&FOLDER, name)
-}
-
-fn rows_in(folder: &Path, name: &str) -> Vec<csv::StringRecord> {
-    let mut reader = csv::Reader::from_path(folder.join(format!("{name}.csv"))).expect("the table has its file");
+    let mut reader = csv::Reader::from_path(FOLDER.join(format!("{name}.csv"))).expect("the table has its file");
     reader.records().map(|row| row.expect("the file is a table")).collect()
 }
 
 #[test]
 fn page_needs_nothing_else() {
     let page = page();
-    for address in page.match_indices("http").map(|(at, _)| &page[at..]) {
-        assert!(address.starts_with("http://www.w3.org/2000/svg\""), "{}", &address[..60.min(address.len())]);
+    for (at, _) in page.match_indices("http") {
+        // A name of the language of drawings, or a link to follow.
+        let link = page[..at].ends_with("<a href=\"");
+        assert!(
+            link || page[at..].starts_with("http://www.w3.org/2000/svg\""),
+            "{}",
+            &page[at..page.len().min(at + 60)]
+        );
     }
-    for resource in ["<script", "<link", "<img", "<iframe", "@import", "url(", " src="] {
+    for resource in ["<script", "<link", "<img", "<iframe", "@import", " src="] {
         assert!(!page.contains(resource), "{resource}");
     }
+    assert!(page.match_indices("url(").all(|(at, _)| page[at..].starts_with("url(#")));
     let names = attributes(&page, "id");
     let anchors: BTreeSet<_> = names.iter().copied().collect();
     assert_eq!(anchors.len(), names.len(), "a name stands for two places");
     for target in attributes(&page, "href") {
         match target.strip_prefix('#') {
             Some(anchor) => assert!(anchors.contains(anchor), "{target}"),
-            None => assert!(FOLDER.join(target).is_file(), "{target}"),
+            None => assert!(target.starts_with("https://") || FOLDER.join(target).is_file(), "{target}"),
         }
     }
 }
 
 #[test]
-fn contents_name_every_heading() {
+fn contents_name_every_section_and_details_are_folded() {
     let page = page();
     let (_, after) = page.split_once("<nav>").expect("the page has contents");
     let (contents, rest) = after.split_once("</nav>").expect("the contents end");
-    let [sections, parts] = ["<h2", "<h3"].map(|heading| rest.matches(heading).count());
-    assert!(sections == 1 && parts > 2, "{sections}, {parts}");
-    assert_eq!(attributes(contents, "href").len(), sections + parts);
+    let linked = attributes(contents, "href");
+    assert_eq!(linked.len(), rest.matches("<section id=").count());
+    assert!(SECTIONS.iter().all(|section| linked.contains(&&*format!("#{section}"))), "{linked:?}");
     assert!(!rest.contains('`'), "code is not marked as such");
+    // Sections follow the pictures of the first screen, and show at most two figures each.
+    for section in rest.split("<section id=").skip(1) {
+        let shown = section.split("<details>").next().unwrap_or_default();
+        assert!(shown.matches("<svg ").count() <= 2, "{}", &section[..20]);
+    }
+    assert!(page.matches("<details>").count() > 10 && !page.contains("<details open"));
+}
+
+/// Name, symbol and unit, as in `approach speed v [m/s]`.
+#[test]
+fn every_axis_has_name_symbol_and_unit() {
+    let page = page();
+    let mut axes = 0;
+    for (name, figure) in figures(&page) {
+        let Some((_, drawing)) = figure.split_once("<svg ") else { continue };
+        let labels = drawing.split("</text>").filter_map(|text| text.trim_end().strip_suffix(']'));
+        let labels: Vec<_> = labels.filter_map(|label| label.rsplit_once('\n')).map(|(_, label)| label).collect();
+        let panels = drawing.matches("Simulation, ").count() + 1;
+        let least = if name.starts_with("price-") { panels } else { 2 };
+        assert!(labels.len() >= least, "{name}: {labels:?}");
+        for label in &labels {
+            let (named, unit) = label.rsplit_once(" [").unwrap_or_else(|| panic!("{name}: {label}"));
+            assert!(named.split(' ').count() >= 2 && !unit.is_empty(), "{name}: {label}");
+        }
+        axes += labels.len();
+    }
+    assert!(axes > 40, "{axes}");
+}
+
+/// The last piece of a bar ends where the footprint of the whole scene says.
+#[test]
+fn bars_are_as_long_as_the_stored_figures() {
+    let whole = |quantity: usize| -> f64 {
+        let pieces = rows("price-lead").into_iter().filter(|row| &row[0] == "Rigid body" && &row[1] == "Cortex-M4F");
+        pieces.map(|row| row[quantity].parse::<f64>().unwrap()).sum()
+    };
+    let stored = include_str!("../../data/footprint/cortex-m4f.csv");
+    let row = stored.lines().find(|row| row.contains(",rigid/rolling-dissipation,f32,")).expect("the scene is stored");
+    let header: Vec<_> = stored.lines().next().unwrap_or_default().split(',').collect();
+    let cells = row.split(',').zip(header).filter(|(_, column)| column.starts_with("classify: "));
+    let most = cells.filter_map(|(cell, _)| cell.parse::<f64>().ok()).fold(0.0, f64::max);
+    assert!(most > 100.0 && (whole(3) - most).abs() < 1e-9, "{} and {most}", whole(3));
 }
 
 #[test]
@@ -153,20 +208,17 @@ fn models_agree_where_the_report_says_so() {
 /// Without damping the laws are those of theory; with it LAMMPS, whose steps are fixed, has the same restitution.
 #[test]
 fn laws_of_contact_are_those_of_theory_and_of_lammps() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report-laws");
-    let path = folder.to_str().expect("the folder has a name in Unicode");
-    assert_eq!(report(&["--quick", "--only", "laws", "--output", path]), Ok(true));
     for (table, columns, bound, least) in
         [("laws-jkr", [1, 2], 1e-12, 400), ("laws-jkr", [3, 4], 1e-12, 400), ("laws-lammps", [4, 5], 1e-3, 28)]
     {
-        let rows = rows_in(&folder, table);
+        let rows = rows(table);
         assert!(rows.len() >= least, "{table} has {} rows", rows.len());
         for row in rows {
             let [one, other] = columns.map(|column| row[column].parse::<f64>().unwrap().powi(2));
             assert!((one - other).abs() < bound, "{table}: {row:?}");
         }
     }
-    let errors = rows_in(&folder, "laws-errors");
+    let errors = rows("laws-errors");
     assert!(errors.len() >= 20, "{} laws", errors.len());
     for row in errors {
         let [wrong, square, contact, peak] = [4, 5, 6, 7].map(|column| row[column].parse::<f64>().unwrap());

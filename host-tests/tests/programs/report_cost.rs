@@ -58,6 +58,21 @@ fn choices_are_the_cheapest_within_their_error() {
     }
     assert!(summary.len() >= 12, "{}", summary.len());
 
+    // The factor to the best peer is that of the settings with all outputs.
+    let drawn = rows(&folder, "cost-host-s-normal-with-contact-time-and-impulse-f64.csv");
+    for row in rows(&folder, "cost-ratios.csv").iter().filter(|row| !row["this computer"].is_empty()) {
+        let level = number(row, "error").unwrap();
+        let least = |ours: bool| {
+            let of = drawn.iter().filter(|one| {
+                ours == ["Collocation", "Adaptive", "FixedCost", "the paper's method"].contains(&&*one["method"])
+            });
+            let exact = of.filter(|one| number(one, "error").is_some_and(|error| error <= level));
+            exact.map(|one| number(one, "least time, s").unwrap()).min_by(f64::total_cmp).unwrap()
+        };
+        let (ratio, _) = row["this computer"].split_once(", ").unwrap();
+        assert!((ratio.parse::<f64>().unwrap() - least(false) / least(true)).abs() < 0.006, "{row:?}");
+    }
+
     // Settings that did not converge are in the data too.
     let data = rows(&folder, "cost-host-s-normal-with-contact-time-and-impulse-f64.csv");
     assert!(data.iter().any(|row| row["error"].is_empty()) && data.iter().any(|row| !row["error"].is_empty()));

@@ -1,4 +1,4 @@
-//! The recommended method for each processor and error, and the cost of `Adaptive` beside it.
+//! The recommended method for each processor and error, with the cost of `Adaptive` over it.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -131,81 +131,4 @@ pub(super) fn table(
         row
     });
     Table { name: name.to_owned(), caption, rows: rows.collect(), columns }
-}
-
-/// What `Adaptive` costs with the error asked for as its tolerance, over the cheapest that reaches that error.
-pub(super) fn comparison(all: &[Series]) -> Table {
-    let mut rows = Vec::new();
-    for series in all {
-        for group in groups(series) {
-            for level in LEVELS {
-                let level = 10f64.powi(-level);
-                let Some((ratio, adaptive, best)) = default_ratio(series, group, level) else { continue };
-                rows.push(vec![
-                    series.processor.as_str().into(),
-                    group.1.into(),
-                    group.0.into(),
-                    level.into(),
-                    adaptive.error.into(),
-                    adaptive.cost.into(),
-                    series.unit.name().into(),
-                    ratio.into(),
-                    format!("{}, {}", best.entrant.method, best.entrant.setting).as_str().into(),
-                ]);
-            }
-        }
-    }
-    let columns = [
-        "processor",
-        "number type",
-        "asked for",
-        "tolerance",
-        "error",
-        "cost of Adaptive",
-        "unit",
-        "over the cheapest",
-        "the cheapest",
-    ];
-    Table {
-        name: "cost-adaptive".to_owned(),
-        caption:
-            "Cost of Adaptive at a tolerance, over that of the cheapest setting of all methods whose error is below it."
-                .to_owned(),
-        columns: columns.map(str::to_owned).to_vec(),
-        rows,
-    }
-}
-
-/// Ratio of costs, Adaptive at that tolerance, and the cheapest of all.
-fn default_ratio<'a>(series: &'a Series, group: (&'a str, &'a str), level: f64) -> Option<(f64, &'a Point, &'a Point)> {
-    let setting = format!("{level:.0e}");
-    let is_default = |point: &&Point| point.entrant.method == ADAPTIVE && point.entrant.setting == setting;
-    let adaptive = of(series, group).find(is_default)?;
-    let best = cheapest(of(series, group), level)?;
-    Some((adaptive.cost / best.cost, adaptive, best))
-}
-
-/// The comparison in one sentence for each series.
-pub(super) fn sentence(series: &Series) -> Option<String> {
-    let mut ratios = Vec::new();
-    let (mut within, mut first) = (0, 0);
-    for group in groups(series) {
-        for level in LEVELS {
-            let level = 10f64.powi(-level);
-            let Some((ratio, adaptive, best)) = default_ratio(series, group, level) else { continue };
-            ratios.push(ratio);
-            within += usize::from(adaptive.error.is_some_and(|error| error <= level));
-            first += usize::from(best.entrant.method == ADAPTIVE);
-        }
-    }
-    ratios.sort_by(f64::total_cmp);
-    let (least, median, most) = (ratios.first()?, ratios.get(ratios.len() / 2)?, ratios.last()?);
-    Some(format!(
-        "{} ({}): over {} combinations of scene, number type and tolerance, Adaptive reaches the tolerance in \
-         {within}, is itself the cheapest in {first}, and costs {least:.2} to {most:.2} times the \
-         cheapest, {median:.2} in the median.",
-        series.processor,
-        series.unit.name(),
-        ratios.len(),
-    ))
 }

@@ -12,7 +12,6 @@ use microimpact_scenes::methods::{Contestant, Extent, Number, Reply, Visitor, vi
 use reference::grids::mild_rebounds;
 use reference::{Case, case};
 
-use super::callgrind;
 use super::point::{Entrant, Point, Series, Unit, rounding};
 use crate::content::Run;
 
@@ -146,15 +145,6 @@ pub(super) fn times(run: &Run, runners: &mut [Runner]) -> Series {
     let points = runners.iter().zip(errors).zip(times);
     let points = points.map(|((runner, error), cost)| Point { entrant: runner.entrant.clone(), error, cost });
     Series { processor: "host".to_owned(), unit: Unit::Seconds, points: points.collect() }
-}
-
-/// The series in instructions.
-pub(super) fn instructions(run: &Run, times: &Series) -> Result<Series, String> {
-    let _bar = run.progress(1, "instructions on the host");
-    let counts = callgrind::counts(times.points.len())?;
-    let points = times.points.iter().zip(counts);
-    let points = points.map(|(point, count)| Point { cost: count as f64, ..point.clone() }).collect();
-    Ok(Series { processor: times.processor.clone(), unit: Unit::Instructions, points })
 }
 
 /// The largest error of each entrant over many scenes, `None` where it fails in one of them; and how many scenes.

@@ -16,10 +16,9 @@ const DISPLACEMENT: f64 = 4.243e-8;
 /// Rebound speed of Table 1, m/s.
 const REBOUND: f64 = 2.09;
 
-pub(super) fn parts() -> Outcome<Vec<Part>> {
-    let mut parts = vec![figure_6()?];
-    parts.extend(figures_in_time()?);
-    Ok(parts)
+pub(super) fn parts() -> Outcome<[Part; 4]> {
+    let [seventh, eighth, ninth] = figures_in_time()?;
+    Ok([figure_6()?, seventh, eighth, ninth])
 }
 
 fn figure_6() -> Outcome<Part> {
@@ -38,10 +37,11 @@ fn figure_6() -> Outcome<Part> {
         Line::new("rigid body, 10.12 µm", Mark::Solid, column(&rows, 3)),
         Line::new("paper", Mark::Points, vec![(SPEED, 0.62), (SPEED, 0.746), (5.0, 0.0)]),
     ];
-    let x = Axis::logarithmic("approach speed, m/s");
-    let y = Axis::linear("velocity ratio V/v").between(0.0, 1.0);
+    let x = Axis::logarithmic("approach speed", "v", "m/s");
+    let y = Axis::linear("velocity ratio", "V/v", "1").between(0.0, 1.0);
     Ok(figure(
-        plot::chart("Figure 6: velocity ratio against speed", &x, &y, &lines)?,
+        "Figure 6: velocity ratio against speed",
+        plot::chart(&x, &y, &lines)?,
         "figure-6",
         "Figure 6: restitution of silver-coated glass on steel, with the critical speed of each curve. Points, from the \
          paper's text: 0.62 for its mean sphere (8.6 µm), 0.746 in Table 1, and the capture of the sphere of 5 µm at \
@@ -69,7 +69,7 @@ fn figures_in_time() -> Outcome<[Part; 3]> {
         .collect();
     let peak = trajectory.peak().ok_or("the impact of Table 1 has no peak")?;
     let last = trajectory.samples().last().ok_or("the impact of Table 1 has no end")?;
-    let time = Axis::linear("time, 10⁻⁸ s");
+    let time = Axis::linear("time", "t", "10⁻⁸ s");
 
     let forces = [
         Line::new("normal force", Mark::Solid, column(&rows, 1)),
@@ -77,7 +77,8 @@ fn figures_in_time() -> Outcome<[Part; 3]> {
         Line::new("adhesion and damping", Mark::Dashed, column(&rows, 3)),
     ];
     let seventh = figure(
-        plot::chart("Figure 7: force in time", &time, &Axis::linear("force, 10⁻⁴ N"), &forces)?,
+        "Figure 7: force in time",
+        plot::chart(&time, &Axis::linear("force", "F", "10⁻⁴ N"), &forces)?,
         "figure-7",
         "Figure 7: normal force on the sphere of Table 1, positive where the surface repels. Only the \
          units can be read from the paper's figure; ours adds the two parts that its text mentions.",
@@ -92,12 +93,8 @@ fn figures_in_time() -> Outcome<[Part; 3]> {
         Line::new("paper", Mark::Points, vec![(0.0, -1.0), (deepest, 1.0), (end, REBOUND / SPEED)]),
     ];
     let eighth = figure(
-        plot::chart(
-            "Figure 8: motion in time",
-            &time,
-            &Axis::linear("fraction of the paper's largest value"),
-            &motion,
-        )?,
+        "Figure 8: motion in time",
+        plot::chart(&time, &Axis::linear("over the largest value", "x, v", "1"), &motion)?,
         "figure-8",
         "Figure 8: displacement over 4.243e-8 m, the paper's largest, and velocity, positive out of the surface, over \
          2.8 m/s. Points: the paper's first velocity, largest displacement and last velocity, at our times, as it gives \
@@ -117,9 +114,10 @@ fn figures_in_time() -> Outcome<[Part; 3]> {
             vec![(DISPLACEMENT / 1e-8, low), (DISPLACEMENT / 1e-8, high)],
         ),
     ];
-    let (x, y) = (Axis::linear("displacement, 10⁻⁸ m"), Axis::linear("normal force, 10⁻⁴ N"));
+    let (x, y) = (Axis::linear("displacement", "x", "10⁻⁸ m"), Axis::linear("normal force", "F", "10⁻⁴ N"));
     let ninth = figure(
-        plot::chart("Figure 9: hysteresis", &x, &y, &loop_)?,
+        "Figure 9: hysteresis",
+        plot::chart(&x, &y, &loop_)?,
         "figure-9",
         "Figure 9: the loop encloses the energy that the impact of Table 1 loses. Only the units can be read from the paper's \
          figure and, from figure 8, the largest displacement.",

@@ -29,21 +29,20 @@ const TOLERANCE: f64 = 1e-10;
 
 pub(crate) fn section(run: &Run) -> Result<Section, String> {
     let parts = || -> Outcome<Vec<Part>> {
-        let mut parts = vec![heading("Numbers")];
-        parts.extend(numbers::parts()?);
-        parts.push(heading("Figures of the rigid-body model"));
-        parts.extend(rigid::parts()?);
-        parts.push(heading("Figures of the simulation"));
-        parts.extend(contact::parts()?);
-        parts.push(heading("Both models side by side"));
-        parts.extend(models::parts(run)?);
-        Ok(parts)
+        let (agreement, numbers) = numbers::parts()?;
+        let [sixth, seventh, eighth, ninth] = contact::parts()?;
+        Ok(vec![
+            Part::Text(agreement),
+            sixth,
+            seventh,
+            Part::Fold("Every number of the paper beside ours".to_owned(), numbers),
+            Part::Fold("Figures 8 and 9: motion and hysteresis".to_owned(), vec![eighth, ninth]),
+            Part::Fold("Figures 2, 4 and A2: the rigid-body model".to_owned(), rigid::parts()?),
+            Part::Fold("Both models side by side".to_owned(), models::parts(run)?),
+        ])
     };
-    Ok(Section { title: "The paper", name: "paper", parts: parts().map_err(|error| error.to_string())? })
-}
-
-fn heading(text: &str) -> Part {
-    Part::Heading(text.to_owned())
+    let section = |parts| Section { title: "The paper", name: "paper", parts, ..Section::default() };
+    parts().map(section).map_err(|error| error.to_string())
 }
 
 fn glass(radius: f64) -> Result<Sphere<f64>, InputError> {
@@ -72,6 +71,7 @@ pub(crate) fn spaced(low: f64, high: f64, count: u32) -> impl Iterator<Item = f6
 
 /// A figure with a row of numbers for each abscissa.
 pub(crate) fn figure<const N: usize>(
+    title: &str,
     drawing: String,
     name: &str,
     caption: &str,
@@ -85,7 +85,7 @@ pub(crate) fn figure<const N: usize>(
         columns: columns.map(str::to_owned).into(),
         rows: rows.collect(),
     };
-    Part::Figure(Figure { drawing, data })
+    Part::Figure(Figure { title: title.to_owned(), drawing, data })
 }
 
 /// Points of a column over the first.

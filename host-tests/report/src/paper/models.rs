@@ -1,17 +1,15 @@
 //! Both models side by side: the simulation with the paper's constants, and the rigid-body model with the restitution law and
 //! the work of adhesion that fit its rebounds.
 
-use std::collections::BTreeMap;
-
-use microimpact::contact::{ContactWorks, RingScene, Works};
+use microimpact::contact::{ContactWorks, Works};
 use microimpact::measure::{Estimate, MeasuredImpact, RestitutionFit};
 use microimpact::{
     CriticalSpeed, InputError, NormalMotion, RigidBody, SpeedRestitution, rigid::WorkOfAdhesion as WorkTerm,
 };
 
-use super::{FRICTION, LAW_SPEED, Outcome, RADIUS, SPEED, WORK, column, contact, figure, glass, method, spaced};
+use super::{LAW_SPEED, Outcome, RADIUS, SPEED, WORK, column, contact, figure, glass, method, spaced};
 use crate::content::{Cell, Part, Run, Table};
-use crate::plot::{self, Axis, Line, Map, Mark, Shade};
+use crate::plot::{self, Axis, Flat, Line, Map, Mark, Shade};
 
 /// Radii that are compared, m.
 const RADII: [f64; 3] = [2.5e-6, RADIUS, 6.5e-6];
@@ -32,7 +30,6 @@ struct Pair {
     reach: f64,
     /// Critical speed by the simulation, m/s.
     critical: Option<f64>,
-    simulation: RingScene<f64>,
     fit: RestitutionFit<f64>,
     rigid: Rigid,
     /// Speed; restitution by simulation and rigid body; works of adhesion and of the materials by both, over the energy.
@@ -58,7 +55,6 @@ pub(super) fn parts(run: &Run) -> Outcome<Vec<Part>> {
         works(pair)?,
     ];
     parts.extend(sizes(run)?);
-    parts.extend(classes(pair, run)?);
     Ok(parts)
 }
 
@@ -101,7 +97,7 @@ impl Pair {
             ])
         };
         let rows = impacts.iter().map(row).collect::<Result<Vec<_>, InputError>>()?;
-        Ok(Self { radius, reach, critical, simulation, fit, rigid, rows })
+        Ok(Self { radius, reach, critical, fit, rigid, rows })
     }
 }
 
@@ -164,9 +160,10 @@ fn restitution(pair: &Pair, wide: &Pair) -> Outcome<Part> {
         Line::new("rigid body, Table 1", Mark::Solid, table.clone()),
         Line::new("paper, Table 1", Mark::Points, vec![(SPEED, 0.746)]),
     ];
-    let x = Axis::logarithmic("approach speed, m/s");
+    let x = Axis::logarithmic("approach speed", "v", "m/s");
     Ok(figure(
-        plot::chart("Restitution by both models", &x, &Axis::linear("restitution e").between(0.0, 1.0), &lines)?,
+        "Restitution by both models",
+        plot::chart(&x, &Axis::linear("restitution", "e", "1").between(0.0, 1.0), &lines)?,
         "models-restitution",
         "Restitution of the sphere of Table 1. With k = 130 m/s and W_A = 2.22e-12 J, chosen by fast rebounds and by the \
          impact of Table 1, the rigid-body model agrees with the simulation in that impact and rebounds faster from there to 50 m/s. No k and \
@@ -194,9 +191,10 @@ fn works(pair: &Pair) -> Outcome<Part> {
         Line::new("materials, simulation", Mark::Solid, column(&pair.rows, 5)),
         Line::new("materials, rigid body", Mark::Dashed, column(&pair.rows, 6)),
     ];
-    let x = Axis::logarithmic("approach speed, m/s");
+    let x = Axis::logarithmic("approach speed", "v", "m/s");
     Ok(figure(
-        plot::chart("Where the energy goes", &x, &Axis::linear("fraction of the energy").between(0.0, 1.0), &lines)?,
+        "Where the energy goes",
+        plot::chart(&x, &Axis::linear("fraction of the energy", "T/T_i", "1").between(0.0, 1.0), &lines)?,
         "models-works",
         "Energy of the sphere of Table 1 lost to adhesion and in the materials. The models agree in e but not here: \
          adhesion draws the sphere deeper, which the simulation counts as a loss of the materials and the rigid-body model \
@@ -239,7 +237,12 @@ fn sizes(run: &Run) -> Outcome<[Part; 2]> {
     let rows = lines[0].points.iter().zip(&lines[1].points).zip(outliers);
     let rows: Vec<_> = rows.map(|((simulated, rigid), count)| [simulated.0, simulated.1, rigid.1, count.1]).collect();
     let border = figure(
-        plot::log_log("Critical speed against diameter", "diameter, µm", "critical speed, m/s", &lines)?,
+        "Critical speed against diameter",
+        plot::chart(
+            &Axis::logarithmic("diameter", "2 r", "µm"),
+            &Axis::logarithmic("critical speed", "V_s", "m/s"),
+            &lines,
+        )?,
         "models-critical-speed",
         "Speed below which the surface captures, with the paper's constants, and by A34 with the k and W_A that fit the \
          slow rebounds of each sphere. Point: the paper's 5 m/s for 5 µm.",
@@ -249,74 +252,31 @@ fn sizes(run: &Run) -> Outcome<[Part; 2]> {
 
     let speeds: Vec<_> = spaced(SPEEDS[0], SPEEDS[1], points).collect();
     let shade = |row: &[f64; 7]| match (row[1], row[2]) {
-        (0.0, 0.0) => Shade::NotApplicable,
+        (0.0, 0.0) => Shade::Flat(Flat::Captured),
         (simulated, rigid) => Shade::Value((simulated - rigid).abs()),
     };
     let row = |pair: &Option<Pair>| match pair {
         Some(pair) => pair.rows.iter().map(shade).collect(),
-        None => vec![Shade::Failed; speeds.len()],
+        None => vec![Shade::Flat(Flat::Failed); speeds.len()],
     };
     let cells: Vec<Vec<_>> = pairs.iter().map(row).collect();
-    let scale = Axis::linear("difference of e").between(0.0, 0.5);
+    let scale = Axis::linear("difference", "|Δe|", "1").between(0.0, 0.5);
     let reach = pairs.iter().zip(&diameters).filter_map(|(pair, diameter)| Some((pair.as_ref()?.reach, *diameter)));
     let map = figure(
+        "Where the models agree",
         plot::map(
-            "Where the models agree",
-            &Axis::logarithmic("approach speed, m/s"),
-            &Axis::logarithmic("diameter, µm"),
+            &Axis::logarithmic("approach speed", "v", "m/s"),
+            &Axis::logarithmic("diameter", "2 r", "µm"),
             &Map { columns: &speeds, rows: &diameters, cells: &cells, scale },
             &[Line::new("end of the fit", Mark::Dashed, reach.filter(|at| at.0 <= SPEEDS[1]).collect())],
         )?,
         "models-difference",
         "Difference of e between the simulation and the rigid-body model, fitted for each sphere to rebounds up to eight times \
-         the critical speed; 0.5 and more in one colour. Not applicable: captured in both.",
+         the critical speed; 0.5 and more in one colour. Captured: in both.",
         ["diameter, um", "approach speed, m/s", "e, simulation", "e, rigid body"],
         diameters.iter().zip(&pairs).flat_map(|(diameter, pair)| {
             pair.iter().flat_map(|pair| pair.rows.iter().map(|row| [*diameter, row[0], row[1], row[2]]))
         }),
     );
     Ok([border, map])
-}
-
-/// Classes over approach speed and tangential velocity.
-fn classes(pair: &Pair, run: &Run) -> Outcome<[Part; 2]> {
-    let count = if run.quick { 32 } else { 128 };
-    let (simulation, rigid) = (pair.simulation.with_friction(FRICTION)?, pair.rigid.with_friction(FRICTION)?);
-    let method = method()?;
-    let bar = run.progress(count as usize, "classes by both models");
-    let mut counts = BTreeMap::<_, u64>::new();
-    let mut apart = BTreeMap::<_, Vec<_>>::new();
-    for speed in spaced(SPEEDS[0], SPEEDS[1], count) {
-        for tangential in spaced(0.01, 100.0, count) {
-            let motion = NormalMotion::new(speed)?.with_tangential(tangential)?;
-            let class = simulation.solve(&motion, &method)?.class();
-            let simulated = class.map_or_else(|| "not solved".to_owned(), |class| class.to_string());
-            let ours = rigid.classify(&motion).class().to_string();
-            if simulated != ours {
-                apart.entry(format!("{simulated}, {ours}")).or_default().push((speed, tangential));
-            }
-            *counts.entry((simulated, ours)).or_default() += 1;
-        }
-        bar.inc(1);
-    }
-    let table = Part::Table(Table {
-        name: "models-classes".to_owned(),
-        caption: format!("Classes of {count} x {count} impacts of the sphere of Table 1 with f = 0.1."),
-        columns: ["simulation", "rigid body", "impacts"].map(str::to_owned).into(),
-        rows: counts.into_iter().map(|((a, b), n)| vec![Cell::Text(a), Cell::Text(b), Cell::Count(n)]).collect(),
-    });
-    let rows: Vec<_> = apart.values().flatten().map(|at| [at.0, at.1]).collect();
-    let lines: Vec<_> = apart.into_iter().map(|(name, points)| Line::new(&name, Mark::Points, points)).collect();
-    let x = Axis::logarithmic("approach speed, m/s").between(SPEEDS[0], SPEEDS[1]);
-    let y = Axis::logarithmic("tangential velocity, m/s").between(0.01, 100.0);
-    let figure = figure(
-        plot::chart("Impacts whose class differs", &x, &y, &lines)?,
-        "models-classes-apart",
-        "Impacts whose class differs, by simulation and by rigid body: between the two critical speeds, and beside the \
-         border of sliding. Friction is proportional to the elastic force alone in the simulation, and to the whole \
-         normal impulse in the rigid-body model.",
-        ["approach speed, m/s", "tangential velocity, m/s"],
-        rows,
-    );
-    Ok([table, figure])
 }

@@ -34,7 +34,7 @@ fn angles() -> impl Iterator<Item = f64> {
 }
 
 fn angle_axis() -> Axis {
-    Axis::linear("angle of incidence, degrees").between(0.0, 92.0)
+    Axis::linear("angle of incidence", "α", "°").between(0.0, 92.0)
 }
 
 fn figure_2() -> Outcome<Part> {
@@ -52,9 +52,10 @@ fn figure_2() -> Outcome<Part> {
         Line::new("IV: R = 1, with spin", Mark::Dashed, column(&rows, 4)),
         Line::new("points A and B of the paper", Mark::Points, vec![(90.0, 0.0), (90.0, 0.043)]),
     ];
-    let y = Axis::linear("impulse ratio µ₀").between(-0.05, 0.8);
+    let y = Axis::linear("impulse ratio", "µ₀", "1").between(-0.05, 0.8);
     Ok(figure(
-        plot::chart("Figure 2: impulse ratio that ends sliding", &angle_axis(), &y, &lines)?,
+        "Figure 2: impulse ratio that ends sliding",
+        plot::chart(&angle_axis(), &y, &lines)?,
         "figure-2",
         "Figure 2: spheres that leave rolling have an impulse ratio between the curves of R = 0 and R = 1. The paper draws \
          it without scales or values; ours has the sphere, speed (2.8 m/s) and spin of Table 1. Its text places point A, \
@@ -77,9 +78,10 @@ fn figure_4() -> Outcome<Part> {
         Line::new("r ω = -1.51 m/s", Mark::Solid, column(&rows, 3)),
         Line::new("the paper's range at 90°", Mark::Points, vec![(90.0, 0.12), (90.0, -0.12)]),
     ];
-    let y = Axis::linear("impulse ratio µ").between(-0.4, 0.8);
+    let y = Axis::linear("impulse ratio", "µ", "1").between(-0.4, 0.8);
     Ok(figure(
-        plot::chart("Figure 4: bounds of the impulse ratio", &angle_axis(), &y, &lines)?,
+        "Figure 4: bounds of the impulse ratio",
+        plot::chart(&angle_axis(), &y, &lines)?,
         "figure-4",
         "Figure 4: bounds of constant spin for stainless-steel spheres with e = 0.601, drawn for a total speed of 2.3 m/s, \
          the paper's mean at normal incidence. Points: the range that its text gives there, 0.12 to both sides; its \
@@ -102,10 +104,11 @@ fn figure_a2() -> Outcome<Part> {
         Line::new("R²", Mark::Dashed, column(&rows, 2)),
         Line::new("lost to adhesion", Mark::Dashed, column(&rows, 3)),
     ];
-    let x = Axis::logarithmic("approach speed, m/s");
-    let y = Axis::linear("fraction of the energy").between(0.0, 1.05);
+    let x = Axis::logarithmic("approach speed", "v", "m/s");
+    let y = Axis::linear("fraction of the energy", "T/T_i", "1").between(0.0, 1.05);
     Ok(figure(
-        plot::chart("Figure A2: energy restitution", &x, &y, &lines)?,
+        "Figure A2: energy restitution",
+        plot::chart(&x, &y, &lines)?,
         "figure-a2",
         "Figure A2: e² = R² - B (A34). The paper draws it without scales or values; ours has R = k/(k + v), k = 130 m/s, and \
          W_A = 2.22e-12 J on the sphere of Table 1. A captured sphere loses to adhesion all the energy that remains after the loss in the materials.",

@@ -72,8 +72,8 @@ fn step(at: State, length: f64, rates: impl Fn(State) -> State) -> State {
     std::array::from_fn(|i| at[i] + length / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]))
 }
 
-/// e^2 and the number of steps, with so many of them while the motion changes; `None` where it takes too many.
-pub(super) fn restitution_squared(impact: &Impact, fineness: f64) -> Option<(f64, u32)> {
+/// e^2, with so many steps while the motion changes; `None` where it takes too many.
+fn restitution_squared(impact: &Impact, fineness: f64) -> Option<f64> {
     let equations = Equations::of(impact);
     let mut state = [0.0, 1.0];
     let mut steps = 0;
@@ -84,7 +84,7 @@ pub(super) fn restitution_squared(impact: &Impact, fineness: f64) -> Option<(f64
                 return None;
             }
             if event == 0 && equations.energy(state) < 0.0 {
-                return Some((0.0, steps));
+                return Some(0.0);
             }
             let length = (fineness * equations.haste(state)).recip();
             let next = step(state, length, |at| equations.rates(at));
@@ -103,7 +103,7 @@ pub(super) fn restitution_squared(impact: &Impact, fineness: f64) -> Option<(f64
             state = next;
         }
     }
-    Some((state[1] * state[1], steps))
+    Some(state[1] * state[1])
 }
 
 /// Error up to which a solution counts as known.
@@ -111,8 +111,8 @@ const KNOWN: f64 = 1e-12;
 
 /// e^2, where two numbers of steps agree on it.
 pub(super) fn confirmed(impact: &Impact) -> Option<f64> {
-    let coarse = restitution_squared(impact, 700.0)?.0;
-    let fine = restitution_squared(impact, 1400.0)?.0;
+    let coarse = restitution_squared(impact, 700.0)?;
+    let fine = restitution_squared(impact, 1400.0)?;
     ((coarse - fine).abs() < KNOWN).then_some(fine)
 }
 
@@ -155,7 +155,7 @@ mod tests {
             assert!((without_adhesion(damping) - e).abs() < 1e-9, "{damping}");
             let unit = Impact { strength: 0.0, zeta_a: 0.0, ..Impact::PAPER };
             let zeta_h = damping / (unit.damping_unit() * unit.speed);
-            let (square, _) = restitution_squared(&Impact { zeta_h, ..unit }, 300.0).unwrap();
+            let square = restitution_squared(&Impact { zeta_h, ..unit }, 300.0).unwrap();
             assert!((square.sqrt() - e).abs() < 2e-9, "{damping}: {}", square.sqrt());
         }
     }

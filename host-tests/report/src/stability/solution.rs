@@ -7,8 +7,10 @@ use reference::grids::Impact;
 /// How a run ended, in double precision.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
-    /// `None` where the run spent its budget.
+    /// `None` where the run spent its budget, or does not decide.
     pub(super) solution: Option<Solution>,
+    /// Whether it does not decide.
+    pub(super) undecided: bool,
     /// Intervals or steps, refused ones included.
     pub(super) steps: u32,
     /// Energy balance error over the energy before; of a capture along the normal alone, over the largest kinetic energy of
@@ -78,6 +80,7 @@ pub(super) fn in_fixed_point(impact: &Impact) -> Result<(Found, Found), InputErr
             square,
             peak: None,
         }),
+        undecided,
         steps: 2,
         residual: None,
     };
@@ -89,7 +92,9 @@ fn solve<T: Real + Into<f64>>(impact: &Impact, method: &impl Method<T>) -> Resul
     let (simulated, (works, ledger)) = scene.solve_for(&impact.motion()?, method, (Works, Energy))?;
     let (run, normal) = (&simulated.run, &simulated.normal);
     let square: f64 = normal.overall_restitution().into();
-    let solution = normal.outcome().filter(|_| run.status == Status::Solved).map(|outcome| Solution {
+    let outcome = normal.outcome().filter(|_| run.status == Status::Solved);
+    let undecided = outcome == Some(Outcome::Undecided);
+    let solution = outcome.filter(|_| !undecided).map(|outcome| Solution {
         rebounds: outcome == Outcome::Rebound,
         square: square * square,
         peak: normal.peak_indentation().map(Into::into),
@@ -110,5 +115,5 @@ fn solve<T: Real + Into<f64>>(impact: &Impact, method: &impl Method<T>) -> Resul
     // Energies in joules of particles so small that single precision cannot hold them say nothing.
     let smallest = T::constant(f64::from(f32::MIN_POSITIVE) / f64::from(f32::EPSILON)).into();
     let residual = residual.filter(|(scale, _)| *scale > smallest).map(|(_, residual)| residual.abs());
-    Ok(Found { solution, steps: run.steps + run.refused, residual })
+    Ok(Found { solution, undecided, steps: run.steps + run.refused, residual })
 }

@@ -15,9 +15,6 @@ pub(super) fn parts(run: &Run) -> Vec<Part> {
         tallies
     });
     vec![
-        Part::Heading("Random scenes".to_owned()),
-        Part::Text(scenes_and_methods()),
-        Part::Text(COLUMNS.to_owned()),
         Part::Table(all_counts(&solvers, &tallies, scenes)),
         Part::Table(by_kind(
             &solvers,
@@ -33,6 +30,8 @@ pub(super) fn parts(run: &Run) -> Vec<Part> {
             "Outputs beyond the tolerance, in percent",
             &[Count::Beyond],
         )),
+        Part::Text(scenes_and_methods()),
+        Part::Text(COLUMNS.to_owned()),
     ]
 }
 

@@ -24,7 +24,17 @@ impl Method {
             Self::Double => "f64",
             Self::Single => "f32",
             Self::Fixed => "fixed point",
-            Self::Paper => "the paper's method",
+            Self::Paper => "the paper's method, f64",
+        }
+    }
+
+    /// What solves the scenes.
+    pub(super) const fn text(self) -> &'static str {
+        match self {
+            Self::Double => "Adaptive, 1e-11",
+            Self::Single => "Collocation<8>, 1e-6",
+            Self::Fixed => "FixedCost<4>, 2 iterations",
+            Self::Paper => "Runge-Kutta-Gill, 1000 steps",
         }
     }
 
@@ -62,6 +72,9 @@ impl Method {
     }
 }
 
+/// Errors up to this one are rounding.
+pub(super) const ROUNDING: f64 = 1e-16;
+
 /// Intervals after which a run gives up.
 pub(super) const MOST_INTERVALS: u32 = Collocation::<14, f64>::MOST_INTERVALS;
 
@@ -88,8 +101,10 @@ pub(super) enum Assessment {
     /// A capture for a rebound or the reverse, by more than the bound.
     WrongOutcome,
     NoSolution,
-    /// No solution in fixed point and none in double precision: damped too strongly for a method of fixed cost, or too close
-    /// to the critical speed to decide.
+    /// Closer to the boundary between capture and rebound than the error.
+    Undecided,
+    /// No solution in fixed point and none in double precision, because the impact is damped too strongly for a method of fixed
+    /// cost; or no bound.
     Declined,
     TooManySteps,
 }
@@ -104,13 +119,19 @@ impl Assessment {
             Self::UnbalancedEnergy => "energy balance error beyond the bound",
             Self::WrongOutcome => "wrong outcome",
             Self::NoSolution => "did not converge",
+            Self::Undecided => "undecided",
             Self::Declined => "outside the range of the method",
             Self::TooManySteps => "too many steps",
         }
     }
 
+    /// Whether the method takes the scene.
+    pub(super) const fn applies(self) -> bool {
+        !matches!(self, Self::Refused | Self::Declined)
+    }
+
     pub(super) const fn fails(self) -> bool {
-        !matches!(self, Self::Refused | Self::Declined | Self::Within)
+        !matches!(self, Self::Refused | Self::Declined | Self::Undecided | Self::Within)
     }
 }
 
@@ -119,6 +140,8 @@ impl Assessment {
 pub(super) struct Point {
     /// e; `None` where an input is refused.
     pub(super) restitution: Option<f64>,
+    /// The stronger of both damping groups, h of the materials and g of adhesion.
+    pub(super) damping: Option<f64>,
     /// In the order of [`Method::ALL`].
     pub(super) trials: [Trial; 4],
     /// Difference of e^2 from an independent solution, where there is one.
@@ -126,7 +149,7 @@ pub(super) struct Point {
 }
 
 impl Point {
-    const REFUSED: Self = Self { restitution: None, trials: [Trial::REFUSED; 4], unlike: None };
+    const REFUSED: Self = Self { restitution: None, damping: None, trials: [Trial::REFUSED; 4], unlike: None };
 
     pub(super) fn at(impact: Option<Impact>) -> Self {
         let Some((impact, exact)) = impact.and_then(|impact| Some((impact, exactly(&impact).ok()?))) else {
@@ -140,7 +163,7 @@ impl Point {
             Trial::of(Method::Paper, by_the_paper(&impact).ok(), Some(exact)),
         ];
         let unlike = exact.solution.and_then(|exact| Some((independent::confirmed(&impact)? - exact.square).abs()));
-        Self { restitution: exact.solution.map(|exact| exact.square.sqrt()), trials, unlike }
+        Self { restitution: exact.solution.map(|exact| exact.square.sqrt()), damping: impact.damping(), trials, unlike }
     }
 
     pub(super) fn trial(&self, method: Method) -> &Trial {
@@ -161,6 +184,9 @@ impl Trial {
             steps: Some(found.steps),
             residual: found.residual,
         };
+        if found.undecided || exact.is_some_and(|exact| exact.undecided) {
+            return Self { assessment: Assessment::Undecided, ..unsolved };
+        }
         let (Some(solution), Some(exact)) = (found.solution, exact.and_then(|exact| exact.solution)) else {
             return unsolved;
         };
@@ -180,31 +206,28 @@ impl Trial {
         Self { assessment, error: Some(error).filter(|error| !error.is_nan()), ..unsolved }
     }
 
-    /// The bound holds for what fixed point adds to the error in double precision, where e exceeds 0.2 and p is below 0.95;
-    /// the outcome is that of double precision wherever e exceeds 0.02.
+    /// The error is what fixed point adds to that of e in double precision by the same method. Its bound holds where e exceeds
+    /// 0.2 and p is below 0.95; the outcome is that of double precision wherever e exceeds 0.02.
     fn in_fixed_point(impact: &Impact) -> Self {
-        let (Ok((narrow, wide)), Ok(exact)) = (in_fixed_point(impact), exactly(impact)) else {
+        let Ok((narrow, wide)) = in_fixed_point(impact) else {
             return Self::REFUSED;
         };
-        let unsolved =
-            Self { assessment: Assessment::NoSolution, error: None, steps: Some(narrow.steps), residual: None };
+        let of = |assessment, error| Self { assessment, error, steps: Some(narrow.steps), residual: None };
         let (solution, wide) = match (narrow.solution, wide.solution) {
             (Some(narrow), Some(wide)) => (narrow, wide),
-            (None, None) => return Self { assessment: Assessment::Declined, ..unsolved },
-            _ => return unsolved,
+            _ if narrow.undecided => return of(Assessment::Undecided, None),
+            (None, None) => return of(Assessment::Declined, None),
+            _ => return of(Assessment::NoSolution, None),
         };
         let [e, of_wide] = [solution, wide].map(|solution| solution.square.sqrt());
-        let assessment = match () {
-            () if solution.rebounds != wide.rebounds && of_wide.max(e) > 0.02 => Assessment::WrongOutcome,
-            () if of_wide > 0.2
-                && impact.adhesion_strength().is_some_and(|p| p < 0.95)
-                && (e - of_wide).abs() > Method::Fixed.bound() =>
-            {
-                Assessment::InexactRestitution
-            }
-            () => Assessment::Within,
-        };
-        let error = exact.solution.map(|exact| solution.error_of_square(&exact));
-        Self { assessment, error, ..unsolved }
+        if solution.rebounds != wide.rebounds && of_wide.max(e) > 0.02 {
+            return of(Assessment::WrongOutcome, None);
+        }
+        if of_wide <= 0.2 || impact.adhesion_strength().is_none_or(|p| p >= 0.95) {
+            return of(Assessment::Declined, None);
+        }
+        let error = (e - of_wide).abs();
+        let exceeds = error > Method::Fixed.bound();
+        of(if exceeds { Assessment::InexactRestitution } else { Assessment::Within }, Some(error))
     }
 }
