@@ -11,7 +11,8 @@ use maud::{DOCTYPE, PreEscaped, html};
 
 /// Names of the browser.
 const PROGRAMS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
-const LIMIT: Duration = Duration::from_secs(60);
+/// For a busy machine.
+const LIMIT: Duration = Duration::from_secs(120);
 
 /// Width of a wide window and of a phone, px.
 const WIDTHS: [u32; 2] = [1280, 390];
