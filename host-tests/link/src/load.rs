@@ -198,7 +198,7 @@ fn fault(
             sent.duplicated += 1;
             let place = if kind == 2 { past.len() - 1 } else { random.random_range(0..past.len()) };
             let (number, reading) = past[place];
-            client.encode(&station::ToInstrument::Event { number, reading })
+            client.encode(&ToInstrument::Event { number, reading })
         }
         4 => {
             sent.oversized += 1;
