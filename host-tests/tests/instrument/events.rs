@@ -314,7 +314,7 @@ fn undecided_classes_are_counted_and_sent() {
         };
         let request = Request::Event { number: number as u32, reading: Stamped { ticks: u32::MAX, reading } };
         let frame = encoder.frame(&request).unwrap();
-        let received = frame.iter().find_map(|&byte| inlet.receive::<Stamped<UncertainReading<f64>>>(byte));
+        let received = frame.iter().find_map(|&byte| inlet.receive::<Stamped<UncertainReading<f64>>, f64>(byte));
         assert_eq!(received, Some(request));
         let Some(Request::Event { number, reading }) = received else { panic!("{received:?}") };
         let verdict = instrument.process(&reading).unwrap();
