@@ -105,10 +105,12 @@ fn written() -> String {
         let (smallest, largest) = parameter.range();
         writeln!(
             page,
-            "| {} | {} | {} | {smallest:e} to {largest:e} |",
+            "| {} | {} | {} | {} to {} |",
             number_of(&parameter),
             parameter.name(),
-            parameter.unit()
+            parameter.unit(),
+            number(smallest),
+            number(largest)
         )
         .unwrap();
     }
@@ -117,6 +119,11 @@ fn written() -> String {
         writeln!(page, "| {} | {text} |", number_of(&fault)).unwrap();
     }
     page
+}
+
+/// A number as people write it.
+fn number(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e4).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") }
 }
 
 /// Every fault in words.
