@@ -1,15 +1,21 @@
 //! Rows by the rigid-body model.
 
+use std::cell::OnceCell;
+
 use microimpact::rigid::{
-    AdhesionCoefficient, AnyAdhesion, AnyRestitution, ElasticPlasticRestitution, PowerRestitution, RollingDissipation,
-    SpeedAdhesion, SpeedRestitution, WorkOfAdhesion,
+    AdhesionCoefficient, AnyAdhesion, AnyRestitution, ElasticPlasticRestitution, EnergyLedger, PowerRestitution,
+    RollingDissipation, SpeedAdhesion, SpeedRestitution, WorkOfAdhesion,
 };
-use microimpact::{Class, ConstantRestitution, CriticalSpeed, InputError, Parameter, RigidBody, Sphere};
+use microimpact::space::SpatialMotion;
+use microimpact::{
+    Class, Classification, ConstantRestitution, ContactClass, CriticalSpeed, Impact, InputError, Parameter, RigidBody,
+    Sphere, TangentialImpact,
+};
 use rayon::prelude::*;
 
-use crate::impacts::{Record, gather};
+use crate::impacts::{Answer, departure, gather};
 use crate::motions::Arrival;
-use crate::{Column, Impacts, Motions, Quantity};
+use crate::{Column, Impacts, Motions, Quantity, RowStatus};
 
 /// Spheres and the physics of their impacts as rigid bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -115,7 +121,7 @@ impl RigidBodies<'_> {
         gather(count, quantities, |row| {
             let arrival = motions.arrival(self.sphere(row)?, row)?;
             arrival.check_about_one_axis(Parameter::RollingArm, self.rolling_arm.at(row))?;
-            Ok(record(&self.body(arrival.sphere, row)?, &arrival))
+            Ok(Answered::new(self.body(arrival.sphere, row)?, arrival))
         })
     }
 
@@ -126,27 +132,56 @@ impl RigidBodies<'_> {
     }
 }
 
-/// The result of a row.
-fn record(body: &Body, arrival: &Arrival) -> Record {
-    let impact = body.impact(&arrival.motion);
-    let (normal, tangential) = (&impact.normal, &impact.tangential);
-    let classification = body.classify_impact(&impact);
-    let motion = arrival.motion_after(classification.contact.motion);
-    let ledger = impact.energy(body.sphere());
-    let mut record = Record::of(Class::of(classification.outcome, motion));
-    record.put(Quantity::OverallRestitution, normal.overall_restitution());
-    record.put(Quantity::ReboundSpeed, normal.rebound_speed());
-    record.put(Quantity::SpeedTangentialOut, tangential.velocity());
-    record.put(Quantity::SpinOut, tangential.spin(body.sphere()));
-    record.put_some(Quantity::FrictionOverLimit, classification.contact.friction_over_limit);
-    record.put(Quantity::ImpulseRatioOut, tangential.impulse_ratio());
-    record.put(Quantity::RollingRatio, tangential.rolling_ratio());
-    record.put(Quantity::WorkMaterial, ledger.material);
-    record.put(Quantity::WorkAdhesion, ledger.adhesion);
-    record.put(Quantity::WorkFriction, ledger.friction);
-    record.put(Quantity::WorkRolling, ledger.rolling);
-    record.put(Quantity::EnergyBefore, ledger.before);
-    record.put(Quantity::EnergyAfter, ledger.after);
-    record.put_departure(arrival, &impact);
-    record
+/// The impact of a row. What follows from it is computed where it is asked for.
+struct Answered {
+    body: Body,
+    arrival: Arrival,
+    impact: Impact<f64, TangentialImpact<f64>>,
+    classification: Classification<f64, ContactClass<f64>>,
+    /// Empty until they are asked for.
+    ledger: OnceCell<EnergyLedger<f64>>,
+    departure: OnceCell<Vec<SpatialMotion<f64>>>,
+}
+
+impl Answered {
+    fn new(body: Body, arrival: Arrival) -> Self {
+        let impact = body.impact(&arrival.motion);
+        let classification = body.classify_impact(&impact);
+        Self { body, arrival, impact, classification, ledger: OnceCell::new(), departure: OnceCell::new() }
+    }
+
+    fn ledger(&self) -> &EnergyLedger<f64> {
+        self.ledger.get_or_init(|| self.impact.energy(self.body.sphere()))
+    }
+}
+
+impl Answer for Answered {
+    fn status(&self) -> RowStatus {
+        RowStatus::Solved
+    }
+
+    fn class(&self) -> Option<Class> {
+        let Classification { outcome, contact, .. } = &self.classification;
+        Some(Class::of(*outcome, self.arrival.motion_after(contact.motion)))
+    }
+
+    fn number(&self, quantity: Quantity) -> f64 {
+        let Impact { normal, tangential } = &self.impact;
+        match quantity {
+            Quantity::OverallRestitution => normal.overall_restitution(),
+            Quantity::ReboundSpeed => normal.rebound_speed(),
+            Quantity::SpeedTangentialOut => tangential.velocity(),
+            Quantity::SpinOut => tangential.spin(self.body.sphere()),
+            Quantity::FrictionOverLimit => self.classification.contact.friction_over_limit.unwrap_or(f64::NAN),
+            Quantity::ImpulseRatioOut => tangential.impulse_ratio(),
+            Quantity::RollingRatio => tangential.rolling_ratio(),
+            Quantity::WorkMaterial => self.ledger().material,
+            Quantity::WorkAdhesion => self.ledger().adhesion,
+            Quantity::WorkFriction => self.ledger().friction,
+            Quantity::WorkRolling => self.ledger().rolling,
+            Quantity::EnergyBefore => self.ledger().before,
+            Quantity::EnergyAfter => self.ledger().after,
+            other => departure(self.departure.get_or_init(|| self.arrival.after(&self.impact)), other),
+        }
+    }
 }
