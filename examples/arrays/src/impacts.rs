@@ -136,33 +136,48 @@ pub(crate) fn departure(bodies: &[SpatialMotion<f64>], quantity: Quantity) -> f6
 const ROWS: usize = 256;
 
 /// Some rows of the results.
-struct Part<'a> {
+pub(crate) struct Part<'a> {
     first: usize,
     status: &'a mut [RowStatus],
     class: &'a mut [Option<Class>],
     quantities: Vec<(Quantity, &'a mut [f64])>,
 }
 
-impl Part<'_> {
-    fn put(&mut self, place: usize, answer: Result<impl Answer, InputError>) {
-        match answer {
-            Ok(answer) => {
-                self.status[place] = answer.status();
-                self.class[place] = answer.class();
-                for (quantity, numbers) in &mut self.quantities {
-                    numbers[place] = answer.number(*quantity);
-                }
-            }
-            Err(error) => self.status[place] = RowStatus::Refused(error),
+/// Where the result of a row belongs.
+pub(crate) struct Slot<'p, 'a> {
+    part: &'p mut Part<'a>,
+    place: usize,
+}
+
+impl Slot<'_, '_> {
+    /// Takes from a result what was asked for.
+    pub(crate) fn put(self, answer: &impl Answer) {
+        let Self { part, place } = self;
+        part.status[place] = answer.status();
+        part.class[place] = answer.class();
+        for (quantity, numbers) in &mut part.quantities {
+            numbers[place] = answer.number(*quantity);
         }
     }
 }
 
-/// Computes rows on all threads, each of which writes its rows where they belong.
+/// Computes rows on all threads.
 pub(crate) fn gather<A: Answer>(
     count: usize,
     quantities: &[Quantity],
     row: impl Fn(usize) -> Result<A, InputError> + Sync,
+) -> Impacts {
+    fill(count, quantities, |index, slot| {
+        slot.put(&row(index)?);
+        Ok(())
+    })
+}
+
+/// Fills rows on all threads, each of which writes its rows where they belong; `row` puts the result of a row into its slot.
+pub(crate) fn fill(
+    count: usize,
+    quantities: &[Quantity],
+    row: impl Fn(usize, Slot<'_, '_>) -> Result<(), InputError> + Sync,
 ) -> Impacts {
     let mut impacts = Impacts {
         status: vec![RowStatus::NotConverged; count],
@@ -180,7 +195,10 @@ pub(crate) fn gather<A: Answer>(
         .collect();
     parts.into_par_iter().for_each(|mut part| {
         for place in 0..part.status.len() {
-            part.put(place, row(part.first + place));
+            let index = part.first + place;
+            if let Err(error) = row(index, Slot { part: &mut part, place }) {
+                part.status[place] = RowStatus::Refused(error);
+            }
         }
     });
     impacts

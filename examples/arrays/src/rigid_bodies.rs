@@ -4,16 +4,16 @@ use std::cell::OnceCell;
 
 use microimpact::rigid::{
     AdhesionCoefficient, AnyAdhesion, AnyRestitution, ElasticPlasticRestitution, EnergyLedger, PowerRestitution,
-    RollingDissipation, SpeedAdhesion, SpeedRestitution, WorkOfAdhesion,
+    RollingDissipation, SpeedAdhesion, SpeedRestitution, TangentialOutcome, WorkOfAdhesion,
 };
 use microimpact::space::SpatialMotion;
 use microimpact::{
-    Class, Classification, ConstantRestitution, ContactClass, CriticalSpeed, Impact, InputError, Parameter, RigidBody,
-    Sphere, TangentialImpact,
+    Class, ConstantRestitution, ContactClass, CriticalSpeed, Impact, InputError, Outcome, Parameter, RigidBody, Sphere,
+    TangentialImpact,
 };
 use rayon::prelude::*;
 
-use crate::impacts::{Answer, departure, gather};
+use crate::impacts::{Answer, departure, fill};
 use crate::motions::Arrival;
 use crate::{Column, Impacts, Motions, Quantity, RowStatus};
 
@@ -118,10 +118,14 @@ impl RigidBodies<'_> {
 
     /// Classifies the impacts of `count` rows on all threads. The result of a row is that of a single call.
     pub fn classify(&self, motions: &Motions<'_>, count: usize, quantities: &[Quantity]) -> Impacts {
-        gather(count, quantities, |row| {
-            let arrival = motions.arrival(self.sphere(row)?, row)?;
+        fill(count, quantities, |row, slot| {
+            // By reference, because both are large.
+            let arrival = motions.arrival(self.sphere(row)?, row);
+            let arrival = arrival.as_ref().map_err(|error| *error)?;
             arrival.check_about_one_axis(Parameter::RollingArm, self.rolling_arm.at(row))?;
-            Ok(Answered::new(self.body(arrival.sphere, row)?, arrival))
+            let body = self.body(arrival.sphere, row);
+            slot.put(&Answered::new(body.as_ref().map_err(|error| *error)?, arrival));
+            Ok(())
         })
     }
 
@@ -133,21 +137,24 @@ impl RigidBodies<'_> {
 }
 
 /// The impact of a row. What follows from it is computed where it is asked for.
-struct Answered {
-    body: Body,
-    arrival: Arrival,
+struct Answered<'a> {
+    body: &'a Body,
+    arrival: &'a Arrival,
     impact: Impact<f64, TangentialImpact<f64>>,
-    classification: Classification<f64, ContactClass<f64>>,
+    outcome: Outcome,
+    contact: ContactClass<f64>,
     /// Empty until they are asked for.
     ledger: OnceCell<EnergyLedger<f64>>,
     departure: OnceCell<Vec<SpatialMotion<f64>>>,
 }
 
-impl Answered {
-    fn new(body: Body, arrival: Arrival) -> Self {
+impl<'a> Answered<'a> {
+    fn new(body: &'a Body, arrival: &'a Arrival) -> Self {
         let impact = body.impact(&arrival.motion);
-        let classification = body.classify_impact(&impact);
-        Self { body, arrival, impact, classification, ledger: OnceCell::new(), departure: OnceCell::new() }
+        // Its margin is no quantity, so that no critical speed is computed.
+        let outcome = if impact.normal.is_capture() { Outcome::Capture } else { Outcome::Rebound };
+        let contact = impact.tangential.classify(outcome);
+        Self { body, arrival, impact, outcome, contact, ledger: OnceCell::new(), departure: OnceCell::new() }
     }
 
     fn ledger(&self) -> &EnergyLedger<f64> {
@@ -155,14 +162,13 @@ impl Answered {
     }
 }
 
-impl Answer for Answered {
+impl Answer for Answered<'_> {
     fn status(&self) -> RowStatus {
         RowStatus::Solved
     }
 
     fn class(&self) -> Option<Class> {
-        let Classification { outcome, contact, .. } = &self.classification;
-        Some(Class::of(*outcome, self.arrival.motion_after(contact.motion)))
+        Some(Class::of(self.outcome, self.arrival.motion_after(self.contact.motion)))
     }
 
     fn number(&self, quantity: Quantity) -> f64 {
@@ -172,7 +178,7 @@ impl Answer for Answered {
             Quantity::ReboundSpeed => normal.rebound_speed(),
             Quantity::SpeedTangentialOut => tangential.velocity(),
             Quantity::SpinOut => tangential.spin(self.body.sphere()),
-            Quantity::FrictionOverLimit => self.classification.contact.friction_over_limit.unwrap_or(f64::NAN),
+            Quantity::FrictionOverLimit => self.contact.friction_over_limit.unwrap_or(f64::NAN),
             Quantity::ImpulseRatioOut => tangential.impulse_ratio(),
             Quantity::RollingRatio => tangential.rolling_ratio(),
             Quantity::WorkMaterial => self.ledger().material,
