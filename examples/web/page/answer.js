@@ -149,7 +149,7 @@ function showCurve({ columns, row, critical, curve }) {
     const speeds = curve.map((row) => Number(row.speed_normal_m_s));
     const e = Number(row.overall_restitution);
     const at = critical === undefined ? "there is no critical speed" : `the critical speed is ${inUnits(critical, "m/s")}`;
-    chart(document.getElementById("restitution"), {
+    chart(document.getElementById("restitution-curve"), {
         x: { label: "approach speed, m/s", range: [speeds[0], speeds.at(-1)], logarithmic: true },
         y: { label: "restitution e", range: [0, Math.min(Math.ceil(largest * 1.1 * 5) / 5, 1)] },
         lines: [{ points }],

@@ -71,7 +71,7 @@ const COMPONENTS = { arrival: ["components"] }, PATH = { arrival: ["path"] };
 const MOTION = [
     {
         aside: true, key: "arrival", label: "Given by", start: "components", choices: {
-            components: "approach speed and tangential velocity",
+            components: "normal and tangential velocity",
             path: "speed and angle of incidence",
         },
     },

@@ -9,6 +9,10 @@ function withoutMark(text) {
     return `${whole}${part}e${Number(power) - part.length}`;
 }
 
+// Columns with their values, in words.
+const listed = (columns) =>
+    columns.map(([column, value]) => `${column} ${Number.isNaN(Number(value)) ? value : written(Number(value))}`).join(", ");
+
 // Whether a heading ends with brackets, which may state a unit.
 const hasBrackets = (heading) => /[\])]$/.test(heading.trim());
 
@@ -142,6 +146,6 @@ class Mapping {
         this.form.querySelector("button").disabled = problem !== "";
         this.form.querySelector("#lacks").hidden = columns.length === 0;
         if (!this.isAsked) this.take.checked = isNeeded;
-        this.form.querySelector("#taken").textContent = columns.map(([column, value]) => `${column} ${value}`).join(", ");
+        this.form.querySelector("#taken").textContent = listed(columns);
     }
 }

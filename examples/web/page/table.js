@@ -88,7 +88,7 @@ class TableOfImpacts {
         const body = first.map((row) => element("tr", {}, ...shown.map((at) => element("td", {}, row[at]))));
         const caption = element("caption", {}, first.length < rows ? `The first ${first.length} of ${rows} rows` : `${rows} rows`);
         const notes = [];
-        if (taken.length > 0) notes.push(`Taken from the sliders for all rows: ${taken.map(([column, value]) => `${column} ${value}`).join(", ")}.`);
+        if (taken.length > 0) notes.push(`Taken from the sliders for all rows: ${listed(taken)}.`);
         const assumed = words.match(/columns absent, and what is used: (.*)/)?.[1];
         if (assumed) notes.push(`The table has no column for these; used in all rows: ${assumed}.`);
         const empty = words.match(/empty cells, and what is used: (.*)/)?.[1];

@@ -65,6 +65,15 @@ pub fn first_answer(browser: &mut Browser) -> Result<(), String> {
     let class = format!("{}, {}", first_row(&classified, "outcome")?, first_row(&classified, "motion")?);
     let shown = browser.text("document.getElementById('class').textContent")?;
     same("the class", &shown.to_lowercase(), &class)?;
+    let charts = browser.value("document.querySelectorAll('#results figure > svg').length")?;
+    if charts != json!(3) {
+        return Err(format!("the page has {charts} charts and not 3"));
+    }
+    let ids = "[...document.querySelectorAll('[id]')].map((part) => part.id)";
+    let twice = browser.value(&format!("{ids}.filter((id, at, all) => all.indexOf(id) !== at)"))?;
+    if twice != json!([]) {
+        return Err(format!("parts of the page share the names {twice}"));
+    }
     for (row, column, unit) in
         [("Largest indentation δ", "max_indentation_m", "m"), ("Contact time t", "contact_time_s", "s")]
     {
@@ -209,9 +218,12 @@ pub fn rigid_body(browser: &mut Browser) -> Result<(), String> {
         if !margin.contains(&stated) {
             return Err(format!("the page says \"{margin}\" where it must say \"{stated}\""));
         }
+        let curve = browser.value("document.querySelectorAll('#restitution-curve > svg polyline').length")?;
         let page = browser.text("document.querySelector('main').innerHTML")?;
-        if ["NaN", "Infinity", "undefined"].iter().any(|word| page.contains(word)) {
-            return Err(format!("rigid body, restitution {restitution}, adhesion {adhesion}: a number is none"));
+        if curve != json!(1) || ["NaN", "Infinity", "undefined"].iter().any(|word| page.contains(word)) {
+            return Err(format!(
+                "rigid body, restitution {restitution}, adhesion {adhesion}: the curve is missing, or a number is none"
+            ));
         }
     }
     reset(browser)
