@@ -173,7 +173,15 @@ fn run(options: &Options, streams: &mut Streams<'_>) -> Result<(), Box<dyn Error
             return Ok(());
         }
     };
-    let parts = options.table(law)?;
+    let parts = options.table(law).map_err(|error| -> Box<dyn Error> {
+        if error.value == f32::INFINITY {
+            "spheres of some radii of the table are captured at every speed up to 1e6 m/s; choose a larger --smallest-radius, or less \
+             adhesion or damping"
+                .into()
+        } else {
+            error.into()
+        }
+    })?;
     let subject = format!("{}; greatest relative error {:.1e}", options.materials(), parts.relative_margin);
     match written {
         Written::Rust => rust(to, &parts, &subject),
