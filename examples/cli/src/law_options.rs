@@ -7,7 +7,8 @@ use sheet::{Decimal, Sheet};
 use crate::contact_law::{DampingName, EndRule, LAW_INPUTS, LawName, RowLaw};
 use crate::words::name_of;
 
-/// Options of the law of contact; those that are left out are the paper's.
+/// Options of the law of contact; those that are left out are the paper's. The help names most of them in two lines, and the manual has
+/// all.
 #[derive(Args)]
 pub struct LawOptions {
     /// Hertz stiffness K, Pa
@@ -17,30 +18,35 @@ pub struct LawOptions {
     #[arg(long, value_enum, default_value_t = LawName::Ring)]
     law: LawName,
     /// Ring: strength f0 of adhesion, N/m [default: 250]
-    #[arg(long)]
+    #[arg(long, hide_short_help = true)]
     adhesion: Option<f64>,
     /// Ring: damping zeta_A of adhesion [default: 6.25]
-    #[arg(long)]
+    #[arg(long, hide_short_help = true)]
     zeta_a: Option<f64>,
     /// Dmt and jkr: work of adhesion per area, J/m^2
-    #[arg(long, value_name = "WORK")]
+    #[arg(long, value_name = "WORK", hide_short_help = true)]
     work_of_adhesion: Option<f64>,
     /// Hysteretic damping zeta_H in the materials [default: 10.5 without --damping]
     #[arg(long, conflicts_with = "damping")]
     zeta_h: Option<f64>,
     /// Damping in the materials, instead of --zeta-h
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, hide_short_help = true)]
     damping: Option<DampingName>,
     /// Its value: zeta_H, relaxation time in s, or restitution without adhesion
-    #[arg(long, value_name = "VALUE", requires = "damping")]
+    #[arg(long, value_name = "VALUE", requires = "damping", hide_short_help = true)]
     damping_value: Option<f64>,
     /// Where contact ends
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, hide_short_help = true)]
     end_rule: Option<EndRule>,
     /// Constant force, N, positive out of the surface
-    #[arg(long, value_name = "FORCE")]
+    #[arg(long, value_name = "FORCE", hide_short_help = true)]
     external_force: Option<f64>,
 }
+
+/// The options that a short help does not list, for the end of the help.
+pub const FURTHER: &str = "\
+Also of the law: --adhesion, --zeta-a (ring); --work-of-adhesion (dmt, jkr); --damping and --damping-value; --end-rule; \
+--external-force. `cargo microimpact man table` explains them.";
 
 /// The paper's strength of adhesion in N/m, its damping, half of the printed value as in the paper's program, and the damping of the
 /// materials.

@@ -15,7 +15,7 @@ use sheet::Value;
 
 use crate::Streams;
 use crate::command::{Format, exit_status, say, write_records};
-use crate::law_options::LawOptions;
+use crate::law_options::{FURTHER, LawOptions};
 use crate::restitution_constant::{self, Subject};
 use crate::restitution_table::{self, Program, RestitutionOptions};
 
@@ -26,10 +26,7 @@ use crate::restitution_table::{self, Program, RestitutionOptions};
 #[derive(Args)]
 #[command(
     allow_negative_numbers = true,
-    after_help = "\
-Example: a table for C
-  cargo microimpact table --format c
-Exit status: 0 on success; 2 if there is no such table (standard error says why)."
+    after_help = format!("{FURTHER}\n{EXAMPLE}")
 )]
 pub struct Options {
     /// Smallest radius, m
@@ -49,6 +46,11 @@ pub struct Options {
     #[command(flatten)]
     restitution: RestitutionOptions,
 }
+
+const EXAMPLE: &str = "\
+Example: a table for C
+  cargo microimpact table --format c
+Exit status: 0 on success; 2 if there is no such table (standard error says why).";
 
 /// Language of the table.
 #[derive(Clone, Copy, ValueEnum)]
