@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use microimpact::space::Departing;
+use microimpact::space::{Departing, SpatialMotion};
 use microimpact::{Class, InputError};
 use rayon::prelude::*;
 
@@ -48,7 +48,15 @@ impl Impacts {
     }
 }
 
-/// The result of a row.
+/// The result of a row, from which the quantities that are asked for are taken.
+pub(crate) trait Answer {
+    fn status(&self) -> RowStatus;
+    fn class(&self) -> Option<Class>;
+    /// NaN where the impact does not have the quantity.
+    fn number(&self, quantity: Quantity) -> f64;
+}
+
+/// The result of a row with every quantity.
 pub(crate) struct Record {
     status: RowStatus,
     class: Option<Class>,
@@ -81,10 +89,24 @@ impl Record {
 
     /// The motions in space after an impact, if it takes place there.
     pub(crate) fn put_departure(&mut self, arrival: &Arrival, impact: &impl Departing<f64>) {
-        for (after, quantities) in arrival.after(impact).into_iter().zip(DEPARTURES) {
-            let numbers = after.velocity().into_iter().chain(after.spin());
-            quantities.into_iter().zip(numbers).for_each(|(quantity, number)| self.put(quantity, number));
+        let bodies = arrival.after(impact);
+        for quantity in DEPARTURES.into_iter().flatten() {
+            self.put(quantity, departure(&bodies, quantity));
         }
+    }
+}
+
+impl Answer for Record {
+    fn status(&self) -> RowStatus {
+        self.status
+    }
+
+    fn class(&self) -> Option<Class> {
+        self.class
+    }
+
+    fn number(&self, quantity: Quantity) -> f64 {
+        self.numbers[quantity as usize]
     }
 }
 
@@ -108,46 +130,117 @@ const DEPARTURES: [[Quantity; 6]; 2] = [
     ],
 ];
 
+/// A component of velocity or spin of one sphere or two after an impact; NaN if there is no such sphere.
+pub(crate) fn departure(bodies: &[SpatialMotion<f64>], quantity: Quantity) -> f64 {
+    let found = bodies.iter().zip(DEPARTURES).find_map(|(body, quantities)| {
+        let place = quantities.into_iter().position(|other| other == quantity)?;
+        body.velocity().into_iter().chain(body.spin()).nth(place)
+    });
+    found.unwrap_or(f64::NAN)
+}
+
 /// Rows that a thread takes at a time: enough that the rows cost more than the change.
 const ROWS: usize = 256;
 
+/// Some rows of the results.
+pub(crate) struct Part<'a> {
+    first: usize,
+    status: &'a mut [RowStatus],
+    class: &'a mut [Option<Class>],
+    quantities: Vec<(Quantity, &'a mut [f64])>,
+}
+
+impl<'a> Part<'a> {
+    fn rows(&self) -> Range<usize> {
+        self.first..self.first + self.status.len()
+    }
+
+    fn slot(&mut self, row: usize) -> Slot<'_, 'a> {
+        Slot { place: row - self.first, part: self }
+    }
+
+    fn refuse(&mut self, row: usize, error: InputError) {
+        self.status[row - self.first] = RowStatus::Refused(error);
+    }
+}
+
+/// Where the result of a row belongs.
+pub(crate) struct Slot<'p, 'a> {
+    part: &'p mut Part<'a>,
+    place: usize,
+}
+
+impl Slot<'_, '_> {
+    /// Takes from a result what was asked for.
+    pub(crate) fn put(self, answer: &impl Answer) {
+        let Self { part, place } = self;
+        part.status[place] = answer.status();
+        part.class[place] = answer.class();
+        for (quantity, numbers) in &mut part.quantities {
+            numbers[place] = answer.number(*quantity);
+        }
+    }
+}
+
 /// Computes rows on all threads.
-pub(crate) fn gather(
+pub(crate) fn gather<A: Answer>(
     count: usize,
     quantities: &[Quantity],
-    row: impl Fn(usize) -> Result<Record, InputError> + Sync,
+    row: impl Fn(usize) -> Result<A, InputError> + Sync,
 ) -> Impacts {
-    gather_ranges(count, quantities, |rows| rows.map(&row).collect())
+    fill(count, quantities, |index, slot| {
+        slot.put(&row(index)?);
+        Ok(())
+    })
 }
 
 /// Computes ranges of rows on all threads.
-pub(crate) fn gather_ranges(
+pub(crate) fn gather_ranges<A: Answer>(
     count: usize,
     quantities: &[Quantity],
-    compute: impl Fn(Range<usize>) -> Vec<Result<Record, InputError>> + Sync,
+    compute: impl Fn(Range<usize>) -> Vec<Result<A, InputError>> + Sync,
 ) -> Impacts {
-    let part = |part: usize| compute(part * ROWS..count.min((part + 1) * ROWS));
-    let numbers = || Vec::with_capacity(count);
-    let mut impacts = Impacts {
-        status: Vec::with_capacity(count),
-        class: Vec::with_capacity(count),
-        quantities: quantities.iter().map(|quantity| (*quantity, numbers())).collect(),
-    };
-    // In rounds, so that the records of all rows are never in memory at once.
-    let parts: Vec<usize> = (0..count.div_ceil(ROWS)).collect();
-    for round in parts.chunks(PARTS) {
-        let records: Vec<Vec<_>> = round.par_iter().map(|index| part(*index)).collect();
-        for record in records.into_iter().flatten() {
-            let record = record.unwrap_or_else(|error| Record::without(RowStatus::Refused(error)));
-            impacts.status.push(record.status);
-            impacts.class.push(record.class);
-            for (quantity, numbers) in &mut impacts.quantities {
-                numbers.push(record.numbers[*quantity as usize]);
+    fill_parts(count, quantities, |part| {
+        for (row, answer) in part.rows().zip(compute(part.rows())) {
+            match answer {
+                Ok(answer) => part.slot(row).put(&answer),
+                Err(error) => part.refuse(row, error),
             }
         }
-    }
-    impacts
+    })
 }
 
-/// Parts of a round.
-const PARTS: usize = 256;
+/// Fills rows on all threads; `row` puts the result of a row into its slot.
+pub(crate) fn fill(
+    count: usize,
+    quantities: &[Quantity],
+    row: impl Fn(usize, Slot<'_, '_>) -> Result<(), InputError> + Sync,
+) -> Impacts {
+    fill_parts(count, quantities, |part| {
+        for index in part.rows() {
+            if let Err(error) = row(index, part.slot(index)) {
+                part.refuse(index, error);
+            }
+        }
+    })
+}
+
+/// Fills parts of the rows on all threads, each of which writes its rows where they belong.
+fn fill_parts(count: usize, quantities: &[Quantity], compute: impl Fn(&mut Part<'_>) + Sync) -> Impacts {
+    let mut impacts = Impacts {
+        status: vec![RowStatus::NotConverged; count],
+        class: vec![None; count],
+        quantities: quantities.iter().map(|quantity| (*quantity, vec![f64::NAN; count])).collect(),
+    };
+    let mut columns: Vec<_> =
+        impacts.quantities.iter_mut().map(|(quantity, numbers)| (*quantity, numbers.chunks_mut(ROWS))).collect();
+    let rows = impacts.status.chunks_mut(ROWS).zip(impacts.class.chunks_mut(ROWS)).enumerate();
+    let parts: Vec<Part<'_>> = rows
+        .map(|(index, (status, class))| {
+            let numbers = columns.iter_mut().filter_map(|(quantity, chunks)| Some((*quantity, chunks.next()?)));
+            Part { first: index * ROWS, status, class, quantities: numbers.collect() }
+        })
+        .collect();
+    parts.into_par_iter().for_each(|mut part| compute(&mut part));
+    impacts
+}

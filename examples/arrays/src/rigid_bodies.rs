@@ -1,15 +1,21 @@
 //! Rows by the rigid-body model.
 
+use std::cell::OnceCell;
+
 use microimpact::rigid::{
-    AdhesionCoefficient, AnyAdhesion, AnyRestitution, ElasticPlasticRestitution, PowerRestitution, RollingDissipation,
-    SpeedAdhesion, SpeedRestitution, WorkOfAdhesion,
+    AdhesionCoefficient, AnyAdhesion, AnyRestitution, ElasticPlasticRestitution, EnergyLedger, PowerRestitution,
+    RollingDissipation, SpeedAdhesion, SpeedRestitution, TangentialOutcome, WorkOfAdhesion,
 };
-use microimpact::{Class, ConstantRestitution, CriticalSpeed, InputError, Parameter, RigidBody, Sphere};
+use microimpact::space::SpatialMotion;
+use microimpact::{
+    Class, ConstantRestitution, ContactClass, CriticalSpeed, Impact, InputError, Outcome, Parameter, RigidBody, Sphere,
+    TangentialImpact,
+};
 use rayon::prelude::*;
 
-use crate::impacts::{Record, gather};
+use crate::impacts::{Answer, departure, fill};
 use crate::motions::Arrival;
-use crate::{Column, Impacts, Motions, Quantity};
+use crate::{Column, Impacts, Motions, Quantity, RowStatus};
 
 /// Spheres and the physics of their impacts as rigid bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,10 +118,14 @@ impl RigidBodies<'_> {
 
     /// Classifies the impacts of `count` rows on all threads. The result of a row is that of a single call.
     pub fn classify(&self, motions: &Motions<'_>, count: usize, quantities: &[Quantity]) -> Impacts {
-        gather(count, quantities, |row| {
-            let arrival = motions.arrival(self.sphere(row)?, row)?;
+        fill(count, quantities, |row, slot| {
+            // By reference, because both are large.
+            let arrival = motions.arrival(self.sphere(row)?, row);
+            let arrival = arrival.as_ref().map_err(|error| *error)?;
             arrival.check_about_one_axis(Parameter::RollingArm, self.rolling_arm.at(row))?;
-            Ok(record(&self.body(arrival.sphere, row)?, &arrival))
+            let body = self.body(arrival.sphere, row);
+            slot.put(&Answered::new(body.as_ref().map_err(|error| *error)?, arrival));
+            Ok(())
         })
     }
 
@@ -126,27 +136,58 @@ impl RigidBodies<'_> {
     }
 }
 
-/// The result of a row.
-fn record(body: &Body, arrival: &Arrival) -> Record {
-    let impact = body.impact(&arrival.motion);
-    let (normal, tangential) = (&impact.normal, &impact.tangential);
-    let classification = body.classify_impact(&impact);
-    let motion = arrival.motion_after(classification.contact.motion);
-    let ledger = impact.energy(body.sphere());
-    let mut record = Record::of(Class::of(classification.outcome, motion));
-    record.put(Quantity::OverallRestitution, normal.overall_restitution());
-    record.put(Quantity::ReboundSpeed, normal.rebound_speed());
-    record.put(Quantity::SpeedTangentialOut, tangential.velocity());
-    record.put(Quantity::SpinOut, tangential.spin(body.sphere()));
-    record.put_some(Quantity::FrictionOverLimit, classification.contact.friction_over_limit);
-    record.put(Quantity::ImpulseRatioOut, tangential.impulse_ratio());
-    record.put(Quantity::RollingRatio, tangential.rolling_ratio());
-    record.put(Quantity::WorkMaterial, ledger.material);
-    record.put(Quantity::WorkAdhesion, ledger.adhesion);
-    record.put(Quantity::WorkFriction, ledger.friction);
-    record.put(Quantity::WorkRolling, ledger.rolling);
-    record.put(Quantity::EnergyBefore, ledger.before);
-    record.put(Quantity::EnergyAfter, ledger.after);
-    record.put_departure(arrival, &impact);
-    record
+/// The impact of a row. What follows from it is computed where it is asked for.
+struct Answered<'a> {
+    body: &'a Body,
+    arrival: &'a Arrival,
+    impact: Impact<f64, TangentialImpact<f64>>,
+    outcome: Outcome,
+    contact: ContactClass<f64>,
+    /// Empty until they are asked for.
+    ledger: OnceCell<EnergyLedger<f64>>,
+    departure: OnceCell<Vec<SpatialMotion<f64>>>,
+}
+
+impl<'a> Answered<'a> {
+    fn new(body: &'a Body, arrival: &'a Arrival) -> Self {
+        let impact = body.impact(&arrival.motion);
+        // Its margin is no quantity, so that no critical speed is computed.
+        let outcome = if impact.normal.is_capture() { Outcome::Capture } else { Outcome::Rebound };
+        let contact = impact.tangential.classify(outcome);
+        Self { body, arrival, impact, outcome, contact, ledger: OnceCell::new(), departure: OnceCell::new() }
+    }
+
+    fn ledger(&self) -> &EnergyLedger<f64> {
+        self.ledger.get_or_init(|| self.impact.energy(self.body.sphere()))
+    }
+}
+
+impl Answer for Answered<'_> {
+    fn status(&self) -> RowStatus {
+        RowStatus::Solved
+    }
+
+    fn class(&self) -> Option<Class> {
+        Some(Class::of(self.outcome, self.arrival.motion_after(self.contact.motion)))
+    }
+
+    fn number(&self, quantity: Quantity) -> f64 {
+        let Impact { normal, tangential } = &self.impact;
+        match quantity {
+            Quantity::OverallRestitution => normal.overall_restitution(),
+            Quantity::ReboundSpeed => normal.rebound_speed(),
+            Quantity::SpeedTangentialOut => tangential.velocity(),
+            Quantity::SpinOut => tangential.spin(self.body.sphere()),
+            Quantity::FrictionOverLimit => self.contact.friction_over_limit.unwrap_or(f64::NAN),
+            Quantity::ImpulseRatioOut => tangential.impulse_ratio(),
+            Quantity::RollingRatio => tangential.rolling_ratio(),
+            Quantity::WorkMaterial => self.ledger().material,
+            Quantity::WorkAdhesion => self.ledger().adhesion,
+            Quantity::WorkFriction => self.ledger().friction,
+            Quantity::WorkRolling => self.ledger().rolling,
+            Quantity::EnergyBefore => self.ledger().before,
+            Quantity::EnergyAfter => self.ledger().after,
+            other => departure(self.departure.get_or_init(|| self.arrival.after(&self.impact)), other),
+        }
+    }
 }

@@ -90,7 +90,7 @@ const OWNERS: [(&str, &str, &[LawName]); 3] = [
 
 /// Damping of the materials.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum DampingName {
+pub enum DampingName {
     None,
     Hysteretic,
     Viscoelastic,
@@ -99,7 +99,7 @@ enum DampingName {
 
 /// Where contact ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum EndRule {
+pub enum EndRule {
     NoIndentation,
     NoForce,
     SnapOff,

@@ -14,6 +14,7 @@ mod figure;
 mod fit;
 mod inputs;
 pub mod joint_fit;
+mod law_options;
 mod manual;
 mod materials;
 mod population;
@@ -29,6 +30,7 @@ mod words;
 pub use classify::Options as Classify;
 pub use command::TableCommand;
 pub use critical::Options as Critical;
+pub use materials::Options as Materials;
 pub use trajectory::Options as Trajectory;
 
 /// Longest line of a help text, characters.

@@ -52,7 +52,7 @@ impl Program {
     }
 }
 
-/// Writes the restitution of spheres of a density whose radii lie between two, by this law.
+/// Writes the restitution of spheres of a density whose radii lie between two, by this law. Returns what the table covers, in words.
 pub fn write(
     to: &mut dyn Write,
     program: Program,
@@ -61,7 +61,7 @@ pub fn write(
     density: f64,
     law: AnyLaw<f64>,
     materials: String,
-) -> Result<(), Box<dyn Error>> {
+) -> Result<String, Box<dyn Error>> {
     let count = options.radii.unwrap_or(if program.is_for_one_radius() { 1 } else { RADII });
     if count > 1 && program.is_for_one_radius() {
         return Err(format!(
@@ -80,7 +80,7 @@ pub fn write(
         Program::OpenFoam => openfoam::write(to, &table),
         Program::Any => csv::write(to, &table),
     }?;
-    Ok(())
+    Ok(table.range_in_words())
 }
 
 /// The table of some radii, and its error halfway between them; `spheres` gives those at a place between the radii, the first of
@@ -99,6 +99,17 @@ fn table(
     // A curve that ends at its critical speed would take any number.
     NormalMotion::new(fastest)?;
     let rows = (0..count).map(|k| spheres(f64::from(k))).collect::<Result<Vec<_>, _>>()?;
+    if let Some(slowest) = rows.iter().min_by(|a, b| a.critical_speed.total_cmp(&b.critical_speed))
+        && slowest.critical_speed >= fastest
+    {
+        let Spheres { radius, critical_speed, .. } = slowest;
+        return Err(format!(
+            "--fastest {fastest} is refused: spheres of radius {radius:e} m are captured up to {critical_speed:.4e} m/s, their critical \
+             speed, and smaller ones up to higher speeds, so that the table would hold no rebound; choose a --fastest above it, m/s, or \
+             larger spheres by --smallest-radius"
+        )
+        .into());
+    }
     let curve = |k: usize| {
         // Between two radii both curves are read at the same multiple of the critical speed.
         let neighbours = [k.wrapping_sub(1), k + 1].into_iter().filter_map(|other| rows.get(other));
@@ -107,10 +118,13 @@ fn table(
         rows[k].curve((fastest * beyond).min(FASTEST), tolerance)
     };
     let curves = (0..rows.len()).map(curve).collect::<Result<_, _>>()?;
-    let mut table = Table { subject, tolerance, curves, between_radii: None };
+    let mut table = Table { subject, tolerance, fastest, curves, between_radii: None };
     for k in 1..count {
         let found = table.difference(&spheres(f64::from(k) - 0.5)?.curve(fastest, tolerance)?);
-        table.between_radii = Some(table.between_radii.map_or(found, |other| other.max(found)));
+        table.between_radii = match (table.between_radii, found) {
+            (Some(other), Some(found)) => Some(other.max(found)),
+            (other, found) => found.or(other),
+        };
     }
     Ok(table)
 }

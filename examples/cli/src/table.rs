@@ -10,11 +10,12 @@ use std::io::{self, Write};
 use clap::{Args, ValueEnum};
 use microimpact::contact::{AnyLaw, Collocation, Contact};
 use microimpact::table::BoundaryTable;
-use microimpact::{InputError, Sphere, Stiffness};
+use microimpact::{InputError, Sphere};
 use sheet::Value;
 
 use crate::Streams;
-use crate::command::{Format, exit_status, write_records};
+use crate::command::{Format, exit_status, say, write_records};
+use crate::law_options::{FURTHER, LawOptions};
 use crate::restitution_constant::{self, Subject};
 use crate::restitution_table::{self, Program, RestitutionOptions};
 
@@ -25,10 +26,7 @@ use crate::restitution_table::{self, Program, RestitutionOptions};
 #[derive(Args)]
 #[command(
     allow_negative_numbers = true,
-    after_help = "\
-Example: a table for C
-  cargo microimpact table --format c
-Exit status: 0 on success; 2 if there is no such table (standard error says why)."
+    after_help = format!("{FURTHER}\n{EXAMPLE}")
 )]
 pub struct Options {
     /// Smallest radius, m
@@ -40,24 +38,19 @@ pub struct Options {
     /// Density of the spheres, kg/m^3
     #[arg(long, default_value_t = 2600.0)]
     density: f64,
-    /// Hertz stiffness K, Pa
-    #[arg(long, default_value_t = 7.5e10)]
-    stiffness: f64,
-    /// Strength f0 of adhesion, N/m
-    #[arg(long, default_value_t = 250.0)]
-    adhesion: f64,
-    /// Damping zeta_H in the materials
-    #[arg(long, default_value_t = 10.5)]
-    zeta_h: f64,
-    /// Damping zeta_A of adhesion
-    #[arg(long, default_value_t = 6.25)]
-    zeta_a: f64,
+    #[command(flatten)]
+    law: LawOptions,
     /// Language of the table
     #[arg(long, value_enum, default_value_t = Language::Rust)]
     format: Language,
     #[command(flatten)]
     restitution: RestitutionOptions,
 }
+
+const EXAMPLE: &str = "\
+Example: a table for C
+  cargo microimpact table --format c
+Exit status: 0 on success; 2 if there is no such table (standard error says why).";
 
 /// Language of the table.
 #[derive(Clone, Copy, ValueEnum)]
@@ -127,16 +120,11 @@ struct Parts {
 impl Options {
     /// Runs the command; its exit status.
     pub fn run(&self, streams: &mut Streams<'_>) -> u8 {
-        exit_status("table", run(self, streams.output).map(|()| 0), streams.errors)
+        exit_status("table", run(self, streams).map(|()| 0), streams.errors)
     }
 
-    fn law(&self) -> Result<AnyLaw<f64>, InputError> {
-        AnyLaw::ring(Stiffness::new(self.stiffness)?, self.adhesion, self.zeta_a)?.with_damping(self.zeta_h)
-    }
-
-    fn parts<const N: usize>(&self) -> Result<Parts, InputError> {
+    fn parts<const N: usize>(&self, law: AnyLaw<f64>) -> Result<Parts, InputError> {
         let method = Collocation::<9, f64>::new(1e-9)?;
-        let law = self.law()?;
         let table = BoundaryTable::<N>::new(self.smallest_radius, |radius| {
             let sphere = Sphere::solid(radius, self.density)?;
             Contact::new(sphere, law).critical_speed(&method)
@@ -146,12 +134,12 @@ impl Options {
     }
 
     /// The table with the number of cells asked for, which is part of its type.
-    fn table(&self) -> Result<Parts, InputError> {
+    fn table(&self, law: AnyLaw<f64>) -> Result<Parts, InputError> {
         macro_rules! of_length {
             ($($cells:literal)*) => {
                 match self.cells {
-                    $($cells => self.parts::<$cells>(),)*
-                    _ => self.parts::<MOST_CELLS>(),
+                    $($cells => self.parts::<$cells>(law),)*
+                    _ => self.parts::<MOST_CELLS>(law),
                 }
             };
         }
@@ -160,12 +148,12 @@ impl Options {
 
     /// The materials in words.
     fn materials(&self) -> String {
-        let Self { density, stiffness, adhesion, zeta_h, zeta_a, .. } = self;
-        format!("density {density} kg/m^3, K {stiffness:e} Pa, f0 {adhesion} N/m, zeta_H {zeta_h}, zeta_A {zeta_a}")
+        format!("density {} kg/m^3, {}", self.density, self.law.in_words())
     }
 }
 
-fn run(options: &Options, to: &mut dyn Write) -> Result<(), Box<dyn Error>> {
+fn run(options: &Options, streams: &mut Streams<'_>) -> Result<(), Box<dyn Error>> {
+    let (law, to) = (options.law.law()?, &mut *streams.output);
     let written = match options.format.content() {
         Content::CriticalSpeeds(written) => written,
         Content::RestitutionConstant => {
@@ -173,7 +161,7 @@ fn run(options: &Options, to: &mut dyn Write) -> Result<(), Box<dyn Error>> {
                 smallest_radius: options.smallest_radius,
                 fastest: options.restitution.fastest,
                 density: options.density,
-                law: options.law()?,
+                law,
                 materials: options.materials(),
             };
             return restitution_constant::write(to, options.cells, &subject);
@@ -181,11 +169,21 @@ fn run(options: &Options, to: &mut dyn Write) -> Result<(), Box<dyn Error>> {
         Content::Restitution(program) => {
             let octaves = f64::from(options.cells) / CELLS_OF_OCTAVE;
             let radii = [options.smallest_radius, options.smallest_radius * octaves.exp2()];
-            let (law, materials) = (options.law()?, options.materials());
-            return restitution_table::write(to, program, &options.restitution, radii, options.density, law, materials);
+            let (restitution, materials) = (&options.restitution, options.materials());
+            let covered = restitution_table::write(to, program, restitution, radii, options.density, law, materials)?;
+            say("table", Some(covered), streams.errors);
+            return Ok(());
         }
     };
-    let parts = options.table()?;
+    let parts = options.table(law).map_err(|error| -> Box<dyn Error> {
+        if error.value == f32::INFINITY {
+            "spheres of some radii of the table are captured at every speed up to 1e6 m/s; choose a larger --smallest-radius, or less \
+             adhesion or damping"
+                .into()
+        } else {
+            error.into()
+        }
+    })?;
     let subject = format!("{}; greatest relative error {:.1e}", options.materials(), parts.relative_margin);
     match written {
         Written::Rust => rust(to, &parts, &subject),

@@ -1,7 +1,5 @@
 // The answer to the scene of the sliders: its class, charts and numbers.
 
-const CLASSIFY = ["classify", "--model", "simulation"];
-
 // Rows of the curve of restitution, and the least distance from the critical speed, relative to it, from which they are spaced.
 const CURVE_ROWS = 120, CURVE_START = 1e-5;
 // How far the curve goes beyond the speeds of interest, as a factor; and where there is no critical speed.
@@ -31,6 +29,12 @@ function curveSpeeds(speed, critical) {
     return [low, critical, ...geometric(CURVE_START, high / critical - 1).map((part) => critical * (1 + part))];
 }
 
+// The critical speed of a rigid body, from its row.
+function criticalOf({ speed_normal_m_s: speed }, { speed_over_critical: over, outcome }) {
+    if (over) return { critical: "speed", critical_speed_m_s: speed / over };
+    return { critical: outcome === "rebound" ? "always rebounds" : "never rebounds" };
+}
+
 class Answer {
     constructor(scene) {
         Object.assign(this, { scene, pending: false, computing: false, section: document.getElementById("answer") });
@@ -45,7 +49,7 @@ class Answer {
         while (this.pending) {
             this.pending = false;
             try {
-                this.show(await this.compute(this.scene.columns()));
+                this.show(await this.compute(this.scene.columns(), this.scene.values.scene_model));
             } catch (error) {
                 this.refuse(error.message);
             }
@@ -54,22 +58,28 @@ class Answer {
         this.section.ariaBusy = "false";
     }
 
-    async compute(columns) {
+    async compute(columns, model) {
+        const classify = ["classify", "--model", model];
         const exact = Object.fromEntries(Object.entries(columns).filter(([name]) => !/_error(_|$)/.test(name)));
-        const [row] = await program.rows(CLASSIFY, table(columns));
+        const [row] = await program.rows(classify, table(columns));
         if (row.error) throw new Error(row.error);
-        const [found] = await program.rows(["critical"], table(exact));
+        const simulated = model === "simulation";
+        const found = simulated ? (await program.rows(["critical"], table(exact)))[0] : criticalOf(columns, row);
         const critical = found.critical === "speed" ? Number(found.critical_speed_m_s) : undefined;
         const speeds = curveSpeeds(Number(columns.speed_normal_m_s), critical);
-        const curve = await program.rows(CLASSIFY, table(exact, speeds));
-        const course = await program.rows(["trajectory", "--tolerance", COURSE_TOLERANCE], table(exact));
-        return { columns, row, found, critical, curve, course };
+        const curve = await program.rows(classify, table(exact, speeds));
+        // A rigid body has no course in time.
+        const course = simulated ? await program.rows(["trajectory", "--tolerance", COURSE_TOLERANCE], table(exact)) : [];
+        return { columns, row, found, critical, curve, course, simulated };
     }
 
+    // Says why there is no answer, and shows no number or chart of another.
     refuse(reason) {
         this.section.className = "refused";
         document.getElementById("class").textContent = "No answer";
         document.getElementById("margin").textContent = reason;
+        document.getElementById("results").hidden = true;
+        for (const part of document.querySelectorAll("#results figure, #numbers tbody")) part.replaceChildren();
     }
 
     show(answer) {
@@ -79,9 +89,11 @@ class Answer {
         const title = [outcome, row.motion].filter(Boolean).join(", ");
         document.getElementById("class").textContent = title[0].toUpperCase() + title.slice(1);
         document.getElementById("margin").replaceChildren(...margin(answer));
+        document.getElementById("results").hidden = false;
+        document.getElementById("course").hidden = !answer.simulated;
         showNumbers(answer);
         showCurve(answer);
-        showCourse(answer);
+        if (answer.simulated) showCourse(answer);
     }
 }
 
@@ -102,20 +114,27 @@ function margin({ columns, row, found, critical }) {
     return parts;
 }
 
-function showNumbers({ columns, row, critical }) {
+function showNumbers({ columns, row, critical, simulated }) {
     const e = row.overall_restitution, rebounds = row.outcome === "rebound";
     const slip = row.time_roll_s === "-1" ? "to the end" : row.time_roll_s === "0" ? "no slip" : inUnits(row.time_roll_s, "s");
+    const simulation = [
+        ["Largest indentation", "δ", inUnits(row.max_indentation_m, "m")],
+        ["Contact time", "t", inUnits(row.contact_time_s, "s")],
+        ["Slips for", "", slip],
+    ];
+    const rigidBody = [
+        ["Impulse ratio", "μ", digits(row.impulse_ratio_out)],
+        ["Energy lost to friction", "", inUnits(row.work_friction_j, "J")],
+    ];
     const numbers = [
         ["Restitution", "e", e === "" ? "–" : digits(e)],
         ["Rebound speed", "V_n", rebounds ? inUnits(e * columns.speed_normal_m_s, "m/s") : "–"],
         ["Tangential velocity after", "V_t", inUnits(row.speed_tangential_out_m_s, "m/s")],
         ["Spin after", "Ω", inUnits(row.spin_out_rad_s, "rad/s")],
         ["Critical speed", "v_c", inUnits(critical, "m/s")],
-        ["Largest indentation", "δ", inUnits(row.max_indentation_m, "m")],
-        ["Contact time", "t", inUnits(row.contact_time_s, "s")],
-        ["Slips for", "", slip],
-        ["Work of damping in the materials", "", inUnits(row.work_material_j, "J")],
-        ["Work of damping of adhesion", "", inUnits(row.work_adhesion_j, "J")],
+        ...(simulated ? simulation : rigidBody),
+        ["Energy lost in the materials", "", inUnits(row.work_material_j, "J")],
+        ["Energy lost to adhesion", "", inUnits(row.work_adhesion_j, "J")],
     ];
     const rows = numbers.map(([label, name, value]) =>
         element("tr", {}, element("th", { scope: "row" }, `${label} `, ...symbol(name)), element("td", {}, value)));
@@ -130,7 +149,7 @@ function showCurve({ columns, row, critical, curve }) {
     const speeds = curve.map((row) => Number(row.speed_normal_m_s));
     const e = Number(row.overall_restitution);
     const at = critical === undefined ? "there is no critical speed" : `the critical speed is ${inUnits(critical, "m/s")}`;
-    chart(document.getElementById("restitution"), {
+    chart(document.getElementById("restitution-curve"), {
         x: { label: "approach speed, m/s", range: [speeds[0], speeds.at(-1)], logarithmic: true },
         y: { label: "restitution e", range: [0, Math.min(Math.ceil(largest * 1.1 * 5) / 5, 1)] },
         lines: [{ points }],
@@ -165,7 +184,11 @@ function showCourse({ course }) {
     }
 }
 
-const scene = new Scene(document.getElementById("scene"), () => answer.update());
+const scene = new Scene(document.getElementById("scene"), () => {
+    answer.update();
+    // What the table takes from the sliders.
+    impacts.mapping.check();
+});
 const answer = new Answer(scene);
 answer.update();
 let resized;

@@ -1,62 +1,119 @@
 // What the user sets. Each number has the column that the program reads, its symbol, its unit with the factor to SI, the range
-// of its slider, and where it starts: at the paper's Table 1. A slider without zero is logarithmic.
+// of its slider, and where it starts: at the paper's Table 1. A slider without zero is logarithmic. What is `aside` is no column of the
+// program; what is `optional` has a column only where it differs from where it starts.
+
+const SIMULATION = { scene_model: ["simulation"] }, RIGID_BODY = { scene_model: ["rigid-body"] };
+
+// A material of the list of the program; "" where its numbers are set by hand.
+const material = (key, label) => ({ aside: true, key, label, start: "", choices: { "": "by its numbers" } });
+
+const MODEL = [
+    {
+        aside: true, key: "scene_model", label: "Model", start: "simulation", choices: {
+            simulation: "simulation of the contact",
+            "rigid-body": "rigid body",
+        },
+    },
+];
 
 const PARTICLE = [
+    material("sphere_material", "Material of the sphere"),
     { column: "radius_m", label: "Radius", symbol: "r", unit: "µm", si: 1e-6, least: 0.1, most: 500, start: 5.06 },
-    { column: "density_kg_m3", label: "Density", symbol: "ρ", unit: "kg/m³", si: 1, least: 100, most: 20000, start: 2600 },
+    { column: "density_kg_m3", label: "Density", symbol: "ρ", unit: "kg/m³", si: 1, least: 100, most: 20000, start: 2600, of: "sphere_material" },
 ];
 
 const SURFACE = [
-    { column: "stiffness_pa", label: "Hertz stiffness", symbol: "K", unit: "GPa", si: 1e9, least: 0.001, most: 500, start: 75 },
+    material("surface_material", "Material of the surface"),
+    { column: "stiffness_pa", label: "Hertz stiffness", symbol: "K", unit: "GPa", si: 1e9, least: 0.001, most: 500, start: 75, of: "surface_material", where: SIMULATION },
     {
-        column: "law", label: "Law of contact", start: "ring", choices: {
+        column: "law", label: "Law of contact", start: "ring", where: SIMULATION, choices: {
             hertz: "Hertz, no adhesion",
             ring: "ring of adhesion (Brach, Dunn)",
             dmt: "DMT (Derjaguin et al.)",
             jkr: "JKR (Johnson et al.)",
         },
     },
-    { column: "adhesion_n_m", label: "Strength of adhesion", symbol: "f₀", unit: "N/m", si: 1, least: 0.1, most: 10000, start: 250, where: { law: ["ring"] } },
-    { column: "zeta_a", label: "Damping of adhesion", symbol: "ζ_A", unit: "1", si: 1, least: 0, most: 50, start: 6.25, where: { law: ["ring"] } },
-    { column: "work_of_adhesion_j_m2", label: "Work of adhesion", symbol: "G", unit: "mJ/m²", si: 1e-3, least: 1, most: 10000, start: 100, where: { law: ["dmt", "jkr"] } },
+    { column: "adhesion_n_m", label: "Strength of adhesion", symbol: "f₀", unit: "N/m", si: 1, least: 0.1, most: 10000, start: 250, where: { ...SIMULATION, law: ["ring"] } },
+    { column: "zeta_a", label: "Damping of adhesion", symbol: "ζ_A", unit: "1", si: 1, least: 0, most: 50, start: 6.25, where: { ...SIMULATION, law: ["ring"] } },
+    { column: "work_of_adhesion_j_m2", label: "Work of adhesion", symbol: "G", unit: "mJ/m²", si: 1e-3, least: 1, most: 10000, start: 100, of: "surface_material", where: { ...SIMULATION, law: ["dmt", "jkr"] } },
     {
-        column: "damping", label: "Damping in the materials", start: "hysteretic", choices: {
+        column: "damping", label: "Damping in the materials", start: "hysteretic", where: SIMULATION, choices: {
             none: "none",
             hysteretic: "hysteretic (Brach, Dunn)",
             viscoelastic: "viscoelastic",
             constant: "constant restitution",
         },
     },
-    { column: "zeta_h", label: "Hysteretic damping", symbol: "ζ_H", unit: "1", si: 1, least: 0, most: 100, start: 10.5, where: { damping: ["hysteretic"] } },
-    { column: "damping_value", key: "relaxation", label: "Relaxation time", symbol: "τ", unit: "ns", si: 1e-9, least: 0.001, most: 1000, start: 1, where: { damping: ["viscoelastic"] } },
-    { column: "damping_value", key: "nominal", label: "Nominal restitution", symbol: "R₀", unit: "1", si: 1, least: 0.01, most: 1, start: 0.9, where: { damping: ["constant"] } },
+    { column: "zeta_h", label: "Hysteretic damping", symbol: "ζ_H", unit: "1", si: 1, least: 0, most: 100, start: 10.5, where: { ...SIMULATION, damping: ["hysteretic"] } },
+    { column: "damping_value", key: "relaxation", label: "Relaxation time", symbol: "τ", unit: "ns", si: 1e-9, least: 0.001, most: 1000, start: 1, where: { ...SIMULATION, damping: ["viscoelastic"] } },
+    { column: "damping_value", key: "nominal", label: "Nominal restitution", symbol: "R₀", unit: "1", si: 1, least: 0.01, most: 1, start: 0.9, where: { ...SIMULATION, damping: ["constant"] } },
+    {
+        aside: true, key: "restitution_law", label: "Restitution without adhesion", start: "speed", where: RIGID_BODY, choices: {
+            speed: "falls with the speed, R = k/(k + v)",
+            constant: "the same at every speed",
+        },
+    },
+    { column: "restitution_speed_m_s", label: "Speed of restitution", symbol: "k", unit: "m/s", si: 1, least: 1, most: 10000, start: 130, where: { ...RIGID_BODY, restitution_law: ["speed"] } },
+    { column: "restitution", label: "Restitution", symbol: "R", unit: "1", si: 1, least: 0, most: 1, start: 0.978, where: { ...RIGID_BODY, restitution_law: ["constant"] } },
+    {
+        aside: true, key: "adhesion_law", label: "Adhesion", start: "work", where: RIGID_BODY, choices: {
+            none: "none",
+            work: "work of adhesion",
+            coefficient: "coefficient",
+        },
+    },
+    { column: "work_of_adhesion_j", label: "Work of adhesion", symbol: "W_A", unit: "pJ", si: 1e-12, least: 0.001, most: 1000, start: 2.22, where: { ...RIGID_BODY, adhesion_law: ["work"] } },
+    { column: "adhesion_coefficient", label: "Adhesion coefficient", symbol: "ρ", unit: "1", si: 1, least: 0, most: 1, start: 0.237, where: { ...RIGID_BODY, adhesion_law: ["coefficient"] } },
     { column: "friction", label: "Friction", symbol: "f", unit: "1", si: 1, least: 0, most: 1, start: 0.1 },
 ];
 
+const COMPONENTS = { arrival: ["components"] }, PATH = { arrival: ["path"] };
 const MOTION = [
-    { column: "speed_normal_m_s", label: "Approach speed", symbol: "v_n", unit: "m/s", si: 1, least: 0.01, most: 100, start: 2.8 },
-    { column: "speed_tangential_m_s", label: "Tangential velocity", symbol: "v_t", unit: "m/s", si: 1, least: -10, most: 10, start: 0 },
+    {
+        aside: true, key: "arrival", label: "Given by", start: "components", choices: {
+            components: "normal and tangential velocity",
+            path: "speed and angle of incidence",
+        },
+    },
+    { column: "speed_normal_m_s", label: "Approach speed", symbol: "v_n", unit: "m/s", si: 1, least: 0.01, most: 100, start: 2.8, where: COMPONENTS },
+    { column: "speed_tangential_m_s", label: "Tangential velocity", symbol: "v_t", unit: "m/s", si: 1, least: -10, most: 10, start: 0, where: COMPONENTS },
+    { aside: true, key: "path_speed", label: "Speed along the path", symbol: "v", unit: "m/s", si: 1, least: 0.01, most: 100, start: 2.8, where: PATH },
+    { aside: true, key: "path_angle", label: "Angle between path and normal", symbol: "θ", unit: "°", si: 1, least: 0, most: 89, start: 0, where: PATH },
     { column: "spin_rad_s", label: "Spin", symbol: "ω", unit: "10³ rad/s", si: 1e3, least: -1000, most: 1000, start: 146 },
 ];
 
+const MORE = [
+    { column: "gyration_ratio", optional: true, label: "Squared radius of gyration over r²: 0.4 solid, 0.667 hollow", symbol: "κ", unit: "1", si: 1, least: 0.2, most: 0.667, start: 0.4 },
+    { column: "external_force_n", optional: true, label: "External force, away from the surface", symbol: "F", unit: "µN", si: 1e-6, least: -100, most: 100, start: 0, where: SIMULATION },
+    {
+        column: "end_rule", key: "end_of_hertz", optional: true, label: "Contact ends", start: "no-indentation", where: { ...SIMULATION, law: ["hertz"] },
+        choices: { "no-indentation": "where the indentation is zero", "no-force": "where the force is zero" },
+    },
+    {
+        column: "end_rule", key: "end_of_jkr", optional: true, label: "Contact ends", start: "snap-off", where: { ...SIMULATION, law: ["jkr"] },
+        choices: { "snap-off": "where the contact snaps off", "pull-off": "at the largest tension" },
+    },
+];
+
 // Standard errors in percent of the number.
-const error = (of, column, label, symbol, where = {}) =>
-    ({ of, column, label, symbol, unit: "%", least: 0, most: 50, start: 0, where });
+const error = (errorOf, column, label, symbol, where = {}) =>
+    ({ errorOf, column, label, symbol, unit: "%", least: 0, most: 50, start: 0, where });
 const ERRORS = [
     error("radius_m", "radius_error_m", "of the radius", "r"),
-    error("stiffness_pa", "stiffness_error_pa", "of the stiffness", "K"),
-    error("adhesion_n_m", "adhesion_error_n_m", "of the strength of adhesion", "f₀", { law: ["ring"] }),
-    error("work_of_adhesion_j_m2", "work_of_adhesion_error_j_m2", "of the work of adhesion", "G", { law: ["dmt", "jkr"] }),
-    error("zeta_h", "zeta_h_error", "of the hysteretic damping", "ζ_H", { damping: ["hysteretic"] }),
+    error("stiffness_pa", "stiffness_error_pa", "of the stiffness", "K", SIMULATION),
+    error("adhesion_n_m", "adhesion_error_n_m", "of the strength of adhesion", "f₀", { ...SIMULATION, law: ["ring"] }),
+    error("work_of_adhesion_j_m2", "work_of_adhesion_error_j_m2", "of the work of adhesion", "G", { ...SIMULATION, law: ["dmt", "jkr"] }),
+    error("zeta_h", "zeta_h_error", "of the hysteretic damping", "ζ_H", { ...SIMULATION, damping: ["hysteretic"] }),
     error("speed_normal_m_s", "speed_normal_error_m_s", "of the approach speed", "v_n"),
 ];
 
-const INPUTS = [...PARTICLE, ...SURFACE, ...MOTION, ...ERRORS];
+const INPUTS = [...MODEL, ...PARTICLE, ...SURFACE, ...MOTION, ...MORE, ...ERRORS];
 
 // Columns of a file for which the page offers a choice, with what they hold, its symbol, and the model that reads them if it is
 // one; the others are read by their names.
 const OFFERED = [
     ["radius_m", "radius", "r"],
+    ["diameter_m", "diameter, instead of the radius", "d"],
     ["density_kg_m3", "density", "ρ"],
     ["speed_normal_m_s", "approach speed", "v_n"],
     ["speed_tangential_m_s", "tangential velocity", "v_t"],
@@ -72,4 +129,23 @@ const OFFERED = [
     ["restitution_speed_m_s", "speed k of R = k/(k + v)", "", "rigid-body"],
     ["adhesion_coefficient", "adhesion coefficient", "ρ", "rigid-body"],
     ["work_of_adhesion_j", "work of adhesion", "W_A", "rigid-body"],
+];
+
+// What a table may lack. It lacks a group if it has none of its columns; a model that is named here then cannot compute a row.
+const RIGID = "rigid-body", SIMULATED = "simulation";
+const SPACE = ["velocity_x_m_s", "velocity_y_m_s", "velocity_z_m_s"];
+const GROUPS = [
+    { needed: [RIGID, SIMULATED], columns: ["radius_m", "diameter_m"] },
+    { needed: [RIGID, SIMULATED], columns: ["density_kg_m3"] },
+    { needed: [RIGID, SIMULATED], columns: ["speed_normal_m_s", ...SPACE] },
+    { needed: [], columns: ["speed_tangential_m_s", ...SPACE] },
+    { needed: [], columns: ["spin_rad_s", ...SPACE] },
+    { needed: [], columns: ["gyration_ratio"] },
+    { needed: [], columns: ["friction", "impulse_ratio"] },
+    { needed: [SIMULATED], columns: ["stiffness_pa"] },
+    { needed: [], columns: ["law", "adhesion_n_m", "zeta_a", "work_of_adhesion_j_m2", "end_rule"] },
+    { needed: [], columns: ["zeta_h", "damping", "damping_value"] },
+    { needed: [], columns: ["external_force_n"] },
+    { needed: [RIGID], columns: ["restitution", "restitution_speed_m_s", "restitution_power", "yield_speed_m_s"] },
+    { needed: [], columns: ["adhesion_coefficient", "work_of_adhesion_j", "adhesion_speed_m_s", "adhesion_power"] },
 ];

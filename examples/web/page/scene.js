@@ -17,6 +17,13 @@ const stepOf = (input, value) => {
     return Math.min(Math.max(Math.round(STEPS * part), 0), STEPS) || 0;
 };
 
+// Choices of materials: of the sphere, and of the surface.
+const MATERIALS = ["sphere_material", "surface_material"];
+
+// The text of a number in an SI unit, without the digits that the change of units adds.
+const inSi = (number) => String(Number(number.toPrecision(12)));
+const DEGREE = Math.PI / 180;
+
 const keyOf = (input) => input.key ?? input.column;
 const element = (name, properties = {}, ...children) => {
     const made = Object.assign(document.createElement(name), properties);
@@ -34,7 +41,8 @@ class Scene {
     constructor(form, changed) {
         this.values = Object.fromEntries(INPUTS.map((input) => [keyOf(input), input.start]));
         this.rows = new Map();
-        for (const [id, inputs] of Object.entries({ particle: PARTICLE, surface: SURFACE, motion: MOTION, errors: ERRORS })) {
+        const places = { "scene-model": MODEL, particle: PARTICLE, surface: SURFACE, motion: MOTION, more: MORE, errors: ERRORS };
+        for (const [id, inputs] of Object.entries(places)) {
             for (const input of inputs) {
                 const { row, show } = input.choices ? this.choice(input) : this.number(input);
                 this.rows.set(input, { row, show });
@@ -53,6 +61,40 @@ class Scene {
             this.changed();
         });
         this.showTerms();
+        this.offerMaterials();
+    }
+
+    // Fills the lists of materials.
+    async offerMaterials() {
+        const { output } = await program.run(["materials", "--format", "json"], "");
+        const names = JSON.parse(await output.text()).map(({ name }) => name);
+        for (const key of MATERIALS) {
+            document.getElementById(key).append(...names.map((name) => element("option", { value: name }, name)));
+        }
+    }
+
+    // Sets what the chosen materials give: the density of the sphere and, of two materials, the stiffness and the work of adhesion.
+    async useMaterials() {
+        const [sphere, surface] = MATERIALS.map((key) => this.values[key]);
+        if (sphere === "") return this.changed();
+        const { output } = await program.run(["materials", sphere, ...(surface === "" ? [] : [surface]), "--format", "csv"], "");
+        const [names, numbers] = cells(await output.text());
+        for (const input of INPUTS.filter((input) => MATERIALS.includes(input.of))) {
+            const number = numbers[names.indexOf(input.column)];
+            if (!number) continue;
+            this.values[keyOf(input)] = Number((Number(number) / input.si).toPrecision(12));
+            this.rows.get(input).show();
+        }
+        this.changed();
+    }
+
+    // A number that is set by hand is no longer that of a material.
+    setByHand(input, value) {
+        this.values[keyOf(input)] = value;
+        if (input.of && this.values[input.of] !== "") {
+            this.values[input.of] = "";
+            document.getElementById(input.of).value = "";
+        }
     }
 
     choice(input) {
@@ -62,7 +104,8 @@ class Scene {
         const show = () => select.value = this.values[key];
         select.addEventListener("change", () => {
             this.values[key] = select.value;
-            this.changed();
+            if (MATERIALS.includes(key)) this.useMaterials();
+            else this.changed();
         });
         show();
         return { row: element("div", { className: "choice" }, element("label", { htmlFor: key }, input.label), select), show };
@@ -79,13 +122,13 @@ class Scene {
             field.value = value;
         };
         range.addEventListener("input", () => {
-            this.values[key] = valueAt(input, Number(range.value));
+            this.setByHand(input, valueAt(input, Number(range.value)));
             show();
             this.changed();
         });
         field.addEventListener("input", () => {
             if (field.value === "") return;
-            this.values[key] = Number(field.value);
+            this.setByHand(input, Number(field.value));
             range.value = stepOf(input, this.values[key]);
             range.ariaValueText = `${field.value} ${input.unit}`;
             this.changed();
@@ -97,9 +140,10 @@ class Scene {
         return { row: element("div", { className: "number" }, label, range, field, unit), show };
     }
 
-    // Whether the scene has a term.
-    has({ where = {} }) {
-        return Object.entries(where).every(([choice, values]) => values.includes(this.values[choice]));
+    // Whether the scene has a term, by the model of the sliders or by another.
+    has({ where = {} }, model = this.values.scene_model) {
+        const value = (choice) => choice === "scene_model" ? model : this.values[choice];
+        return Object.entries(where).every(([choice, values]) => values.includes(value(choice)));
     }
 
     showTerms() {
@@ -107,13 +151,19 @@ class Scene {
     }
 
     // What the user asks for, by columns of the program, in SI units; a standard error of zero has no column.
-    columns() {
+    columns(model = this.values.scene_model) {
         const columns = {};
-        for (const input of INPUTS.filter((input) => this.has(input))) {
+        if (this.values.arrival === "path") {
+            const { path_speed: speed, path_angle: angle } = this.values;
+            columns.speed_normal_m_s = inSi(speed * Math.cos(angle * DEGREE));
+            columns.speed_tangential_m_s = inSi(speed * Math.sin(angle * DEGREE));
+        }
+        for (const input of INPUTS.filter((input) => !input.aside && this.has(input, model))) {
             const value = this.values[keyOf(input)];
+            if (input.optional && value === input.start) continue;
             if (input.choices) columns[input.column] = value;
-            else if (!input.of) columns[input.column] = String(Number((value * input.si).toPrecision(12)));
-            else if (value !== 0) columns[input.column] = String(Math.abs(Number(columns[input.of])) * value / 100);
+            else if (!input.errorOf) columns[input.column] = inSi(value * input.si);
+            else if (value !== 0) columns[input.column] = String(Math.abs(Number(columns[input.errorOf])) * value / 100);
         }
         // Hysteretic damping is given by its number alone.
         if (columns.damping === "hysteretic") delete columns.damping;

@@ -1,12 +1,13 @@
-// A file of impacts: its columns, and the result to save.
+// A file of impacts, and the result to save.
 
 // Columns that are shown where they hold something; the file has all.
 const SHOWN = ["name", "outcome", "motion", "overall_restitution", "contact_time_s", "models_agree", "class", "probability_capture", "error"];
 
 class TableOfImpacts {
-    constructor(section) {
+    constructor(section, scene) {
         this.section = section;
         this.form = section.querySelector("form");
+        this.mapping = new Mapping(this.form, scene);
         this.outcome = section.querySelector("#outcome");
         const input = section.querySelector("#file");
         input.addEventListener("change", () => input.files[0] && this.open(input.files[0]));
@@ -26,7 +27,6 @@ class TableOfImpacts {
             event.preventDefault();
             this.classify();
         });
-        section.querySelector("#model").addEventListener("change", () => this.showColumns());
     }
 
     // Reads the header of a file and offers its columns.
@@ -35,49 +35,18 @@ class TableOfImpacts {
         this.section.querySelector("#file-name").textContent = file.name;
         this.form.hidden = true;
         await this.attempt(async () => {
-            const { status, output, errors } = await program.run(["columns"], file);
-            if (status !== 0) throw new Error(await errors.text());
-            ({ headings: this.headings, units: this.units } = JSON.parse(await output.text()));
-            this.chosen = new Map();
-            this.showColumns();
+            const { output } = await this.step(["columns"], file);
+            this.mapping.open(JSON.parse(await output.text()));
             this.outcome.replaceChildren();
             this.form.hidden = false;
         });
     }
 
-    showColumns() {
-        const model = this.section.querySelector("#model").value;
-        const offered = OFFERED.filter(([, , , only]) => !only || model === "both" || only === model);
-        this.section.querySelector("#columns div").replaceChildren(...offered.map(([column, words, mark]) => this.choice(column, words, mark)));
-    }
-
-    // The choice of the heading that holds a column, and of its unit; a heading that names the column has its unit.
-    choice(column, words, mark) {
-        const own = this.headings.find(([, named]) => named === column)?.[0] ?? "";
-        const chosen = this.chosen.get(column) ?? { heading: own, name: column };
-        const heading = element("select", { id: `column-${column}` }, element("option", { value: "" }, "– none –"));
-        for (const [text] of this.headings) heading.append(element("option", { value: text }, text || "(without a name)"));
-        heading.value = chosen.heading;
-        const unit = element("select", { id: `unit-${column}`, ariaLabel: `Unit of ${words}` });
-        for (const [name, symbol] of this.units[column] ?? []) unit.append(element("option", { value: name }, symbol));
-        unit.value = chosen.name;
-        const show = () => unit.hidden = unit.options.length < 2 || heading.value === "" || heading.value === own;
-        for (const select of [heading, unit]) {
-            select.addEventListener("change", () => {
-                this.chosen.set(column, { heading: heading.value, name: unit.value || column });
-                show();
-            });
-        }
-        show();
-        const label = element("label", { htmlFor: heading.id }, `${words} `, ...symbol(mark));
-        return element("div", { className: "choice" }, label, element("span", { className: "pair" }, heading, unit));
-    }
-
-    // The headings that get another text, by turns with that text.
-    renamed() {
-        const own = (heading, column) => this.headings.some(([text, named]) => text === heading && named === column);
-        const chosen = [...this.chosen].filter(([column, { heading }]) => heading !== "" && !own(heading, column));
-        return chosen.flatMap(([, { heading, name }]) => [heading, name]);
+    // Runs a command of the program; a failure is thrown in its words.
+    async step(args, input, progress) {
+        const result = await program.run(args, input, progress);
+        if (result.status > 1) throw new Error((await result.errors.text()).trim());
+        return result;
     }
 
     async classify() {
@@ -86,16 +55,18 @@ class TableOfImpacts {
         progress.hidden = false;
         await this.attempt(async () => {
             const show = (fraction) => progress.value = fraction;
-            const named = await program.run(["rename", "--", ...this.renamed()], this.file);
-            const model = this.section.querySelector("#model").value;
-            const result = await program.run(["classify", "-", "--format", "csv", "--model", model], named.output, show);
+            const { mapping } = this, taken = mapping.taken(), model = mapping.model.value;
+            const named = await this.step(["rename", "--", ...mapping.renamed()], this.file);
+            const added = taken.flatMap(([column, value]) => [column, withoutMark(value)]);
+            const whole = taken.length === 0 ? named : await this.step(["complete", "--", ...added], named.output);
+            const result = await this.step(["classify", "-", "--format", "csv", "--model", model], whole.output, show);
+            const { output: summary } = await this.step(["summary"], result.output);
+            const { output } = await this.step(["restore", "--", ...mapping.headings.map(({ text }) => text)], result.output);
             const words = (await result.errors.text()).trim();
-            if (result.status > 1) throw new Error(words);
-            const { output } = await program.run(["summary"], result.output);
-            this.show(result.output, JSON.parse(await output.text()), words);
+            this.show(output, JSON.parse(await summary.text()), { words, taken });
         });
-        button.disabled = false;
         progress.hidden = true;
+        this.mapping.check();
     }
 
     async attempt(work) {
@@ -106,7 +77,7 @@ class TableOfImpacts {
         }
     }
 
-    show(result, { rows, bad, classes, names, first }, words) {
+    show(result, { rows, bad, classes, names, first }, { words, taken }) {
         if (this.link) URL.revokeObjectURL(this.link);
         this.link = URL.createObjectURL(result);
         const download = this.file.name.replace(/\.[^.]*$/, "") + "-classified.csv";
@@ -116,8 +87,15 @@ class TableOfImpacts {
         const head = element("tr", {}, ...shown.map((at) => element("th", { scope: "col" }, names[at])));
         const body = first.map((row) => element("tr", {}, ...shown.map((at) => element("td", {}, row[at]))));
         const caption = element("caption", {}, first.length < rows ? `The first ${first.length} of ${rows} rows` : `${rows} rows`);
+        const notes = [];
+        if (taken.length > 0) notes.push(`Taken from the sliders for all rows: ${listed(taken)}.`);
+        const assumed = words.match(/columns absent, and what is used: (.*)/)?.[1];
+        if (assumed) notes.push(`The table has no column for these; used in all rows: ${assumed}.`);
+        const empty = words.match(/empty cells, and what is used: (.*)/)?.[1];
+        if (empty) notes.push(`Empty cells, and what is used: ${empty}.`);
         this.outcome.replaceChildren(
             element("p", {}, `${rows} rows: ${counts.join("; ")}. `),
+            ...notes.map((note) => element("p", { className: "assumed" }, note)),
             element("p", {}, element("a", { id: "download", className: "button", href: this.link, download }, `Save ${download}`)),
             element("div", { className: "wide", tabIndex: 0 }, element("table", {}, caption, element("thead", {}, head), element("tbody", {}, ...body))),
             element("details", {}, element("summary", {}, "Which columns were read"), element("pre", {}, words)),
@@ -125,4 +103,4 @@ class TableOfImpacts {
     }
 }
 
-new TableOfImpacts(document.getElementById("sheet"));
+const impacts = new TableOfImpacts(document.getElementById("sheet"), scene);

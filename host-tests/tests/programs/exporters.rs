@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Command;
 
-use microimpact::contact::{Adaptive, Contact};
+use microimpact::contact::{Adaptive, AnyLaw, Contact, JkrEnd};
 use microimpact::{NormalMotion, Sphere, Stiffness};
 
 use crate::microimpact;
@@ -78,7 +78,9 @@ fn dictionary_for_openfoam() {
         let value = |key: &str| numbers(between(entry, key, ";"))[0];
         assert!((value("radius ") / radius - 1.0).abs() < 1e-12);
         let pairs = numbers(between(entry, "values\n", ";"));
-        assert_eq!(value("criticalSpeed"), pairs[0]);
+        // Below the critical speed it is zero, and beyond the last speed it is an error.
+        assert_eq!(pairs[..4], [0.0, 0.0, value("criticalSpeed"), 0.0]);
+        assert!(entry.contains("outOfBounds error;"));
         check(radius, &pairs);
     }
 }
@@ -105,14 +107,15 @@ typedef struct { double velocity[3], old_velocity[3], diameter; } Tracked_Partic
 #define TP_VEL(p) ((p)->velocity)
 #define TP_VEL0(p) ((p)->old_velocity)
 #define TP_DIAM(p) ((p)->diameter)
-enum { PATH_ACTIVE, PATH_END };
+enum { PATH_ACTIVE, PATH_END, PATH_ABORT };
+#include <stdio.h>
+#define Message(...) fprintf(stderr, __VA_ARGS__)
 #define DEFINE_DPM_BC(name, p, t, f, f_normal, dim) \\
     int name(Tracked_Particle *p, void *t, int f, double *f_normal, int dim)
 ";
 
 /// Reads radii and speeds; writes whether the particle goes on, its restitution, and the change of its velocity along the wall.
 const MAIN: &str = "
-#include <stdio.h>
 int main(void)
 {
     double normal[3] = {0.6, 0.0, 0.8}, radius, speed;
@@ -152,12 +155,26 @@ fn function_for_fluent() {
         .chain(between_radii)
         .flat_map(|(k, shift, error)| (1..60).map(move |speed| (2e-6 * ratio.powf(k), f64::from(speed), shift, error)))
         .collect();
+    // Outside the table, beside a speed and a radius at its ends.
+    let outside = [(0.5e-6, 60.0), (1.99e-6, 1.0), (16.1e-6, 30.0), (4e-6, 60.1), (f64::NAN, 30.0)];
+    let outside: Vec<_> = outside.map(|(radius, speed)| (radius, speed, 0.0, 0.0)).into();
+    let queries = [queries, outside.clone()].concat();
     let input: String = queries.iter().map(|(radius, speed, ..)| format!("{radius:e} {speed:e}\n")).collect();
     fs::write(folder.join("queries"), input).unwrap();
     let queried = fs::File::open(folder.join("queries")).unwrap();
     let output = Command::new(&program).stdin(queried).output().unwrap();
     let answers = numbers(&String::from_utf8(output.stdout).unwrap());
     assert_eq!(answers.len(), 3 * queries.len());
+    let complaint = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(complaint.matches("aborted a particle of radius 5e-07 m at 60 m/s").count(), 1, "{complaint}");
+    assert_eq!(complaint.lines().count(), 1, "{complaint}");
+    let (queries, answers) =
+        (&queries[..queries.len() - outside.len()], answers.split_at(answers.len() - 3 * outside.len()));
+    let (answers, beyond) = answers;
+    // The velocity stays as it was: -1 times that away from the wall.
+    for answer in beyond.chunks(3) {
+        assert!(answer[0] == 2.0 && (answer[1].is_nan() || (answer[1] + 1.0).abs() < 1e-9), "{answer:?}");
+    }
     for ((radius, speed, shift, error), answer) in queries.iter().zip(answers.chunks(3)) {
         let restitution = if answer[0] == 1.0 { 0.0 } else { answer[1] };
         let [low, high] = [-shift, *shift].map(|shift| simulated(*radius, speed * (1.0 + shift)));
@@ -171,6 +188,61 @@ fn function_for_fluent() {
     fs::remove_dir_all(folder).unwrap();
 }
 
+/// A law of options, with the same law of the library.
+type Stated = (&'static [&'static str], AnyLaw<f64>);
+
+#[test]
+fn every_law_of_contact() {
+    let stiffness = Stiffness::new(7.5e10).unwrap();
+    let laws: [Stated; 4] = [
+        (&["--law", "hertz"], AnyLaw::hertz(stiffness).with_damping(10.5).unwrap()),
+        (
+            &["--law", "dmt", "--work-of-adhesion", "0.3", "--damping", "constant", "--damping-value", "0.9"],
+            AnyLaw::dmt(stiffness, 0.3).unwrap().with_constant_damping(0.9).unwrap(),
+        ),
+        (
+            &["--law", "jkr", "--work-of-adhesion", "0.3", "--end-rule", "pull-off", "--zeta-h", "3"],
+            AnyLaw::jkr(stiffness, 0.3, JkrEnd::PullOff).unwrap().with_damping(3.0).unwrap(),
+        ),
+        (
+            &["--damping", "viscoelastic", "--damping-value", "1e-9", "--external-force", "1e-7"],
+            AnyLaw::ring(stiffness, 250.0, 6.25)
+                .and_then(|law| law.with_viscoelastic_damping(1e-9))
+                .and_then(|law| law.with_external_force(1e-7))
+                .unwrap(),
+        ),
+    ];
+    let method = Adaptive::new(1e-9).unwrap();
+    for (options, law) in &laws {
+        let contact = Contact::new(Sphere::solid(2e-6, 2600.0).unwrap(), *law);
+        let text = written("comsol", options);
+        let data: Vec<_> = text.lines().filter(|line| !line.starts_with('%')).map(numbers).collect();
+        assert!(data.len() > 3, "{text}");
+        for two in data.windows(2).filter(|two| two[0][0] > 0.0) {
+            let speed = (two[0][0] + two[1][0]) / 2.0;
+            let impact = contact.solve(&NormalMotion::new(speed).unwrap(), &method).unwrap();
+            let error = (two[0][1] + two[1][1]) / 2.0 - impact.normal.overall_restitution();
+            assert!(error.abs() <= ERROR, "{options:?} {speed}: {error}");
+        }
+        // Firmware's table is of the same law, which must have a critical speed.
+        let output = microimpact(
+            "table",
+            &[&["--format", "csv", "--cells", "2", "--smallest-radius", "2e-6"][..], options].concat(),
+            b"",
+        );
+        assert_eq!(output.status, if options.contains(&"hertz") { 2 } else { 0 }, "{}", output.complaint());
+    }
+}
+
+#[test]
+fn the_range_is_stated() {
+    let arguments = [&["--format", "fluent", "--radii", "2"], &ARGUMENTS[..]].concat();
+    let output = microimpact("table", &arguments, b"");
+    let range = "It holds radii from 2e-6 to 1.6e-5 m, and approach speeds up to 60 m/s";
+    assert!(output.complaint().contains(range), "{}", output.complaint());
+    assert!(String::from_utf8(output.stdout).unwrap().contains(range));
+}
+
 #[test]
 fn what_cannot_be_a_table_is_refused() {
     for (arguments, words) in [
@@ -178,6 +250,19 @@ fn what_cannot_be_a_table_is_refused() {
         (&["--format", "fluent", "--restitution-error", "0.2"], "enter a number from 0.0001 to 0.1"),
         (&["--format", "openfoam", "--fastest", "0"], "approach speed"),
         (&["--format", "fluent", "--smallest-radius", "1e-9"], "captured at every speed"),
+        (&["--format", "comsol", "--smallest-radius", "5e-7"], "captured up to 2.1353e2 m/s, their critical speed"),
+        // Viscoelastic damping holds small spheres at every speed.
+        (
+            &["--format", "c", "--cells", "1", "--damping", "viscoelastic", "--damping-value", "1e-8"],
+            "captured at every speed",
+        ),
+        (&["--format", "comsol", "--law", "jkr"], "--work-of-adhesion: missing"),
+        (
+            &["--format", "comsol", "--law", "dmt", "--adhesion", "5"],
+            "--adhesion: \"5e0\" is refused: it belongs to the ring",
+        ),
+        (&["--format", "comsol", "--damping", "viscoelastic"], "--damping-value: missing"),
+        (&["--format", "comsol", "--end-rule", "snap-off"], "--end-rule: \"snap-off\" is refused"),
     ] {
         let output = microimpact("table", arguments, b"");
         assert_eq!((output.status, output.stdout.len()), (2, 0), "{arguments:?}");

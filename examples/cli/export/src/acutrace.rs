@@ -17,7 +17,8 @@ pub fn write(to: &mut dyn Write, table: &Table) -> io::Result<()> {
     let Some(Curve { radius, points, .. }) = table.curves.first() else { return Ok(()) };
     writeln!(
         to,
-        "# Spheres of radius {radius:e} m. A captured sphere has e = 0: it keeps its velocity along the wall."
+        "# Spheres of radius {radius:e} m. A captured sphere has e = 0: it keeps its velocity along the wall. \
+         Check that no sphere is faster than the table: AcuTrace would take its last e."
     )?;
     writeln!(to, "FINITE_MASS_BOUNDARY_CONDITION( \"microimpact\" ) {{")?;
     writeln!(to, "    particle_surface         = \"wall\"")?;

@@ -16,7 +16,8 @@ pub fn write(to: &mut dyn Write, table: &Table) -> io::Result<()> {
     writeln!(to, "% Spheres of radius {radius:e} m. Critical speed {critical_speed:e} m/s.")?;
     writeln!(
         to,
-        "% Interpolation linear, extrapolation constant. Reflected normal velocity: -e(abs(vn))*vn; freeze if e is 0."
+        "% Interpolation linear; extrapolation \"Specific value\" NaN, so that a faster sphere is an error and has no wrong e. \
+         Reflected normal velocity: -e(abs(vn))*vn; freeze if e is 0."
     )?;
     writeln!(to, "% speed_m_s restitution")?;
     writeln!(to, "0 {:e}", points.first().map_or(0.0, |point| point.restitution))?;

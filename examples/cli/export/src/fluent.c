@@ -20,12 +20,21 @@ static double curve_restitution(int curve, double speed)
         * (point_restitution[high] - point_restitution[low]);
 }
 
-/* The restitution of a sphere of this radius in m at this approach speed in m/s; 0 if it is captured. Between two radii it is
-   that of both curves at the same multiple of the critical speed. */
+/* Radii and speeds within rounding of the ends of the table are in it. */
+#define ROUNDING 1e-6
+
+/* In place of a restitution that the table does not hold. */
+#define OUTSIDE_TABLE (-1.0)
+
+/* The restitution of a sphere of this radius in m at this approach speed in m/s; 0 if it is captured, OUTSIDE_TABLE if the table
+   does not hold it. Between two radii it is that of both curves at the same multiple of the critical speed. */
 static double impact_restitution(double radius, double speed)
 {
     int next = 0;
     double part, slow, fast, over_critical;
+    if (!(radius >= (1.0 - ROUNDING) * curve_radius[0] && radius <= (1.0 + ROUNDING) * curve_radius[CURVES - 1]
+            && speed <= (1.0 + ROUNDING) * FASTEST))
+        return OUTSIDE_TABLE;
     while (next < CURVES && curve_radius[next] < radius)
         next++;
     if (next == 0 || next == CURVES)
@@ -41,14 +50,24 @@ static double impact_restitution(double radius, double speed)
 }
 
 /* Boundary condition of particles: the wall keeps what it captures, and changes only the normal velocity of what rebounds. The
-   wall must be at rest; for axisymmetric swirl the normal must be turned as Fluent's manual says. */
+   wall must be at rest; for axisymmetric swirl the normal must be turned as Fluent's manual says. A particle outside the table is
+   aborted, so that Fluent counts it as such, and the first one is reported. */
 DEFINE_DPM_BC(microimpact, p, t, f, f_normal, dim)
 {
+    static int is_reported = 0;
     double normal_velocity = 0.0, restitution;
     int i;
     for (i = 0; i < dim; i++)
         normal_velocity += TP_VEL(p)[i] * f_normal[i];
     restitution = impact_restitution(0.5 * TP_DIAM(p), fabs(normal_velocity));
+    if (restitution == OUTSIDE_TABLE) {
+        if (!is_reported)
+            Message("microimpact: aborted a particle of radius %g m at %g m/s: the table holds radii from %g to %g m and speeds "
+                    "up to %g m/s; make a table that covers it\n",
+                0.5 * TP_DIAM(p), fabs(normal_velocity), curve_radius[0], curve_radius[CURVES - 1], FASTEST);
+        is_reported = 1;
+        return PATH_ABORT;
+    }
     if (restitution <= 0.0)
         return PATH_END;
     for (i = 0; i < dim; i++) {

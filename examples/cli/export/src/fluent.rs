@@ -7,7 +7,8 @@ use crate::Table;
 /// The functions, which read the arrays.
 const FUNCTIONS: &str = include_str!("fluent.c");
 
-/// Writes the table as arrays of C, and the functions that read them.
+/// Writes the table as arrays of C, and the functions that read them. The boundary condition aborts a particle whose radius or speed is
+/// outside the table.
 ///
 /// # Errors
 /// Those of the stream.
@@ -23,6 +24,7 @@ pub fn write(to: &mut dyn Write, table: &Table) -> io::Result<()> {
         Some(*begin)
     });
     let begins: Vec<_> = [0].into_iter().chain(begins).map(|begin| begin.to_string()).collect();
+    writeln!(to, "/* Largest speed of the table, m/s. */\n#define FASTEST {:e}", table.fastest)?;
     writeln!(to, "#define CURVES {}", curves.len())?;
     array(to, "double", "curve_radius", curves.iter().map(|curve| format!("{:e}", curve.radius)))?;
     array(to, "double", "critical_speed", curves.iter().map(|curve| format!("{:e}", curve.critical_speed)))?;

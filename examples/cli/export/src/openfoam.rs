@@ -8,7 +8,7 @@ const HEADER: [(&str, &str); 4] =
     [("version", "2.0"), ("format", "ascii"), ("class", "dictionary"), ("object", "restitutionProperties")];
 
 /// Writes the table as a dictionary: an entry for each radius, with `radius`, `criticalSpeed` and `restitution`, a `Function1` of
-/// the approach speed.
+/// the approach speed, which is an error beyond the table.
 ///
 /// # Errors
 /// Those of the stream.
@@ -27,7 +27,8 @@ pub fn write(to: &mut dyn Write, table: &Table) -> io::Result<()> {
             to,
             "    criticalSpeed   {critical_speed:e};\n    restitution     table;\n    restitutionCoeffs\n    {{"
         )?;
-        writeln!(to, "        outOfBounds clamp;\n        values\n        (")?;
+        writeln!(to, "        outOfBounds error;\n        values\n        (")?;
+        writeln!(to, "            (0 {:e})", points.first().map_or(0.0, |point| point.restitution))?;
         for Point { speed, restitution } in points {
             writeln!(to, "            ({speed:e} {restitution:e})")?;
         }

@@ -6,6 +6,7 @@
 use microimpact::Parameter;
 use microimpact::Parameter as P;
 
+use crate::header::stated_unit;
 use crate::units::units_of;
 
 /// The values that a column may have.
@@ -49,18 +50,25 @@ impl Column {
         self.name.strip_suffix(suffix.as_str()).and_then(|base| base.strip_suffix('_')).unwrap_or(self.name)
     }
 
-    /// Names that a header may give the column, one for each unit, with the symbol of the unit. The first is its own name.
+    /// Headings that name the column, one for each unit, with the symbol of the unit. The first is its own name.
     #[must_use]
     pub fn names(&self) -> Vec<(String, &'static str)> {
         let mut names = vec![(self.name.to_owned(), self.unit)];
-        for unit in units_of(self.unit) {
+        for unit in units_of(self.unit).iter().filter(|unit| unit.symbol != self.unit) {
             let name = format!("{}_{}", self.base(), unit.suffix());
-            // A name in lower case does not tell a milli from a mega: it is the unit that comes first.
-            if names.iter().all(|(other, _)| *other != name) && self.base() != self.name {
-                names.push((name, unit.symbol));
-            }
+            // A name in lower case does not tell a milli from a mega, and a number without a unit has none in its name.
+            let is_clear = self.base() != self.name && names.iter().all(|(other, _)| *other != name);
+            names.push((if is_clear { name } else { format!("{} [{}]", self.base(), unit.symbol) }, unit.symbol));
         }
         names
+    }
+
+    /// The one of [`names`](Self::names) whose unit a heading with other words states, in brackets or at its end; `None` if it states
+    /// none of this quantity.
+    #[must_use]
+    pub fn name_in_unit_of(&self, heading: &str) -> Option<String> {
+        let unit = stated_unit(heading, units_of(self.unit))?;
+        self.names().into_iter().find(|(_, symbol)| *symbol == unit.symbol).map(|(name, _)| name)
     }
 
     /// The range in words.
@@ -306,6 +314,8 @@ columns! {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Input;
+    use crate::header::Heading;
     use crate::units::{unit_by_suffix, units_of};
 
     /// Each name is unique, ends with its unit, and says which one it is.
@@ -323,6 +333,35 @@ mod tests {
                 let end = column.name.strip_prefix(column.base()).unwrap();
                 assert!(unit_by_suffix(units_of(column.unit), &end[1..]).is_some_and(|unit| unit.is_si()), "{end}");
             }
+        }
+    }
+
+    /// Every unit has a heading of its own, and a heading with other words names the column in the unit that it states.
+    #[test]
+    fn units_of_headings() {
+        for column in COLUMNS {
+            for (name, symbol) in column.names() {
+                let read = Heading::of(&name, &[Input::further(std::slice::from_ref(&column.name))]).unwrap();
+                let is_own =
+                    units_of(column.unit).iter().find(|unit| unit.symbol == symbol).filter(|unit| !unit.is_si());
+                assert_eq!((read.name.as_str(), read.unit.as_ref()), (column.name, is_own), "{name}");
+            }
+        }
+        for (column, heading, name) in [
+            ("speed_normal_m_s", "Impact vel [cm/s]", Some("speed_normal_cm_s")),
+            ("speed_normal_m_s", "v (km/h)", Some("speed_normal_km_h")),
+            ("speed_normal_m_s", "impact_vel_mm_s", Some("speed_normal_mm_s")),
+            ("speed_normal_m_s", "vel cm/s", Some("speed_normal_cm_s")),
+            ("speed_normal_m_s", "v [um]", None),
+            ("speed_normal_m_s", "speeds", None),
+            ("diameter_m", "Size d (µm)", Some("diameter_um")),
+            ("stiffness_pa", "K [mPa]", Some("stiffness [mPa]")),
+            ("stiffness_pa", "K [GPa]", Some("stiffness_gpa")),
+            ("friction", "f in %", Some("friction [%]")),
+            ("friction", "friction", None),
+            ("friction", "f [%]", Some("friction [%]")),
+        ] {
+            assert_eq!(Column::named(column).unwrap().name_in_unit_of(heading).as_deref(), name, "{heading}");
         }
     }
 

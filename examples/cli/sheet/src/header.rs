@@ -26,7 +26,6 @@ impl Heading {
     pub(crate) fn of(cell: &str, inputs: &[Input]) -> Result<Self, String> {
         let text = cell.trim().trim_start_matches('\u{feff}');
         let (words, brackets) = split(text);
-        let lower = |text: &str| text.trim().to_lowercase().replace(['µ', 'μ'], "u").replace([' ', '-'], "_");
         let base = lower(words);
         let columns = || inputs.iter().flat_map(|input| input.columns()).copied();
         let mut heading = Self {
@@ -107,6 +106,23 @@ impl Heading {
             None => self.name.clone(),
         }
     }
+}
+
+/// A text as names of columns are written: in lower case, with underscores for spaces.
+fn lower(text: &str) -> String {
+    text.trim().to_lowercase().replace(['µ', 'μ'], "u").replace([' ', '-'], "_")
+}
+
+/// The unit that a heading states in brackets or at its end, whatever its words; `None` if it states none of this quantity.
+pub(crate) fn stated_unit(heading: &str, units: &'static [Unit]) -> Option<Unit> {
+    let (words, brackets) = split(heading.trim());
+    if let Some(unit) = brackets {
+        return unit_in(units, unit);
+    }
+    let name = lower(words).replace('/', "_").replace('^', "");
+    let ends_with = |unit: &&Unit| name.strip_suffix(unit.suffix().as_str()).is_some_and(|rest| rest.ends_with('_'));
+    // The longest, as cm/s rather than s; of those that differ in capitals only, the commoner, which is first.
+    units.iter().rev().filter(ends_with).max_by_key(|unit| unit.symbol.len()).copied()
 }
 
 /// The words before brackets at the end of a header, and what stands in the brackets.

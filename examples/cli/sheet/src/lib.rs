@@ -6,6 +6,7 @@
 
 pub mod catalogue;
 mod columns;
+mod complete;
 mod decimal;
 mod dialect;
 mod empty;
@@ -27,12 +28,13 @@ use std::io::{BufReader, Read};
 pub use csv::ByteRecord;
 
 pub use columns::{Header, Input, LABEL};
+pub use complete::complete;
 pub use decimal::Decimal;
 use decimal::{Convention, JUDGED_ROWS, Judge};
 pub use empty::EmptyCells;
 pub use frame::Frame;
 use header::{Heading, is_unit_row};
-pub use rename::{headings, rename};
+pub use rename::{headings, rename, restore};
 pub use row::Row;
 use row::text;
 use source::{Guard, Source};

@@ -3,28 +3,28 @@
 use std::io::{BufRead, BufReader, Read, Write, copy};
 use std::slice::from_ref;
 
-use csv::ByteRecord;
+use csv::{ByteRecord, Terminator};
 
-use crate::Input;
 use crate::catalogue::COLUMNS;
 use crate::dialect::{self, Dialect};
 use crate::header::Heading;
 use crate::source::Source;
 use crate::writer::BYTE_ORDER_MARK;
+use crate::{COMMENT, Input};
 
 /// Most lines of a header, whose quoted cells may hold line ends.
 const MOST_LINES: usize = 100;
 
 /// A table up to its header, and what follows.
-struct Start<'a> {
+pub(crate) struct Start<'a> {
     byte_order_mark: bool,
-    dialect: Dialect,
-    header: ByteRecord,
-    rest: BufReader<Box<dyn Read + 'a>>,
+    pub(crate) dialect: Dialect,
+    pub(crate) header: ByteRecord,
+    pub(crate) rest: BufReader<Box<dyn Read + 'a>>,
 }
 
 impl<'a> Start<'a> {
-    fn of(source: impl Read + 'a) -> Result<Self, String> {
+    pub(crate) fn of(source: impl Read + 'a) -> Result<Self, String> {
         let source = Source::of(source)?;
         let mut rest = BufReader::new(source.text);
         let (dialect, mut line) = dialect::read(&mut rest)?;
@@ -38,6 +38,36 @@ impl<'a> Start<'a> {
         let header = reader.into_byte_records().next().unwrap_or_else(|| Ok(ByteRecord::new()));
         let header = header.map_err(|error| error.to_string())?;
         Ok(Self { byte_order_mark: source.byte_order_mark, dialect, header, rest })
+    }
+
+    /// A writer of rows in the variant of the table.
+    pub(crate) fn writer<W: Write>(&self, sink: W) -> csv::Writer<W> {
+        let terminator = if self.dialect.carriage_return { Terminator::CRLF } else { Terminator::Any(b'\n') };
+        csv::WriterBuilder::new()
+            .delimiter(self.dialect.delimiter)
+            .terminator(terminator)
+            .flexible(true)
+            .comment(Some(COMMENT))
+            .from_writer(sink)
+    }
+
+    /// Writes what stands before the rows, with these headings.
+    pub(crate) fn write(
+        &self,
+        headings: impl IntoIterator<Item = String>,
+        sink: &mut impl Write,
+    ) -> Result<(), String> {
+        let mut writer = self.writer(Vec::new());
+        writer.write_record(headings.into_iter().map(String::into_bytes)).map_err(|error| error.to_string())?;
+        let header = writer.into_inner().map_err(|error| error.to_string())?;
+        let mark = if self.byte_order_mark { BYTE_ORDER_MARK } else { b"" };
+        sink.write_all(&[mark, &self.dialect.preamble, &header].concat()).map_err(|error| error.to_string())
+    }
+
+    /// Writes a table with these headings and the rows that follow, as they are.
+    fn copy(mut self, headings: Vec<String>, mut sink: impl Write) -> Result<(), String> {
+        self.write(headings, &mut sink)?;
+        copy(&mut self.rest, &mut sink).map(drop).map_err(|error| error.to_string())
     }
 }
 
@@ -64,30 +94,39 @@ pub fn headings(source: impl Read) -> Result<Vec<(String, Option<String>)>, Stri
 }
 
 /// Copies a table, in which some columns get other headings: each pair is a heading as it is written, and the one to write
-/// instead. Another heading that names the same column becomes `unused_HEADING`.
+/// instead. One that is empty, and another heading that names the same column, become `unused_HEADING`.
 ///
 /// # Errors
 /// What is wrong with the table, in words.
-pub fn rename(source: impl Read, names: &[(String, String)], mut sink: impl Write) -> Result<(), String> {
-    let Start { byte_order_mark, dialect, header, mut rest } = Start::of(source)?;
+pub fn rename(source: impl Read, names: &[(String, String)], sink: impl Write) -> Result<(), String> {
+    let start = Start::of(source)?;
     let taken: Vec<_> = names.iter().filter_map(|(_, to)| column(to)).collect();
-    let renamed = header.iter().map(|cell| {
-        let heading = text(cell);
-        match names.iter().find(|(from, _)| *from == heading) {
-            Some((_, to)) => to.clone(),
-            None if column(&heading).is_some_and(|column| taken.contains(&column)) => format!("unused_{heading}"),
-            None => heading,
-        }
+    let renamed = start.header.iter().map(text).map(|heading| match names.iter().find(|(from, _)| *from == heading) {
+        Some((_, to)) if !to.is_empty() => to.clone(),
+        None if column(&heading).is_none_or(|column| !taken.contains(&column)) => heading,
+        _ => format!("unused_{heading}"),
     });
-    let terminator = if dialect.carriage_return { csv::Terminator::CRLF } else { csv::Terminator::Any(b'\n') };
-    let mut variant = csv::WriterBuilder::new();
-    variant.delimiter(dialect.delimiter).terminator(terminator);
-    let mut writer = variant.from_writer(Vec::new());
-    writer.write_record(renamed.map(String::into_bytes)).map_err(|error| error.to_string())?;
-    let header = writer.into_inner().map_err(|error| error.to_string())?;
-    let mark = if byte_order_mark { BYTE_ORDER_MARK } else { b"" };
-    let start = [mark, &dialect.preamble, &header].concat();
-    sink.write_all(&start).and_then(|()| copy(&mut rest, &mut sink)).map(drop).map_err(|error| error.to_string())
+    let headings = renamed.collect();
+    start.copy(headings, sink)
+}
+
+/// Copies a table whose first columns get the headings of another again. One that a later column has becomes `input_HEADING`.
+///
+/// # Errors
+/// What is wrong with the table, in words.
+pub fn restore(source: impl Read, given: &[String], sink: impl Write) -> Result<(), String> {
+    let start = Start::of(source)?;
+    let others: Vec<_> = start.header.iter().skip(given.len()).map(|cell| text(cell).to_lowercase()).collect();
+    let restored = start.header.iter().enumerate().map(|(index, cell)| {
+        let Some(heading) = given.get(index) else { return text(cell) };
+        let mut heading = heading.clone();
+        while others.contains(&heading.to_lowercase()) {
+            heading.insert_str(0, "input_");
+        }
+        heading
+    });
+    let headings = restored.collect();
+    start.copy(headings, sink)
 }
 
 #[cfg(test)]
@@ -108,8 +147,18 @@ mod tests {
             "\u{feff}# from the bench\r\nradius_um;speed_normal_m_s;unused_Radius [mm]\r\n1;\"2;\"\"3\";4\r\n5;6;7";
         assert_eq!(renamed(table, &[("Size", "radius_um"), ("speed; out", "speed_normal_m_s")]), expected);
         assert_eq!(renamed(table, &[]), table);
+        assert_eq!(renamed("zeta_h,v\n1,2\n", &[("zeta_h", "")]), "unused_zeta_h,v\n1,2\n");
         assert_eq!(renamed("\"a\nb\",c\n1,2\n", &[("a\nb", "friction")]), "friction,c\n1,2\n");
         assert!(rename("".as_bytes(), &[], Vec::new()).unwrap_err().contains("the table is empty"));
+    }
+
+    #[test]
+    fn a_result_gets_the_headings_of_its_table() {
+        let result = "radius_um;unused_zeta_h;input_law;motion;law\n1;2;3;4;5\n";
+        let given = ["Size (um)", "zeta_h", "Law"].map(String::from);
+        let mut to = Vec::new();
+        restore(result.as_bytes(), &given, &mut to).unwrap();
+        assert_eq!(String::from_utf8(to).unwrap(), "Size (um);zeta_h;input_Law;motion;law\n1;2;3;4;5\n");
     }
 
     #[test]

@@ -9,17 +9,19 @@ use serde_json::{Value, json};
 use sheet::catalogue::COLUMNS;
 use sheet::{Decimal, Row, Sheet};
 
-/// Writes the headings of a table, each with the column that it names, and the headings that a column may have, one for each unit.
+/// Writes the headings of a table, each with the column that it names and its name as any column whose unit it states, and the
+/// headings that a column may have, one for each unit.
 pub fn columns(streams: &mut Streams<'_>) -> Result<(), String> {
-    let headings = sheet::headings(&mut *streams.input)?;
+    let headings: Vec<_> = sheet::headings(&mut *streams.input)?
+        .into_iter()
+        .map(|(heading, named)| {
+            let stated = COLUMNS.iter().filter_map(|column| Some((column.name, column.name_in_unit_of(&heading)?)));
+            let stated: BTreeMap<_, _> = stated.collect();
+            json!({ "text": heading, "column": named, "stated": stated })
+        })
+        .collect();
     let units: BTreeMap<_, _> = COLUMNS.iter().map(|column| (column.name, column.names())).collect();
     write(&json!({ "headings": headings, "units": units }), streams.output)
-}
-
-/// Copies a table with other names for some of its columns: old and new ones by turns.
-pub fn rename(names: &[String], streams: &mut Streams<'_>) -> Result<(), String> {
-    let pairs: Vec<_> = names.chunks_exact(2).map(|pair| (pair[0].clone(), pair[1].clone())).collect();
-    sheet::rename(&mut *streams.input, &pairs, &mut *streams.output)
 }
 
 /// Writes how many rows a classified table has, how many of them are bad, how often each class occurs, and its first rows.

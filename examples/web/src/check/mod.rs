@@ -33,9 +33,16 @@ pub fn page(file: &Path, permission: Permission) -> Result<(), String> {
     sliders::names_of_controls(&mut browser)?;
     sliders::every_term(&mut browser)?;
     sliders::refusal(&mut browser)?;
+    sliders::rigid_body(&mut browser)?;
+    sliders::materials(&mut browser)?;
+    sliders::angle_and_force(&mut browser)?;
     tables::cases(&mut browser, &cases)?;
     tables::mapping(&mut browser)?;
     tables::workbook(&mut browser)?;
+    tables::units_of_headings(&mut browser)?;
+    tables::none_and_twice(&mut browser)?;
+    tables::completed_by_sliders(&mut browser)?;
+    tables::results_are_in_view(&mut browser)?;
     screenshots::write(&mut browser, file, &cases)?;
 
     let own = |url: &String| ["file:", "blob:", "data:", "about:"].iter().any(|scheme| url.starts_with(scheme));

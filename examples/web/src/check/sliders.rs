@@ -65,6 +65,15 @@ pub fn first_answer(browser: &mut Browser) -> Result<(), String> {
     let class = format!("{}, {}", first_row(&classified, "outcome")?, first_row(&classified, "motion")?);
     let shown = browser.text("document.getElementById('class').textContent")?;
     same("the class", &shown.to_lowercase(), &class)?;
+    let charts = browser.value("document.querySelectorAll('#results figure > svg').length")?;
+    if charts != json!(3) {
+        return Err(format!("the page has {charts} charts and not 3"));
+    }
+    let ids = "[...document.querySelectorAll('[id]')].map((part) => part.id)";
+    let twice = browser.value(&format!("{ids}.filter((id, at, all) => all.indexOf(id) !== at)"))?;
+    if twice != json!([]) {
+        return Err(format!("parts of the page share the names {twice}"));
+    }
     for (row, column, unit) in
         [("Largest indentation δ", "max_indentation_m", "m"), ("Contact time t", "contact_time_s", "s")]
     {
@@ -153,21 +162,19 @@ pub fn every_term(browser: &mut Browser) -> Result<(), String> {
 
 /// A number out of its range is refused in the program's words, and standard errors give probabilities.
 pub fn refusal(browser: &mut Browser) -> Result<(), String> {
-    let enter = |id: &str, number: &str| {
-        format!(
-            "(() => {{ const field = document.getElementById('{id}'); field.value = '{number}'; \
-             field.dispatchEvent(new Event('input')); }})()"
-        )
-    };
-    browser.value(&enter("speed_normal_m_s", "-2.8"))?;
+    enter(browser, "speed_normal_m_s", "-2.8")?;
     browser.wait_for(READY)?;
     let reason = browser.text("document.getElementById('margin').textContent")?;
     let table = browser.text("table(scene.columns())")?;
     let classified = program(&["classify", "-", "--model", "simulation", "--format", "csv"], table.as_bytes())?;
     same("the reason", &reason, &first_row(&classified, "error")?)?;
+    let left = browser.value("document.querySelectorAll('#numbers td, #results svg').length")?;
+    if left != json!(0) {
+        return Err(format!("{left} numbers and charts of another impact are left beside the refusal"));
+    }
 
-    browser.value(&enter("speed_normal_m_s", "1.5"))?;
-    browser.value(&enter("speed_normal_error_m_s", "5"))?;
+    enter(browser, "speed_normal_m_s", "1.5")?;
+    enter(browser, "speed_normal_error_m_s", "5")?;
     browser.wait_for(READY)?;
     let table = browser.text("table(scene.columns())")?;
     let classified = program(&["classify", "-", "--model", "simulation", "--format", "csv"], table.as_bytes())?;
@@ -177,4 +184,104 @@ pub fn refusal(browser: &mut Browser) -> Result<(), String> {
         return Err(format!("the probability of a rolling rebound is {rolling}; the page shows {shown}"));
     }
     reset(browser)
+}
+
+/// Enters a number in a field.
+fn enter(browser: &mut Browser, id: &str, number: &str) -> Result<(), String> {
+    browser.value(&format!(
+        "(() => {{ const field = document.getElementById('{id}'); field.value = '{number}'; \
+         field.dispatchEvent(new Event('input')); }})()"
+    ))?;
+    Ok(())
+}
+
+/// The rigid body has the class, the restitution and the critical speed of the program, by each law.
+pub fn rigid_body(browser: &mut Browser) -> Result<(), String> {
+    choose(browser, "scene_model", "rigid-body")?;
+    for (restitution, adhesion) in [("speed", "work"), ("constant", "coefficient"), ("speed", "none")] {
+        choose(browser, "restitution_law", restitution)?;
+        choose(browser, "adhesion_law", adhesion)?;
+        browser.wait_for(READY)?;
+        let table = browser.text("table(scene.columns())")?;
+        let classified = program(&["classify", "-", "--model", "rigid-body", "--format", "csv"], table.as_bytes())?;
+        let outcome = first_row(&classified, "outcome")?.replace("capture", "captured");
+        let class = format!("{outcome}, {}", first_row(&classified, "motion")?);
+        let shown = browser.text("document.getElementById('class').textContent")?;
+        same("the class of the rigid body", &shown.to_lowercase(), &class)?;
+        let margin = browser.text("document.getElementById('margin').textContent")?;
+        let over = first_row(&classified, "speed_over_critical")?;
+        let stated = if over.is_empty() {
+            "There is no critical speed".to_owned()
+        } else {
+            format!("is {} times the critical speed", browser.text(&format!("digits({})", json!(over)))?)
+        };
+        if !margin.contains(&stated) {
+            return Err(format!("the page says \"{margin}\" where it must say \"{stated}\""));
+        }
+        let curve = browser.value("document.querySelectorAll('#restitution-curve > svg polyline').length")?;
+        let page = browser.text("document.querySelector('main').innerHTML")?;
+        if curve != json!(1) || ["NaN", "Infinity", "undefined"].iter().any(|word| page.contains(word)) {
+            return Err(format!(
+                "rigid body, restitution {restitution}, adhesion {adhesion}: the curve is missing, or a number is none"
+            ));
+        }
+    }
+    reset(browser)
+}
+
+/// Two materials set what the program computes for them, and a number that is set by hand is that of no material.
+pub fn materials(browser: &mut Browser) -> Result<(), String> {
+    browser.wait_for("document.getElementById('surface_material').options.length > 10")?;
+    choose(browser, "sphere_material", "polystyrene")?;
+    choose(browser, "surface_material", "steel")?;
+    let pair = program(&["materials", "polystyrene", "steel", "--format", "csv"], b"")?;
+    browser.wait_for("scene.columns().stiffness_pa !== '75000000000'")?;
+    for column in ["density_kg_m3", "stiffness_pa"] {
+        let found =
+            browser.text(&format!("scene.columns().{column}"))?.parse::<f64>().map_err(|error| error.to_string())?;
+        let expected = first_row(&pair, column)?.parse::<f64>().map_err(|error| error.to_string())?;
+        if (found / expected - 1.0).abs() > 1e-9 {
+            return Err(format!("{column} of polystyrene on steel is {found} and not {expected}"));
+        }
+    }
+    enter(browser, "stiffness_pa", "75")?;
+    same("the material of a surface by its numbers", &browser.text("scene.values.surface_material")?, "")?;
+    reset(browser)
+}
+
+/// A speed along a path has two components, and a force and the other terms that are folded away reach the program.
+pub fn angle_and_force(browser: &mut Browser) -> Result<(), String> {
+    choose(browser, "arrival", "path")?;
+    enter(browser, "path_speed", "4")?;
+    enter(browser, "path_angle", "30")?;
+    enter(browser, "external_force_n", "-2")?;
+    enter(browser, "gyration_ratio", "0.6")?;
+    browser.wait_for(READY)?;
+    for (column, expected) in [
+        ("speed_normal_m_s", 12.0_f64.sqrt()),
+        ("speed_tangential_m_s", 2.0),
+        ("external_force_n", -2e-6),
+        ("gyration_ratio", 0.6),
+    ] {
+        let found = browser.text(&format!("scene.columns().{column}"))?;
+        let error = found.parse::<f64>().map_err(|error| error.to_string())? / expected - 1.0;
+        if error.abs() > 1e-9 {
+            return Err(format!("{column} is {found} and not {expected}"));
+        }
+    }
+    answered(browser)?;
+    // The program knows no force with this end.
+    enter(browser, "external_force_n", "0")?;
+    choose(browser, "law", "hertz")?;
+    choose(browser, "end_of_hertz", "no-force")?;
+    browser.wait_for(READY)?;
+    same("the end of contact", &browser.text("scene.columns().end_rule")?, "no-force")?;
+    answered(browser)?;
+    reset(browser)
+}
+
+/// Fails with the reason if there is no answer.
+fn answered(browser: &mut Browser) -> Result<(), String> {
+    let class = browser.text("document.getElementById('class').textContent")?;
+    if class == "No answer" { Err(browser.text("document.getElementById('margin').textContent")?) } else { Ok(()) }
 }

@@ -1,0 +1,166 @@
+//! Time of a row by arrays on one thread over that of a loop of single calls, and rows per second on all threads.
+//!
+//! `cargo bench --package impact-arrays`
+
+use std::error::Error;
+use std::hint::black_box;
+use std::time::Instant;
+
+use comfy_table::Table;
+use impact_arrays::{
+    Adhesion, Column, Contacts, Damping, Impacts, Law, Motions, Quantity, Restitution, RigidBodies, Surface,
+};
+use microimpact::contact::{Adaptive, Contact};
+use microimpact::rigid::SpeedRestitution;
+use microimpact::{InputError, NormalMotion, RigidBody, Sphere, Stiffness};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// Rows by each model: a measurement takes about a millisecond, in which other work rarely interrupts it.
+const ROWS_OF_RIGID_BODIES: usize = 8192;
+const ROWS_OF_SIMULATIONS: usize = 256;
+
+/// Measurements of the loop and of the arrays by turns; the least time of each counts.
+const TURNS: usize = 300;
+
+/// How many times more rows all threads share.
+const MORE: usize = 64;
+
+/// The quantities that both compute.
+const QUANTITIES: [Quantity; 2] = [Quantity::OverallRestitution, Quantity::SpinOut];
+
+/// Numbers of the paper's Table 1 in SI units.
+const DENSITY: f64 = 2600.0;
+const STIFFNESS: f64 = 7.5e10;
+const ADHESION: f64 = 250.0;
+const ZETA_A: f64 = 6.25;
+const ZETA_H: f64 = 10.5;
+const FRICTION: f64 = 0.1;
+const TANGENTIAL: f64 = 1.0;
+const RESTITUTION_SPEED: f64 = 130.0;
+const WORK_OF_ADHESION: f64 = 2.22e-12;
+
+/// Radii in m and approach speeds in m/s of some rows.
+struct Rows {
+    radius: Vec<f64>,
+    speed: Vec<f64>,
+}
+
+impl Rows {
+    fn new(count: usize) -> Self {
+        // Spheres that rebound and spheres that are captured alternate, as in a real stream of particles.
+        let place = |row: usize, step: usize| (row * step % count) as f64 / count as f64;
+        Self {
+            radius: (0..count).map(|row| 2e-6 + 8e-6 * place(row, 7919)).collect(),
+            speed: (0..count).map(|row| 0.5 + 10.0 * place(row, 104_729)).collect(),
+        }
+    }
+
+    fn motions(&self) -> Motions<'_> {
+        Motions::Planar {
+            speed_normal: Column::Each(&self.speed),
+            speed_tangential: Column::All(TANGENTIAL),
+            spin: Column::All(0.0),
+        }
+    }
+
+    fn pairs(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.radius.iter().copied().zip(self.speed.iter().copied())
+    }
+}
+
+fn rigid_body(radius: f64, speed: f64) -> Result<(f64, f64), InputError> {
+    let sphere = Sphere::solid(radius, DENSITY)?;
+    let body = RigidBody::new(sphere, SpeedRestitution::new(RESTITUTION_SPEED)?)
+        .with_work_of_adhesion(WORK_OF_ADHESION)?
+        .with_friction(FRICTION)?;
+    let impact = body.impact(&NormalMotion::new(speed)?.with_tangential(TANGENTIAL)?);
+    black_box(body.classify_impact(&impact).class());
+    Ok((impact.normal.overall_restitution(), impact.tangential.spin(&sphere)))
+}
+
+fn simulation(radius: f64, speed: f64, method: &Adaptive<f64>) -> Result<(f64, f64), InputError> {
+    let contact = Contact::hertz(Sphere::solid(radius, DENSITY)?, Stiffness::new(STIFFNESS)?)
+        .with_damping(ZETA_H)?
+        .with_ring(ADHESION, ZETA_A)?
+        .with_friction(FRICTION)?;
+    let impact = contact.solve(&NormalMotion::new(speed)?.with_tangential(TANGENTIAL)?, method)?;
+    black_box(impact.class());
+    Ok((impact.normal.overall_restitution(), impact.tangential.spin()))
+}
+
+/// Seconds of a run.
+fn seconds<R>(run: impl FnOnce() -> R) -> f64 {
+    let start = Instant::now();
+    black_box(run());
+    start.elapsed().as_secs_f64()
+}
+
+/// A line of the table: nanoseconds of a row in a loop and by arrays, their ratio, and rows per second on all threads. `arrays` computes
+/// a number of rows.
+fn line(
+    model: &str,
+    rows: usize,
+    one: &ThreadPool,
+    mut alone: impl FnMut() -> Result<(), InputError> + Send,
+    arrays: impl Fn(usize) -> Impacts + Sync,
+) -> Result<[String; 5], InputError> {
+    alone()?;
+    let times = one.install(|| (0..TURNS).map(|_| (seconds(&mut alone), seconds(|| arrays(rows)))).collect::<Vec<_>>());
+    let least = |times: &mut dyn Iterator<Item = f64>| times.fold(f64::INFINITY, f64::min) / rows as f64;
+    let (alone, together) = (least(&mut times.iter().map(|both| both.0)), least(&mut times.iter().map(|both| both.1)));
+    let nanoseconds = |seconds: f64| format!("{:.0}", 1e9 * seconds);
+    let throughput = (MORE * rows) as f64 / seconds(|| arrays(MORE * rows));
+    let ratio = format!("{:.2}", together / alone);
+    Ok([model.to_owned(), nanoseconds(alone), nanoseconds(together), ratio, format!("{throughput:.2e}")])
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let one = ThreadPoolBuilder::new().num_threads(1).build()?;
+    let mut table = Table::new();
+    table.set_header(["model", "loop, ns a row", "arrays, ns a row", "ratio", "rows/s on all threads"]);
+
+    let rows = Rows::new(MORE * ROWS_OF_RIGID_BODIES);
+    let bodies = RigidBodies {
+        radius: Column::Each(&rows.radius),
+        density: Column::All(DENSITY),
+        gyration_ratio: Column::All(0.4),
+        restitution: Restitution::Power { speed: Column::All(RESTITUTION_SPEED), power: Column::All(1.0) },
+        adhesion: Adhesion::Work(Column::All(WORK_OF_ADHESION)),
+        friction: Column::All(FRICTION),
+        rolling_arm: Column::All(0.0),
+    };
+    let mut results = vec![(0.0, 0.0); ROWS_OF_RIGID_BODIES];
+    let alone = || {
+        for (result, (radius, speed)) in results.iter_mut().zip(rows.pairs()) {
+            *result = rigid_body(radius, speed)?;
+        }
+        black_box(&results);
+        Ok(())
+    };
+    let arrays = |count| bodies.classify(&rows.motions(), count, &QUANTITIES);
+    table.add_row(line("rigid body", ROWS_OF_RIGID_BODIES, &one, alone, arrays)?);
+
+    let rows = Rows::new(MORE * ROWS_OF_SIMULATIONS);
+    let contacts = Contacts {
+        radius: Column::Each(&rows.radius),
+        density: Column::All(DENSITY),
+        stiffness: Column::All(STIFFNESS),
+        law: Law::Ring { strength: Column::All(ADHESION), damping: Column::All(ZETA_A) },
+        damping: Damping::Hysteretic(Column::All(ZETA_H)),
+        surface: Surface::Coulomb { friction: Column::All(FRICTION) },
+        ..Contacts::default()
+    };
+    let method = Adaptive::new(1e-9)?;
+    let mut results = vec![(0.0, 0.0); ROWS_OF_SIMULATIONS];
+    let alone = || {
+        for (result, (radius, speed)) in results.iter_mut().zip(rows.pairs()) {
+            *result = simulation(radius, speed, &method)?;
+        }
+        black_box(&results);
+        Ok(())
+    };
+    let arrays = |count| contacts.simulate(&rows.motions(), count, &method, &QUANTITIES);
+    table.add_row(line("simulation, adaptive 1e-9", ROWS_OF_SIMULATIONS, &one, alone, arrays)?);
+    println!("{table}");
+    Ok(())
+}
