@@ -134,7 +134,8 @@ impl Observation {
         let response =
             if captured { Response::Capture } else { Response::Rebound { speed: rebound, error: rebound_error } };
         let observation = Self { speed, speed_error, response, sphere };
-        observation.check()?;
+        Measured::Speed.check(speed, Parameter::ApproachSpeed.range())?;
+        Measured::SpeedError.check(speed_error, (0.0, LARGEST_ERROR))?;
         Measured::ReboundError.check(rebound_error, (0.0, LARGEST_ERROR))?;
         let error = speed_error.hypot(rebound_error);
         let reach = if error == 0.0 { UNSTATED * speed } else { FARTHEST * error };
@@ -142,6 +143,7 @@ impl Observation {
         if captured {
             Measured::ReboundOfCapture.check(rebound, (-reach, reach))?;
         }
+        observation.check()?;
         Ok(observation)
     }
 
