@@ -23,6 +23,11 @@ fn candidates(candidates: &[Candidate]) -> Vec<(&'static str, f64, f64)> {
     candidates.iter().map(|candidate| (candidate.law.name(), candidate.aic, candidate.p_value)).collect()
 }
 
+/// A number to four digits.
+fn rounded(number: f64) -> f64 {
+    format!("{number:.3e}").parse().unwrap_or(number)
+}
+
 /// The exception for a refused number of a row, in the name and the unit of its argument. Rebounds and their errors are in multiples of
 /// `unit`, m/s, if they were given as restitutions.
 fn refused(error: ObservationError, columns: &[&[f64]], unit: Option<f64>, row: usize) -> PyErr {
@@ -47,9 +52,9 @@ fn refused(error: ObservationError, columns: &[&[f64]], unit: Option<f64>, row: 
         _ => "",
     };
     let value = columns[column].get(row).copied().unwrap_or(f64::NAN);
-    let (low, high) = (error.range.0 / scale.unwrap_or(1.0), error.range.1 / scale.unwrap_or(1.0));
+    let (low, high) = (rounded(error.range.0 / scale.unwrap_or(1.0)), rounded(error.range.1 / scale.unwrap_or(1.0)));
     PyValueError::new_err(format!(
-        "{name}: {value:?} is refused: it must be {low:.3e} to {high:.3e}{words}{advice} (at index {row})"
+        "{name}: {value:?} is refused: it must be {low:?} to {high:?}{words}{advice} (at index {row})"
     ))
 }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from numbers import Real
@@ -46,7 +47,7 @@ def number_array(name: str, value: npt.ArrayLike) -> Float:
             raise TypeError(f"the type {array.dtype} has no real numbers")
         floats = array.astype(np.float64)
     except (TypeError, ValueError, OverflowError) as error:
-        raise TypeError(f"{name}: {value!r} is refused: give a number or an array of numbers") from error
+        raise TypeError(f"{name}: {reprlib.repr(value)} is refused: give a number or an array of numbers") from error
     return np.asarray(floats.filled(np.nan) if isinstance(floats, np.ma.MaskedArray) else floats)
 
 
