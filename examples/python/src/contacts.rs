@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use crate::columns::Columns;
 use crate::refusal::refused;
 use crate::results::{Results, Statuses, quantities, results, speeds};
+use crate::threads::on_all_cores;
 
 /// The words of a scene: law, end rule, and damping.
 pub(crate) type Words = (String, String, String);
@@ -19,20 +20,18 @@ fn unknown(name: &str, word: &str) -> PyErr {
 
 /// Spheres and contacts by the names of the arguments of `Scene`.
 pub(crate) fn contacts<'a>((law, end_rule, damping): &Words, columns: &'a Columns<'_>) -> PyResult<Contacts<'a>> {
-    let friction = columns.optional("friction", 0.0)?;
+    let friction = columns.required("friction")?;
     let work = || columns.required("work_of_adhesion");
     Ok(Contacts {
         // Tables and populations bring their own radii.
         radius: columns.optional("radius", f64::NAN)?,
         density: columns.required("density")?,
-        gyration_ratio: columns.optional("gyration_ratio", 0.4)?,
+        gyration_ratio: columns.required("gyration_ratio")?,
         stiffness: columns.required("stiffness")?,
         law: match (law.as_str(), end_rule.as_str()) {
             ("hertz", "no-indentation") => Law::Hertz,
             ("hertz", "no-force") => Law::WithoutTension,
-            ("ring", _) => {
-                Law::Ring { strength: columns.required("adhesion")?, damping: columns.optional("zeta_a", 0.0)? }
-            }
+            ("ring", _) => Law::Ring { strength: columns.required("adhesion")?, damping: columns.required("zeta_a")? },
             ("dmt", _) => Law::Dmt { work: work()? },
             ("jkr", "pull-off") => Law::Jkr { work: work()?, end: JkrEnd::PullOff },
             ("jkr", "snap-off") => Law::Jkr { work: work()?, end: JkrEnd::SnapOff },
@@ -45,7 +44,7 @@ pub(crate) fn contacts<'a>((law, end_rule, damping): &Words, columns: &'a Column
             "constant" => Damping::Constant(columns.required("damping_value")?),
             other => return Err(unknown("damping", other)),
         },
-        external_force: columns.optional("external_force", 0.0)?,
+        external_force: columns.required("external_force")?,
         surface: if columns.has("stiffness_ratio") {
             Surface::Compliant { friction, stiffness_ratio: columns.required("stiffness_ratio")? }
         } else if columns.has("peeling") {
@@ -68,8 +67,8 @@ pub(crate) fn simulate<'py>(
 ) -> PyResult<Results<'py>> {
     let (contacts, motions, outputs) = (contacts(&words, &numbers)?, numbers.motions()?, quantities(&outputs)?);
     let method = Adaptive::new(tolerance).map_err(refused)?;
-    let impacts = python.detach(|| contacts.simulate(&motions, count, &method, &outputs));
-    results(python, impacts)
+    let impacts = on_all_cores(python, || contacts.simulate(&motions, count, &method, &outputs))?;
+    results(python, impacts, |row| numbers.is_second_refused(row).unwrap_or(false))
 }
 
 /// Finds critical speeds, m/s.
@@ -83,6 +82,6 @@ pub(crate) fn critical_speeds<'py>(
 ) -> PyResult<(Statuses<'py>, Bound<'py, PyArray1<f64>>)> {
     let contacts = contacts(&words, &numbers)?;
     let method = Adaptive::new(tolerance).map_err(refused)?;
-    let found = python.detach(|| contacts.critical_speeds(count, &method));
+    let found = on_all_cores(python, || contacts.critical_speeds(count, &method))?;
     Ok(speeds(python, found))
 }

@@ -1,10 +1,14 @@
 //! Fits of measured impacts.
 
-use impact_fit::{Candidate, Law, MeasuredSphere, Observation, Response, ScatterModel, Statement, Verdict, compete};
+use impact_fit::{
+    Candidate, Law, Measured, MeasuredSphere, Observation, ObservationError, ScatterModel, Statement, Verdict, compete,
+};
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+
+use crate::threads::on_all_cores;
 
 /// A law by its name.
 fn law(name: &str) -> PyResult<Law> {
@@ -19,33 +23,72 @@ fn candidates(candidates: &[Candidate]) -> Vec<(&'static str, f64, f64)> {
     candidates.iter().map(|candidate| (candidate.law.name(), candidate.aic, candidate.p_value)).collect()
 }
 
-/// Fits laws to observations: speed, its error, rebound speed, its error, capture, mass and its relative error in as many rows.
+/// A number to four digits.
+fn rounded(number: f64) -> f64 {
+    format!("{number:.3e}").parse().unwrap_or(number)
+}
+
+/// The exception for a refused number of a row, in the name and the unit of its argument. Rebounds and their errors are in multiples of
+/// `unit`, m/s, if they were given as restitutions.
+fn refused(error: ObservationError, columns: &[&[f64]], unit: Option<f64>, row: usize) -> PyErr {
+    let (column, name, scale) = match (error.quantity, unit) {
+        (Measured::Speed, _) => (0, "speed_normal", None),
+        (Measured::SpeedError, _) => (1, "speed_normal_error", None),
+        (Measured::Rebound | Measured::ReboundOfCapture, None) => (2, "rebound_speed", None),
+        (Measured::Rebound | Measured::ReboundOfCapture, _) => (2, "overall_restitution", unit),
+        (Measured::ReboundError, None) => (3, "rebound_speed_error", None),
+        (Measured::ReboundError, _) => (3, "overall_restitution_error", unit),
+        (Measured::Mass, _) => (4, "mass", None),
+        (Measured::MassError, _) => (5, "mass_relative_error", None),
+    };
+    let words = match (error.quantity, scale) {
+        (Measured::Mass, _) => " kg",
+        (Measured::MassError, _) | (_, Some(_)) => "",
+        _ => " m/s",
+    };
+    let advice = match error.quantity {
+        Measured::Rebound => ", which is what is possible with room for errors; check units and signs",
+        Measured::ReboundOfCapture => ", because the sphere was captured",
+        _ => "",
+    };
+    let value = columns[column].get(row).copied().unwrap_or(f64::NAN);
+    let (low, high) = (rounded(error.range.0 / scale.unwrap_or(1.0)), rounded(error.range.1 / scale.unwrap_or(1.0)));
+    PyValueError::new_err(format!(
+        "{name}: {value:?} is refused: it must be {low:?} to {high:?}{words}{advice} (at index {row})"
+    ))
+}
+
+/// Fits laws to observations: speed, its error, rebound speed, its error, mass and its relative error in as many rows, and where it is
+/// known whether the sphere was captured. Rebounds and their errors may be restitutions.
 #[pyfunction]
 pub(crate) fn fit<'py>(
     python: Python<'py>,
     numbers: [PyReadonlyArray1<'py, f64>; 6],
-    captured: PyReadonlyArray1<'py, bool>,
+    captured: Option<PyReadonlyArray1<'py, bool>>,
     has_mass: bool,
+    are_restitutions: bool,
     laws: Vec<String>,
     natural_scatter: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
     let laws = laws.iter().map(|name| law(name)).collect::<PyResult<Vec<_>>>()?;
     let laws = if laws.is_empty() { Law::ALL.to_vec() } else { laws };
-    let captured = captured.as_slice()?;
+    let captured = captured.as_ref().map(|captured| captured.as_slice()).transpose()?;
     let columns = numbers.iter().map(|column| Ok(column.as_slice()?)).collect::<PyResult<Vec<_>>>()?;
-    let number = |column: usize, row: usize| columns[column].get(row).copied().unwrap_or(f64::NAN);
-    let observation = |(row, captured): (usize, &bool)| {
-        let response = if *captured {
-            Response::Capture
-        } else {
-            Response::Rebound { speed: number(2, row), error: number(3, row) }
-        };
-        let sphere = has_mass.then(|| MeasuredSphere { mass: number(4, row), relative_error: number(5, row) });
-        Observation { speed: number(0, row), speed_error: number(1, row), response, sphere }
+    let observation = |row: usize| {
+        let [speed, speed_error, rebound, rebound_error, mass, relative_error] =
+            [0, 1, 2, 3, 4, 5].map(|column: usize| columns[column].get(row).copied().unwrap_or(f64::NAN));
+        let unit = if are_restitutions { speed } else { 1.0 };
+        Observation::measured(
+            (speed, speed_error),
+            (unit * rebound, unit * rebound_error),
+            captured.map(|captured| captured.get(row).copied().unwrap_or(false)),
+            has_mass.then_some(MeasuredSphere { mass, relative_error }),
+        )
+        .map_err(|error| refused(error, &columns, are_restitutions.then_some(speed), row))
     };
-    let observations: Vec<_> = captured.iter().enumerate().map(observation).collect();
+    let observations = (0..columns[0].len()).map(observation).collect::<PyResult<Vec<_>>>()?;
     let scatter = if natural_scatter { ScatterModel::Free } else { ScatterModel::Errors };
-    let verdict = python.detach(|| compete(&observations, &laws, scatter));
+    let verdict = on_all_cores(python, || compete(&observations, &laws, scatter))?;
     let answer = PyDict::new(python);
     match verdict {
         Verdict::NotEnough(reason) => answer.set_item("reason", reason)?,

@@ -9,6 +9,7 @@ mod refusal;
 mod results;
 mod rigid_bodies;
 mod tables;
+mod threads;
 mod trajectory;
 
 use impact_arrays::Quantity;
@@ -36,7 +37,8 @@ mod _native {
     #[pymodule_init]
     fn names(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-        module.add("PARAMETERS", Parameter::ALL.map(refusal::keyword))?;
+        let second = refusal::OF_SECOND.map(|(_, keyword)| keyword);
+        module.add("PARAMETERS", [&Parameter::ALL.map(refusal::keyword)[..], &second].concat())?;
         module.add("QUANTITIES", Quantity::ALL.map(Quantity::name))
     }
 }

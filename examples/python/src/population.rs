@@ -60,8 +60,8 @@ fn angles(distribution: Distribution) -> PyResult<Distribution> {
     distribution.within(0.0, largest).map_err(|error| PyValueError::new_err(format!("angle_deg: {error}")))
 }
 
-/// What is asked of a population: number of ranges of diameters or their edges, m, and speeds, m/s.
-pub(crate) type Questions = (usize, Vec<f64>, Vec<f64>);
+/// What is asked of a population: number of ranges of diameters or their edges, m, speeds, m/s, and the tolerance of the quadrature.
+pub(crate) type Questions = (usize, Vec<f64>, Vec<f64>, f64);
 
 fn population((diameter, speed, angle, adhesion): &Shapes<'_>, own: Column<'_>) -> PyResult<Population> {
     Ok(Population {
@@ -92,7 +92,7 @@ pub(crate) fn population_of_contacts<'py>(
     };
     let population = population(&shapes, own)?;
     let method = Adaptive::new(tolerance).map_err(refused)?;
-    let friction = Parameter::Friction.check(numbers.optional("friction", 0.0)?.at(0)).map_err(refused)?;
+    let friction = Parameter::Friction.check(numbers.required("friction")?.at(0)).map_err(refused)?;
     let scene = |diameter: f64, adhesion: f64| {
         let mut contacts = contacts;
         contacts.radius = Column::All(0.5 * diameter);
@@ -107,10 +107,10 @@ pub(crate) fn population_of_contacts<'py>(
     };
     let simulations = Simulations { scene, friction, method };
     let answer = python.detach(|| {
-        let statistics = Statistics::interpolated(&population, &simulations, &questions.2)?;
+        let statistics = Statistics::interpolated(&population, &simulations, &questions.2)?.with_tolerance(questions.3);
         Answer::of(&population, &statistics, &questions)
     });
-    answer.map_err(of_population)?.into_dict(python)
+    answer?.into_dict(python)
 }
 
 /// Statistics by the rigid-body model with a work of adhesion or a coefficient.
@@ -145,18 +145,11 @@ pub(crate) fn population_of_bodies<'py>(
             python.detach(|| direct(&population, &RigidBodies(scene), &questions))
         }
     };
-    answer.map_err(of_population)?.into_dict(python)
+    answer?.into_dict(python)
 }
 
-fn of_population(error: PopulationError) -> PyErr {
-    PyValueError::new_err(match error {
-        PopulationError::Input(error) => message(error),
-        other => format!("population: {other}"),
-    })
-}
-
-fn direct(population: &Population, response: &impl Response, questions: &Questions) -> Result<Answer, PopulationError> {
-    Answer::of(population, &Statistics::direct(population, response), questions)
+fn direct(population: &Population, response: &impl Response, questions: &Questions) -> Result<Answer, Stop> {
+    Answer::of(population, &Statistics::direct(population, response).with_tolerance(questions.3), questions)
 }
 
 /// A number and its error.
@@ -184,18 +177,6 @@ fn moments(moments: Moments) -> [Number; 3] {
     [moments.mean, moments.variance, moments.skewness].map(number)
 }
 
-/// Quantiles of the diameters between which the ranges lie.
-const DIAMETERS: [f64; 2] = [0.001, 0.999];
-
-/// Edges of ranges of diameters, equally spaced in their logarithm; none for one diameter.
-fn edges(diameter: &Distribution, bins: usize) -> Vec<f64> {
-    if diameter.is_fixed() || bins == 0 {
-        return Vec::new();
-    }
-    let [low, high] = DIAMETERS.map(|p| diameter.quantile(p));
-    (0..=bins).map(|bin| low * (high / low).powf(bin as f64 / bins as f64)).collect()
-}
-
 /// A range of diameters: its edges, the parts of the spheres and of their mass, and the capture efficiency by both.
 type Size = ([f64; 4], Number, Number);
 
@@ -209,23 +190,63 @@ struct Answer {
     restitution_of_rebounds: Option<[Number; 3]>,
 }
 
+/// Why there is no answer.
+enum Stop {
+    Population(PopulationError),
+    /// Ctrl-C, or what another signal raises.
+    Signal(PyErr),
+}
+
+impl From<PopulationError> for Stop {
+    fn from(error: PopulationError) -> Self {
+        Self::Population(error)
+    }
+}
+
+impl From<Stop> for PyErr {
+    fn from(stop: Stop) -> Self {
+        match stop {
+            Stop::Population(PopulationError::Input(error)) => PyValueError::new_err(message(error)),
+            Stop::Population(other) => PyValueError::new_err(format!("population: {other}")),
+            Stop::Signal(error) => error,
+        }
+    }
+}
+
+/// Lets Python see signals. To be called between integrals, each of which takes up to some seconds.
+fn check_signals() -> Result<(), Stop> {
+    Python::attach(|python| python.check_signals()).map_err(Stop::Signal)
+}
+
+/// The range of diameters between two edges.
+fn size<R: Response>(statistics: &Statistics<'_, R>, edges: &[f64]) -> Result<Size, Stop> {
+    check_signals()?;
+    let (none, [from, to]) = ((f64::NAN, f64::NAN), [edges[0], edges[1]]);
+    Ok(statistics.by_size(&[from, to])?.first().map_or(([from, to, 0.0, 0.0], none, none), |bin| {
+        ([from, to, bin.number, bin.mass], number(bin.by_number), number(bin.by_mass))
+    }))
+}
+
+/// The bounce fraction at a speed.
+fn bounce<R: Response>(statistics: &Statistics<'_, R>, speed: f64) -> Result<Number, Stop> {
+    check_signals()?;
+    Ok(number(statistics.at_speed(speed)?.rebound()))
+}
+
 impl Answer {
     fn of<R: Response>(
         population: &Population,
         statistics: &Statistics<'_, R>,
-        (bins, given, speeds): &Questions,
-    ) -> Result<Self, PopulationError> {
+        (bins, given, speeds, _): &Questions,
+    ) -> Result<Self, Stop> {
+        let edges = if given.is_empty() { population.diameter.ranges(*bins) } else { given.clone() };
         let outcomes = statistics.outcomes()?;
-        let edges = if given.is_empty() { edges(&population.diameter, *bins) } else { given.clone() };
-        let size = |bin: population::SizeBin| {
-            ([bin.from, bin.to, bin.number, bin.mass], number(bin.by_number), number(bin.by_mass))
-        };
-        let bounce = |speed: &f64| Ok(number(statistics.at_speed(*speed)?.rebound()));
+        check_signals()?;
         Ok(Self {
             by_number: classes(&outcomes),
             by_mass: classes(&statistics.outcomes_by_mass()?),
-            sizes: statistics.by_size(&edges)?.into_iter().map(size).collect(),
-            bounces: speeds.iter().map(bounce).collect::<Result<_, PopulationError>>()?,
+            sizes: edges.windows(2).map(|edges| size(statistics, edges)).collect::<Result<_, _>>()?,
+            bounces: speeds.iter().map(|speed| bounce(statistics, *speed)).collect::<Result<_, _>>()?,
             restitution: moments(outcomes.restitution()),
             restitution_of_rebounds: outcomes.restitution_of_rebounds().map(moments),
         })

@@ -40,10 +40,21 @@ pub(crate) fn keyword(parameter: Parameter) -> &'static str {
     }
 }
 
+/// The arguments that give the second of two spheres.
+pub(crate) const OF_SECOND: [(Parameter, &str); 3] = [
+    (Parameter::Radius, "radius_2"),
+    (Parameter::Density, "density_2"),
+    (Parameter::GyrationRatio, "gyration_ratio_2"),
+];
+
+/// What is wrong with an argument.
+pub(crate) fn message_of(keyword: &str, error: InputError) -> String {
+    if keyword == error.parameter.name() { error.to_string() } else { format!("{keyword}: {error}") }
+}
+
 /// What is wrong, after the name of the argument if there is one.
 pub(crate) fn message(error: InputError) -> String {
-    let (keyword, name) = (keyword(error.parameter), error.parameter.name());
-    if keyword == name { error.to_string() } else { format!("{keyword}: {error}") }
+    message_of(keyword(error.parameter), error)
 }
 
 /// The exception for an error of an input.

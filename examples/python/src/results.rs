@@ -7,7 +7,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::refusal::message;
+use crate::refusal::{OF_SECOND, message, message_of};
 
 /// The code of a row in which nothing was refused.
 const NO_PARAMETER: i16 = -1;
@@ -25,11 +25,32 @@ fn status_code(status: &RowStatus) -> i8 {
     }
 }
 
-/// The place of the refused parameter among all.
-fn parameter_code(status: &RowStatus) -> i16 {
-    let RowStatus::Refused(error) = status else { return NO_PARAMETER };
-    let place = Parameter::ALL.iter().position(|parameter| *parameter == error.parameter);
-    place.and_then(|place| i16::try_from(place).ok()).unwrap_or(NO_PARAMETER)
+/// A refused number, and whether it is one of the second of two spheres.
+#[derive(Clone, Copy)]
+struct Refused {
+    error: InputError,
+    of_second: bool,
+}
+
+impl Refused {
+    /// The place of the argument among those of the second sphere, and its name.
+    fn of_second(&self) -> Option<(usize, &'static str)> {
+        let place = OF_SECOND.iter().position(|(parameter, _)| *parameter == self.error.parameter)?;
+        self.of_second.then_some((place, OF_SECOND[place].1))
+    }
+
+    /// The place of the argument among all, of which those of the second sphere are the last.
+    fn code(&self) -> i16 {
+        let place = match self.of_second() {
+            Some((place, _)) => Some(Parameter::ALL.len() + place),
+            None => Parameter::ALL.iter().position(|parameter| *parameter == self.error.parameter),
+        };
+        place.and_then(|place| i16::try_from(place).ok()).unwrap_or(NO_PARAMETER)
+    }
+
+    fn message(&self) -> String {
+        self.of_second().map_or_else(|| message(self.error), |(_, keyword)| message_of(keyword, self.error))
+    }
 }
 
 /// The code of a class, which is that of the C interface.
@@ -46,41 +67,46 @@ fn class_code(class: &Option<Class>) -> i8 {
 }
 
 /// The first row without a result, and why.
-type Failure = Option<(usize, String)>;
-
-fn reason(status: RowStatus) -> String {
-    match status {
-        RowStatus::Refused(error) => message(error),
-        RowStatus::Unsupported => "this method cannot represent this law of contact".into(),
-        RowStatus::Solved | RowStatus::NotConverged => {
-            "tolerance: the simulation did not converge; use a larger tolerance".into()
-        }
-    }
-}
+pub(crate) type Failure = Option<(usize, String)>;
 
 /// Status and refused parameter of each row, and the first failure.
 pub(crate) type Statuses<'py> = (Bound<'py, PyArray1<i8>>, Bound<'py, PyArray1<i16>>, Failure);
 
-fn statuses<'py>(python: Python<'py>, rows: &[RowStatus]) -> Statuses<'py> {
+/// The statuses of rows, and a function that says of a row whether a sphere that is refused there is the second of two.
+fn statuses<'py>(python: Python<'py>, rows: &[RowStatus], of_second: impl Fn(usize) -> bool) -> Statuses<'py> {
+    let refused = |row: usize| match rows[row] {
+        RowStatus::Refused(error) => Some(Refused { error, of_second: of_second(row) }),
+        _ => None,
+    };
+    let reason = |row: usize| match (rows[row], refused(row)) {
+        (_, Some(refused)) => refused.message(),
+        (RowStatus::Unsupported, _) => "this method cannot represent this law of contact".into(),
+        _ => "tolerance: the simulation did not converge; use a larger tolerance".into(),
+    };
+    let parameter = |row| refused(row).map_or(NO_PARAMETER, |refused| refused.code());
     let first = rows.iter().position(|status| *status != RowStatus::Solved);
     (
         rows.iter().map(status_code).collect::<Vec<_>>().into_pyarray(python),
-        rows.iter().map(parameter_code).collect::<Vec<_>>().into_pyarray(python),
-        first.map(|row| (row, reason(rows[row]))),
+        (0..rows.len()).map(parameter).collect::<Vec<_>>().into_pyarray(python),
+        first.map(|row| (row, reason(row))),
     )
 }
 
 /// Statuses, classes and quantities by their names.
 pub(crate) type Results<'py> = (Statuses<'py>, Bound<'py, PyArray1<i8>>, Bound<'py, PyDict>);
 
-/// The results of impacts.
-pub(crate) fn results(python: Python<'_>, impacts: Impacts) -> PyResult<Results<'_>> {
+/// The results of impacts; the function says of a row whether a sphere that is refused there is the second of two.
+pub(crate) fn results(
+    python: Python<'_>,
+    impacts: Impacts,
+    of_second: impl Fn(usize) -> bool,
+) -> PyResult<Results<'_>> {
     let quantities = PyDict::new(python);
     for (quantity, numbers) in impacts.quantities {
         quantities.set_item(quantity.name(), numbers.into_pyarray(python))?;
     }
     let classes: Vec<_> = impacts.class.iter().map(class_code).collect();
-    Ok((statuses(python, &impacts.status), classes.into_pyarray(python), quantities))
+    Ok((statuses(python, &impacts.status, of_second), classes.into_pyarray(python), quantities))
 }
 
 /// The quantities of some names.
@@ -109,5 +135,5 @@ pub(crate) fn speeds(
         row.as_ref().map_or_else(|error| RowStatus::Refused(*error), |_| RowStatus::Solved)
     };
     let rows: Vec<_> = found.iter().map(status).collect();
-    (statuses(python, &rows), found.iter().map(speed).collect::<Vec<_>>().into_pyarray(python))
+    (statuses(python, &rows, |_| false), found.iter().map(speed).collect::<Vec<_>>().into_pyarray(python))
 }

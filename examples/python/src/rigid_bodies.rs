@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 
 use crate::columns::Columns;
 use crate::results::{Results, Statuses, quantities, results, speeds};
+use crate::threads::on_all_cores;
 
 /// Spheres and restitution laws by the names of the arguments of `RigidBody`, which has checked that one of each is given.
 pub(crate) fn bodies<'a>(columns: &'a Columns<'_>) -> PyResult<RigidBodies<'a>> {
@@ -13,7 +14,7 @@ pub(crate) fn bodies<'a>(columns: &'a Columns<'_>) -> PyResult<RigidBodies<'a>> 
         // A population brings its own radii.
         radius: columns.optional("radius", f64::NAN)?,
         density: columns.required("density")?,
-        gyration_ratio: columns.optional("gyration_ratio", 0.4)?,
+        gyration_ratio: columns.required("gyration_ratio")?,
         restitution: if columns.has("restitution_speed") {
             Restitution::Power {
                 speed: columns.required("restitution_speed")?,
@@ -34,7 +35,7 @@ pub(crate) fn bodies<'a>(columns: &'a Columns<'_>) -> PyResult<RigidBodies<'a>> 
         } else {
             Adhesion::Coefficient(columns.optional("adhesion_coefficient", 0.0)?)
         },
-        friction: columns.optional("friction", 0.0)?,
+        friction: columns.required("friction")?,
         rolling_arm: columns.optional("rolling_arm", 0.0)?,
     })
 }
@@ -48,8 +49,8 @@ pub(crate) fn classify<'py>(
     outputs: Vec<String>,
 ) -> PyResult<Results<'py>> {
     let (bodies, motions, outputs) = (bodies(&numbers)?, numbers.motions()?, quantities(&outputs)?);
-    let impacts = python.detach(|| bodies.classify(&motions, count, &outputs));
-    results(python, impacts)
+    let impacts = on_all_cores(python, || bodies.classify(&motions, count, &outputs))?;
+    results(python, impacts, |row| numbers.is_second_refused(row).unwrap_or(false))
 }
 
 /// Finds critical speeds of rigid bodies, m/s.
@@ -60,6 +61,6 @@ pub(crate) fn critical_speeds_of_bodies<'py>(
     count: usize,
 ) -> PyResult<(Statuses<'py>, Bound<'py, PyArray1<f64>>)> {
     let bodies = bodies(&numbers)?;
-    let found = python.detach(|| bodies.critical_speeds(count));
+    let found = on_all_cores(python, || bodies.critical_speeds(count))?;
     Ok(speeds(python, found))
 }

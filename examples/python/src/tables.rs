@@ -1,15 +1,16 @@
 //! Tables that answer without a simulation.
 
 use microimpact::contact::{Adaptive, AnyLaw, Contact, Impulses};
-use microimpact::table::{self, BoundarySlice, Lookup, TableOutcome, TableRebound};
-use microimpact::{CriticalSpeed, InputError, NormalMotion, Sphere};
+use microimpact::table::{self, BoundarySlice, Lookup, RestitutionParts, TableOutcome, TableRebound};
+use microimpact::{CriticalSpeed, InputError, NormalMotion, Parameter, Sphere};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::columns::Columns;
 use crate::contacts::{Words, contacts};
-use crate::refusal::refused;
+use crate::refusal::{message, message_of, refused};
+use crate::results::Failure;
 
 /// Largest number of cells: that of a table whose cells are part of its type.
 const MOST_CELLS: usize = 128;
@@ -29,7 +30,7 @@ impl Material {
     fn read(words: &Words, numbers: &Columns<'_>, radius: f64, tolerance: f64) -> PyResult<Self> {
         let mut contacts = contacts(words, numbers)?;
         contacts.radius = radius.into();
-        let scene = contacts.scene(0).map_err(refused)?;
+        let scene = contacts.scene(0).map_err(of_table)?;
         let (density, gyration) = (contacts.density.at(0), contacts.gyration_ratio.at(0));
         Ok(Self { law: *scene.law(), density, gyration, method: Adaptive::new(tolerance).map_err(refused)? })
     }
@@ -50,8 +51,19 @@ impl Material {
     }
 }
 
-/// Outcomes, restitutions and errors.
-type Reading<'py> = (Bound<'py, PyArray1<i8>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
+/// The exception for an error of an input of a table, whose only radius is the smallest.
+fn of_table(error: InputError) -> PyErr {
+    match error.parameter {
+        Parameter::Radius => PyValueError::new_err(message_of("smallest_radius", error)),
+        _ => refused(error),
+    }
+}
+
+/// Outcomes, restitutions and errors, and the first row that is refused.
+type Reading<'py> = (Bound<'py, PyArray1<i8>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Failure);
+
+/// The code of a row whose radius or speed is refused.
+const NO_OUTCOME: i8 = -1;
 
 /// The code of an outcome, which is that of the C interface.
 fn code(outcome: TableOutcome) -> i8 {
@@ -75,6 +87,33 @@ fn rows<'a>(
     let message = format!("radius: {} numbers are refused: there are {} speeds", radius.len(), speed.len());
     Err(PyValueError::new_err(message))
 }
+
+/// The motion of a row, for a table.
+fn motion(radius: f64, speed: f64) -> Result<NormalMotion<f64>, InputError> {
+    Parameter::Radius.check(radius)?;
+    NormalMotion::new(speed)
+}
+
+/// The readings of rows, with that of a row that is refused, and the first such row.
+fn each<T: Copy>(
+    (radius, speed): (&[f64], &[f64]),
+    none: T,
+    read: impl Fn(f64, &NormalMotion<f64>) -> T,
+) -> (Vec<T>, Failure) {
+    let mut failure = None;
+    let row = |(row, (radius, speed)): (usize, (&f64, &f64))| match motion(*radius, *speed) {
+        Ok(motion) => read(*radius, &motion),
+        Err(error) => {
+            failure.get_or_insert((row, message(error)));
+            none
+        }
+    };
+    let readings = radius.iter().zip(speed).enumerate().map(row).collect();
+    (readings, failure)
+}
+
+/// The constants of a boundary table: smallest radius, margin in units, and cells.
+type BoundaryParts = (f32, u32, Vec<[i32; 4]>);
 
 /// The critical speed of spheres of one material as a function of the radius.
 #[pyclass(frozen, module = "microimpact._native")]
@@ -105,25 +144,29 @@ impl BoundaryTable {
             let (smallest, units, _) = table.parts();
             Ok((smallest, units))
         });
-        let (smallest, units) = made.map_err(refused)?;
+        let (smallest, units) = made.map_err(of_table)?;
         Ok(Self { smallest, units, cells })
     }
 
-    /// Outcomes by their codes.
+    /// The table of some parts.
+    #[staticmethod]
+    fn from_parts(smallest: f32, units: u32, cells: Vec<[i32; 4]>) -> PyResult<Self> {
+        BoundarySlice::from_parts(smallest, units, &cells).map_err(of_table)?;
+        Ok(Self { smallest, units, cells })
+    }
+
+    /// Outcomes by their codes, and the first row that is refused.
     fn classify<'py>(
         &self,
         python: Python<'py>,
         radius: PyReadonlyArray1<'py, f64>,
         speed: PyReadonlyArray1<'py, f64>,
-    ) -> PyResult<Bound<'py, PyArray1<i8>>> {
-        let (radius, speed) = rows(&radius, &speed)?;
-        let codes = python.detach(|| {
-            let table = BoundarySlice::from_parts(self.smallest, self.units, &self.cells)?;
-            let outcome =
-                |(radius, speed): (&f64, &f64)| Ok(code(table.classify(*radius, &NormalMotion::new(*speed)?)));
-            radius.iter().zip(speed).map(outcome).collect::<Result<Vec<_>, InputError>>()
-        });
-        Ok(codes.map_err(refused)?.into_pyarray(python))
+    ) -> PyResult<(Bound<'py, PyArray1<i8>>, Failure)> {
+        let rows = rows(&radius, &speed)?;
+        let table = BoundarySlice::from_parts(self.smallest, self.units, &self.cells).map_err(of_table)?;
+        let (codes, failure) =
+            python.detach(|| each(rows, NO_OUTCOME, |radius, motion| code(table.classify(radius, motion))));
+        Ok((codes.into_pyarray(python), failure))
     }
 
     /// Smallest radius, m.
@@ -140,15 +183,24 @@ impl BoundaryTable {
 
     /// The constants of the table, for firmware: the margin in units, and the cells.
     #[getter]
-    fn parts(&self) -> (f32, u32, Vec<[i32; 4]>) {
+    fn parts(&self) -> BoundaryParts {
         (self.smallest, self.units, self.cells.clone())
     }
 }
 
+/// Cells, radii and speeds of a restitution table.
+const CELLS: usize = 8;
+const RADII: usize = 6;
+const SPEEDS: usize = 10;
+
+/// The other numbers of a restitution table: first radius, nodes per octave and per root, last speed, errors of restitution and
+/// impulse, and their errors by the margin.
+type Scales = (i32, f64, f64, i32, f64, f64, f64, f64);
+
 /// Restitution of spheres of one material as a function of radius and speed, over two octaves of radii.
 #[pyclass(frozen, module = "microimpact._native")]
 pub(crate) struct RestitutionTable {
-    table: Box<table::RestitutionTable<f64, 8, 6, 10>>,
+    table: Box<table::RestitutionTable<f64, CELLS, RADII, SPEEDS>>,
 }
 
 #[pymethods]
@@ -168,31 +220,67 @@ impl RestitutionTable {
             let rebound = |radius, speed| material.rebound(radius, speed);
             table::RestitutionTable::new(boundary, speed_ratio, rebound).map(Box::new)
         });
-        Ok(Self { table: made.map_err(refused)? })
+        Ok(Self { table: made.map_err(of_table)? })
     }
 
-    /// Outcomes by their codes, restitutions, and bounds of their errors; NaN where there is no rebound.
+    /// The table of some parts.
+    #[staticmethod]
+    fn from_parts(
+        boundary: (f32, u32, [[i32; 4]; CELLS]),
+        scales: Scales,
+        nodes: [[[f64; 2]; SPEEDS]; RADII],
+    ) -> PyResult<Self> {
+        let (smallest, units, cells) = boundary;
+        let (first, per_octave, per_root, end, error, impulse_error, near, impulse_over_restitution) = scales;
+        let boundary = table::BoundaryTable::from_parts(smallest, units, cells).map_err(of_table)?;
+        let parts = RestitutionParts {
+            boundary,
+            nodes,
+            first,
+            per_octave,
+            per_root,
+            end,
+            error,
+            impulse_error,
+            near,
+            impulse_over_restitution,
+        };
+        Ok(Self {
+            table: Box::new(table::RestitutionTable::<f64, CELLS, RADII, SPEEDS>::from_parts(parts).map_err(of_table)?),
+        })
+    }
+
+    /// The parts of the table.
+    #[getter]
+    fn parts(&self) -> (BoundaryParts, Scales, [[[f64; 2]; SPEEDS]; RADII]) {
+        let parts = self.table.parts();
+        let (smallest, units, cells) = parts.boundary.parts();
+        let RestitutionParts { nodes, first, per_octave, per_root, end, error, .. } = parts;
+        let RestitutionParts { impulse_error, near, impulse_over_restitution, .. } = parts;
+        let scales = (first, per_octave, per_root, end, error, impulse_error, near, impulse_over_restitution);
+        ((smallest, units, cells.to_vec()), scales, nodes)
+    }
+
+    /// Outcomes by their codes, restitutions, and bounds of their errors; NaN where there is no rebound. And the first row that is
+    /// refused.
     fn read<'py>(
         &self,
         python: Python<'py>,
         radius: PyReadonlyArray1<'py, f64>,
         speed: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<Reading<'py>> {
-        let (radius, speed) = rows(&radius, &speed)?;
-        let (mut codes, mut restitutions, mut errors) = (Vec::new(), Vec::new(), Vec::new());
-        for (radius, speed) in radius.iter().zip(speed) {
-            let motion = NormalMotion::new(*speed).map_err(refused)?;
-            let (outcome, restitution, error) = match self.table.look_up(*radius, &motion) {
-                Lookup::Rebound { rebound, error } => (TableOutcome::Rebound, rebound.restitution, error),
-                Lookup::Capture => (TableOutcome::Capture, 0.0, 0.0),
-                Lookup::TooCloseToCall => (TableOutcome::TooCloseToCall, f64::NAN, f64::NAN),
-                Lookup::OutsideTable => (TableOutcome::OutsideTable, f64::NAN, f64::NAN),
-            };
-            codes.push(code(outcome));
-            restitutions.push(restitution);
-            errors.push(error);
-        }
-        Ok((codes.into_pyarray(python), restitutions.into_pyarray(python), errors.into_pyarray(python)))
+        let rows = rows(&radius, &speed)?;
+        let unknown = |outcome: i8| (outcome, f64::NAN, f64::NAN);
+        let read = |radius: f64, motion: &NormalMotion<f64>| match self.table.look_up(radius, motion) {
+            Lookup::Rebound { rebound, error } => (code(TableOutcome::Rebound), rebound.restitution, error),
+            Lookup::Capture => (code(TableOutcome::Capture), 0.0, 0.0),
+            Lookup::TooCloseToCall => unknown(code(TableOutcome::TooCloseToCall)),
+            Lookup::OutsideTable => unknown(code(TableOutcome::OutsideTable)),
+        };
+        let (readings, failure) = python.detach(|| each(rows, unknown(NO_OUTCOME), read));
+        let codes: Vec<i8> = readings.iter().map(|(code, ..)| *code).collect();
+        let (restitutions, errors): (Vec<f64>, Vec<f64>) = readings.iter().map(|(_, e, error)| (*e, *error)).unzip();
+        Ok((codes.into_pyarray(python), restitutions.into_pyarray(python), errors.into_pyarray(python), failure))
     }
 
     /// Largest interpolation error of a restitution.

@@ -72,3 +72,17 @@ def test_one_of_each():
         body(adhesion_power=2.0)
     with pytest.raises(ValueError, match="rolling_arm: it acts against a spin about one axis"):
         body(rolling_arm=1e-8).strike([0, 0, -1])
+
+
+def test_a_distributed_adhesion_says_what_it_is():
+    size, speed, works = mi.LogNormal(8.6e-6, 1.3), mi.LogNormal(1.9, 1.3), mi.LogNormal(1e-12, 1.1)
+    with pytest.raises(ValueError, match="^adhesion: this body has none; give it one of work_of_adhesion"):
+        mi.RigidBody(density=2600, restitution_speed=130).population(diameter=size, speed=speed, adhesion=works)
+    found = [
+        mi.RigidBody(density=2600, restitution_speed=130, work_of_adhesion=own)
+        .population(diameter=size, speed=speed, adhesion=works)
+        .by_number["capture"]
+        .value
+        for own in (0.0, 1e-9)
+    ]
+    assert found[0] == found[1] and 0.1 < found[0] < 0.9

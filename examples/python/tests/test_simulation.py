@@ -1,6 +1,7 @@
 """The contact simulation against solutions to 20 digits, closed forms and balances."""
 
 import math
+import pickle
 
 import numpy as np
 import pytest
@@ -227,3 +228,25 @@ def test_two_spheres_keep_their_momenta():
     relative = ((velocities[0] - velocities[1]) * normal).sum(axis=1)
     approach = ((velocity[1] - velocity[0]) * normal).sum(axis=1)
     assert np.abs(relative / approach - after.overall_restitution).max() < 1e-9
+
+
+def test_tables_refuse_and_travel():
+    scene = glass_on_steel(None)
+    boundary, restitution = scene.boundary_table(1.9e-6, cells=8), scene.restitution_table(1.9e-6)
+    for read in (boundary.classify, restitution.read):
+        for radius, speed, name in [([5e-6, 5e-6], [2.8, -1], "speed_normal"), ([5e-6, np.nan], 2.8, "radius")]:
+            with pytest.raises(ValueError, match=rf"^{name}.*at index 1"):
+                read(radius, speed)
+    outcome = boundary.classify([5e-6, -1.0, 5e-6], [9.0, 2.8, np.nan], errors="status")
+    assert list(outcome) == [mi.TableOutcome.REBOUND, mi.TableOutcome.NONE, mi.TableOutcome.NONE]
+    reading = restitution.read(2e-6, [100.0, 0.0], errors="status")
+    assert reading.outcome[1] == mi.TableOutcome.NONE and np.isnan(reading.overall_restitution[1])
+    for table in (boundary, restitution):
+        same = pickle.loads(pickle.dumps(table))
+        assert same == table and hash(same) == hash(table)
+    assert boundary != scene.boundary_table(1.9e-6, cells=4)
+    for make in (scene.boundary_table, scene.restitution_table):
+        with pytest.raises(ValueError, match="^smallest_radius: radius is -1"):
+            make(-1)
+    with pytest.raises(TypeError, match="^cells: 1.5 is refused: give a whole number, 1 to 128"):
+        scene.boundary_table(1.9e-6, 1.5)

@@ -67,12 +67,47 @@ def test_a_population_of_rigid_bodies_against_draws():
     assert sampled.by_number["capture"].value == pytest.approx(counted, abs=1e-12)
 
 
+def test_a_smaller_tolerance_has_a_smaller_error():
+    def capture(tolerance):
+        return (
+            mi.Scene(density=2600, contact=CONTACT)
+            .population(
+                diameter=mi.LogNormal(8.6e-6, 1.3),
+                speed=mi.LogNormal(1.9, 1.3),
+                angle_deg=mi.Normal(40, 10),
+                bins=0,
+                tolerance=tolerance,
+            )
+            .by_number["capture"]
+        )
+
+    coarse, fine = capture(1e-3), capture(1e-8)
+    assert abs(coarse.value - fine.value) <= coarse.error and fine.error < 0.1 * coarse.error < 1e-4
+    with pytest.raises(ValueError, match="^tolerance: 0.0 is refused"):
+        capture(0.0)
+
+
+def test_a_range_without_spheres_has_nan():
+    body = mi.RigidBody(density=2600, restitution_speed=130, work_of_adhesion=1e-12)
+    edges = [1e-8, 1e-7, 5e-6, 8e-6, 1e-5, 1e-4, 1e-3]
+    for diameter in (mi.LogNormal(8.6e-6, 1.3), mi.Samples([5.5e-6, 9e-6, 9e-6, 2e-5])):
+        sizes = body.population(diameter=diameter, speed=mi.LogNormal(2.0, 1.2), edges=edges).sizes
+        assert (sizes.diameter_from == edges[:-1]).all() and (sizes.diameter_to == edges[1:]).all()
+        assert sizes.number_fraction.sum() == pytest.approx(1)
+        assert (np.isnan(sizes.capture) == (sizes.number_fraction == 0)).all() and np.isnan(sizes.capture[[0, 5]]).all()
+    # The smallest sample is in the first range.
+    sizes = body.population(diameter=mi.Samples([5e-6, 9e-6, 2e-5]), speed=2.0, bins=5).sizes
+    assert len(sizes.capture) == 5 and sizes.number_fraction.sum() == pytest.approx(1)
+
+
 def test_populations_refuse():
     scene = mi.Scene(density=2600, contact=CONTACT)
     with pytest.raises(ValueError, match="diameter: .*must be positive"):
         scene.population(diameter=-1e-6, speed=1.0)
     with pytest.raises(ValueError, match="angle_deg: an angle"):
         scene.population(diameter=1e-6, speed=1.0, angle_deg=95.0)
+    with pytest.raises(TypeError, match="^bins: 2.5 is refused: give a whole number, 0 to 200"):
+        scene.population(diameter=1e-6, speed=1.0, bins=2.5)
     with pytest.raises(ValueError, match="edges: "):
         scene.population(diameter=1e-6, speed=1.0, edges=[2e-6, 1e-6])
     with pytest.raises(ValueError, match="density: an array is refused"):
@@ -105,3 +140,45 @@ def test_fits_that_say_nothing():
         mi.fit([1.0, -1.0], overall_restitution=[0.5, 0.5])
     with pytest.raises(ValueError, match="laws: "):
         mi.fit(speed, overall_restitution=0.5 + 0 * speed, laws=["linear"])
+
+
+def test_measurements_that_are_refused():
+    speed = np.geomspace(1.5, 20, 40)
+    restitution = 130 / (130 + speed)
+    for wrong in (50.0, -0.5, np.nan):
+        one = np.where(np.arange(40) == 5, wrong, restitution)
+        with pytest.raises(ValueError, match=rf"(?i)^overall_restitution: {wrong} is refused: it must be .*at index 5"):
+            mi.fit(speed, overall_restitution=one)
+        with pytest.raises(ValueError, match=r"^rebound_speed: .* is refused: it must be .* m/s.*at index 5"):
+            mi.fit(speed, rebound_speed=one * speed)
+    with pytest.raises(ValueError, match=r"^overall_restitution: .*at index 0"):
+        mi.fit(speed, overall_restitution=100 * restitution)
+    with pytest.raises(ValueError, match=r"^rebound_speed: -.*at index 0"):
+        mi.fit(speed, rebound_speed=-restitution * speed)
+    with pytest.raises(ValueError, match=r"^overall_restitution_error: -0.1 is refused"):
+        mi.fit(speed, overall_restitution=restitution, overall_restitution_error=-0.1)
+    with pytest.raises(ValueError, match=r"^mass: 0.0 is refused.* kg"):
+        mi.fit(speed, overall_restitution=restitution, mass=0.0)
+    with pytest.raises(ValueError, match=r"^overall_restitution: .*the sphere was captured \(at index 3\)"):
+        mi.fit(speed, overall_restitution=restitution, captured=np.arange(40) == 3)
+    for wrong in (np.nan, 2.0):
+        with pytest.raises(ValueError, match=r"^captured: .* is refused: it must be True or False \(at index 20\)"):
+            mi.fit(speed, overall_restitution=restitution, captured=np.where(np.arange(40) == 20, wrong, 0.0))
+    for wrong in ([None] * 40, ["no"] * 40):
+        with pytest.raises(TypeError, match="^captured: "):
+            mi.fit(speed, overall_restitution=restitution, captured=wrong)
+    masked = np.ma.array(restitution, mask=np.arange(40) == 7)
+    with pytest.raises(ValueError, match=r"^overall_restitution: NaN is refused.*at index 7"):
+        mi.fit(speed, overall_restitution=masked)
+
+
+def test_a_captured_sphere_needs_no_rebound():
+    speed = np.geomspace(0.5, 20, 60)
+    square = (100 / (100 + speed)) ** 2 - 2 / speed**2
+    captured = square < 0
+    e = np.sqrt(np.where(captured, 0.0, square))
+    told = [mi.fit(speed, overall_restitution=e, laws=["speed-restitution"])]
+    told.append(
+        mi.fit(speed, overall_restitution=np.where(captured, np.nan, e), captured=captured, laws=["speed-restitution"])
+    )
+    assert captured.any() and told[0].quantities == told[1].quantities and told[0].fits

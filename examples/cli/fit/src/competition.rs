@@ -100,9 +100,15 @@ impl Statement {
 }
 
 /// Fits each of some `laws`, and states the quantities of the most likely one that fits. Of laws that the data do not tell apart,
-/// a constant or the paper's law is chosen, and the interval of the critical speed is that of all of them.
+/// a constant or the paper's law is chosen, and the interval of the critical speed is that of all of them. An observation whose numbers
+/// are none that a fit can compute with is not enough.
 #[must_use]
 pub fn compete(observations: &[Observation], laws: &[Law], scatter: ScatterModel) -> Verdict {
+    for (index, observation) in observations.iter().enumerate() {
+        if let Err(error) = observation.check() {
+            return Verdict::NotEnough(format!("row {}: {error}", index + 1));
+        }
+    }
     let rebounds = observations.iter().filter(|observation| observation.rebounds()).count();
     if rebounds < LEAST_REBOUNDS {
         return Verdict::NotEnough(format!(

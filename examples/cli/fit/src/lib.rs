@@ -19,5 +19,5 @@ pub use fit::{LawFit, ScatterModel};
 pub use judgement::Judgement;
 pub use law::{Coordinate, Curve, Law, Size};
 pub use maximum::information;
-pub use observation::{MeasuredSphere, Observation, Response, median_mass};
+pub use observation::{Measured, MeasuredSphere, Observation, ObservationError, Response, median_mass};
 pub use profile::Interval;

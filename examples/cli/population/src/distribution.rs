@@ -15,6 +15,12 @@ const SMALLEST_FRACTION: f64 = 1e-3;
 /// Least relative width of a distribution that is not a single value. Below it, rounding decides.
 const NARROWEST: f64 = 1e-9;
 
+/// Quantiles between which the ranges of a continuous distribution lie.
+const TAILS: [f64; 2] = [0.001, 0.999];
+
+/// Relative room beside the smallest and the largest sample.
+const ROOM: f64 = 1e-6;
+
 /// A distribution of a quantity.
 ///
 /// ```
@@ -332,6 +338,23 @@ impl Distribution {
             }
         }
         high
+    }
+
+    /// Edges of a number of ranges that hold all but the tails of positive values, equally spaced in their logarithm; none for one
+    /// value.
+    pub fn ranges(&self, count: usize) -> Vec<f64> {
+        if self.is_fixed() || count == 0 {
+            return Vec::new();
+        }
+        let [low, high] = if self.is_continuous() {
+            TAILS.map(|p| self.quantile(p))
+        } else {
+            // A range does not contain its lower edge.
+            let [smallest, largest] = self.bounds();
+            [smallest * (1.0 - ROOM), largest * (1.0 + ROOM)]
+        };
+        let ratio = (high / low).ln() / count as f64;
+        (0..=count).map(|index| low * (ratio * index as f64).exp()).collect()
     }
 
     /// Coordinates and weights of a rule between two coordinates of a continuous distribution, for integrands that rise as a

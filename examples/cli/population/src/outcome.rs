@@ -60,12 +60,13 @@ impl<'a, R: Response> Problem<'a, R> {
         distributions: &'a [Distribution; VARIABLES],
         response: &'a R,
         with_powers: bool,
+        tolerance: f64,
     ) -> Result<Self, PopulationError> {
-        let (adaptive, rules) = (Adaptive::over(1), ORDERS.map(Rule::new));
+        let (adaptive, rules) = (Adaptive::over(1, tolerance), ORDERS.map(Rule::new));
         let mut problem = Self { distributions, response, order: Vec::new(), with_powers, adaptive, rules };
         problem.order = problem.ordered()?;
         let continuous = problem.order.iter().filter(|variable| distributions[**variable].is_continuous());
-        problem.adaptive = Adaptive::over(continuous.count().saturating_sub(1));
+        problem.adaptive = Adaptive::over(continuous.count().saturating_sub(1), tolerance);
         let sampled = problem.order.iter().filter(|variable| !distributions[**variable].is_continuous());
         let combinations = sampled.map(|variable| distributions[*variable].weighted_samples().len()).product::<usize>();
         if combinations > MOST_COMBINATIONS {

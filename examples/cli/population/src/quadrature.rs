@@ -16,9 +16,9 @@ const PANELS: usize = 3;
 /// Strength of the map that moves nodes to the middle of a distribution.
 const STRENGTH: f64 = 2.0;
 
-/// Error of a panel below which it is not divided any further, for an integral over one variable; over two or three variables
-/// it is so many times larger.
-const TOLERANCE: f64 = 2e-7;
+/// Error of a panel below which it is not divided any further, for an integral over one variable, unless another is given; over two or
+/// three variables it is so many times larger for each more.
+pub(crate) const TOLERANCE: f64 = 2e-7;
 const EASING: f64 = 10.0;
 
 /// Number of times that a panel is halved at most. The error of a jump is below the tolerance before.
@@ -77,10 +77,10 @@ pub(crate) struct Adaptive {
 
 impl Adaptive {
     /// For integrals over a number of variables.
-    pub(crate) fn over(variables: usize) -> Self {
+    pub(crate) fn over(variables: usize, tolerance: f64) -> Self {
         let more = i32::try_from(variables.saturating_sub(1)).unwrap_or(0);
         let panels = if more == 0 { PANELS } else { 1 };
-        Self { rules: ORDERS.map(Rule::new), tolerance: TOLERANCE * EASING.powi(more), panels }
+        Self { rules: ORDERS.map(Rule::new), tolerance: tolerance * EASING.powi(more), panels }
     }
 
     /// Integral of a function between numbers in increasing order, at which the function may jump. Panels are halved until the

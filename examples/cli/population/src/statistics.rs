@@ -4,7 +4,7 @@ use crate::PopulationError;
 use crate::distribution::Distribution;
 use crate::interpolation::{Fineness, Interpolated};
 use crate::outcome::{ADHESION, ANGLE, DIAMETER, POWERS, Problem, SPEED, VARIABLES};
-use crate::quadrature::{Integrals, QUANTITIES};
+use crate::quadrature::{Integrals, QUANTITIES, TOLERANCE};
 use crate::response::Response;
 
 /// Two interpolations of a response, a coarse one and a fine one. The difference of the results estimates the error.
@@ -157,12 +157,17 @@ enum Evaluation<'a, R> {
 pub struct Statistics<'a, R> {
     distributions: [Distribution; VARIABLES],
     evaluation: Evaluation<'a, R>,
+    tolerance: f64,
 }
 
 impl<'a, R: Response> Statistics<'a, R> {
     /// Statistics that evaluate the response at every impact, for a response that takes microseconds.
     pub fn direct(population: &Population, response: &'a R) -> Self {
-        Self { distributions: distributions(population), evaluation: Evaluation::Direct(response) }
+        Self {
+            distributions: distributions(population),
+            evaluation: Evaluation::Direct(response),
+            tolerance: TOLERANCE,
+        }
     }
 
     /// Statistics that interpolate the response between some hundred impacts, for a simulation. `speeds` (m/s) are those at
@@ -181,7 +186,14 @@ impl<'a, R: Response> Statistics<'a, R> {
         let interpolated = |fineness| Interpolated::new(response, [diameters, bounds[ADHESION], normal], fineness);
         let [coarse, fine] = INTERPOLATIONS;
         let evaluation = Evaluation::Interpolated(Box::new([interpolated(coarse)?, interpolated(fine)?]));
-        Ok(Self { distributions, evaluation })
+        Ok(Self { distributions, evaluation, tolerance: TOLERANCE })
+    }
+
+    /// The same with another tolerance of the quadrature than 2e-7: the error of a panel of an integral over one variable below which
+    /// the panel is not divided, and ten times that for each further variable.
+    pub fn with_tolerance(mut self, tolerance: f64) -> Self {
+        self.tolerance = tolerance;
+        self
     }
 
     fn integrals(
@@ -190,11 +202,13 @@ impl<'a, R: Response> Statistics<'a, R> {
         with_powers: bool,
     ) -> Result<Outcomes, PopulationError> {
         let integrals = match &self.evaluation {
-            Evaluation::Direct(response) => Problem::new(distributions, *response, with_powers)?.integrals()?,
+            Evaluation::Direct(response) => {
+                Problem::new(distributions, *response, with_powers, self.tolerance)?.integrals()?
+            }
             Evaluation::Interpolated(responses) => {
                 let [coarse, fine] = &**responses;
-                let coarse = Problem::new(distributions, coarse, with_powers)?.integrals()?;
-                let mut fine = Problem::new(distributions, fine, with_powers)?.integrals()?;
+                let coarse = Problem::new(distributions, coarse, with_powers, self.tolerance)?.integrals()?;
+                let mut fine = Problem::new(distributions, fine, with_powers, self.tolerance)?.integrals()?;
                 fine.add_differences(&coarse);
                 fine
             }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::io::{BufRead, Write};
 
 use clap::ValueEnum;
-use impact_fit::{MeasuredSphere, Observation, Response};
+use impact_fit::{Measured, MeasuredSphere, Observation, ObservationError};
 use microimpact::{Parameter, Sphere};
 use sheet::{Input, Row};
 
@@ -27,12 +27,6 @@ pub const INPUTS: [Input; 10] = [
 
 /// Standard error of a velocity where the row gives a rebound speed and no error, m/s.
 pub const VELOCITY_ERROR: f64 = 0.01;
-
-/// Standard errors by which a measured speed may lie outside the possible range. Rows beyond are mistakes, not outliers.
-const FARTHEST: f64 = 6.0;
-
-/// By how much a restitution without stated error may lie outside the range 0 to 1.
-const UNSTATED: f64 = 0.2;
 
 /// What a table holds.
 pub struct Measurements {
@@ -158,24 +152,26 @@ fn read_row(row: &Row<'_>) -> Result<Read, String> {
             return Err("rebound_speed_m_s: missing; enter a number, or capture in the column outcome".into());
         }
     };
-    let combined = speed_error.hypot(rebound_error);
-    let reach = if without_error { UNSTATED * speed } else { FARTHEST * combined };
-    if rebound < -reach || rebound > speed + reach {
-        return Err(format!(
-            "the rebound speed {rebound} m/s is refused at an approach speed of {speed} m/s: it must lie between 0 and the approach \
-             speed, give or take {reach:.3} m/s for errors; check the units and velocity_error_m_s"
-        ));
-    }
-    let captured = outcome.map_or(rebound == 0.0, |outcome| outcome == Outcome::Capture);
-    if captured && rebound.abs() > reach {
-        return Err(format!(
-            "outcome: \"capture\" is refused: the rebound speed is {rebound} m/s; enter rebound, or 0"
-        ));
-    }
-    let response =
-        if captured { Response::Capture } else { Response::Rebound { speed: rebound, error: rebound_error } };
-    let observation = Observation { speed, speed_error, response, sphere };
+    let captured = outcome.map(|outcome| outcome == Outcome::Capture);
+    let observation = Observation::measured((speed, speed_error), (rebound, rebound_error), captured, sphere)
+        .map_err(|error| in_words(error, speed))?;
     Ok(Read { observation, diameter, default_errors, without_error })
+}
+
+/// Why a measured number is refused, at an approach speed.
+fn in_words(error: ObservationError, speed: f64) -> String {
+    let (rebound, (_, high)) = (error.value, error.range);
+    match error.quantity {
+        Measured::Rebound => format!(
+            "the rebound speed {rebound} m/s is refused at an approach speed of {speed} m/s: it must lie between 0 and the approach \
+             speed, give or take {:.3} m/s for errors; check the units and velocity_error_m_s",
+            high - speed
+        ),
+        Measured::ReboundOfCapture => {
+            format!("outcome: \"capture\" is refused: the rebound speed is {rebound} m/s; enter rebound, or 0")
+        }
+        _ => error.to_string(),
+    }
 }
 
 /// Requires a measured rebound speed and that of the stated restitution to be the same.

@@ -15,12 +15,6 @@ pub(super) struct Questions {
     pub(super) particles: u32,
 }
 
-/// Quantiles of the diameters between which the ranges lie.
-const DIAMETERS: [f64; 2] = [0.001, 0.999];
-
-/// Room beside the smallest and the largest sample.
-const ROOM: f64 = 1e-6;
-
 /// Quantiles of the speeds of the bounce fraction, and their number.
 const SPEEDS: [f64; 2] = [0.01, 0.99];
 const SPEED_COUNT: u32 = 10;
@@ -30,20 +24,7 @@ const AROUND: f64 = 3.0;
 
 impl Questions {
     fn edges(&self, population: &Population) -> Vec<f64> {
-        if self.edges.is_empty() {
-            if population.diameter.is_fixed() {
-                return Vec::new();
-            }
-            let ends = if population.diameter.is_continuous() {
-                DIAMETERS.map(|p| population.diameter.quantile(p))
-            } else {
-                // A range does not contain its lower edge.
-                let [smallest, largest] = population.diameter.bounds();
-                [smallest * (1.0 - ROOM), largest * (1.0 + ROOM)]
-            };
-            return spaced(ends, self.bins);
-        }
-        self.edges.clone()
+        if self.edges.is_empty() { population.diameter.ranges(self.bins as usize) } else { self.edges.clone() }
     }
 
     pub(super) fn speeds(&self, population: &Population) -> Vec<f64> {

@@ -1,14 +1,20 @@
-"""Broadcasting of arguments to rows."""
+"""Arguments as arrays, and their broadcasting to rows."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import reprlib
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from numbers import Real
+from operator import index
 
 import numpy as np
 import numpy.typing as npt
 
 Float = npt.NDArray[np.float64]
+
+AT_A_TIME = 32_768
+"""Rows of a call of Rust: few enough that Ctrl-C is seen within a second, and enough for many cores."""
 
 
 @dataclass(frozen=True)
@@ -23,13 +29,26 @@ class Rows:
         """Number of rows."""
         return int(np.prod(self.shape, dtype=np.int64))
 
+    def parts(self) -> Iterator[tuple[dict[str, float | Float], int]]:
+        """The numbers of some rows at a time, and how many rows. The interpreter sees Ctrl-C between them."""
+        for start in range(0, max(self.count, 1), AT_A_TIME):
+            end = min(start + AT_A_TIME, self.count)
+            yield {n: v if isinstance(v, float) else v[start:end] for n, v in self.numbers.items()}, end - start
+
 
 def number_array(name: str, value: npt.ArrayLike) -> Float:
-    """An argument as an array; the error names the argument."""
+    """An argument as an array, with NaN for what a mask hides; the error names the argument."""
     try:
-        return np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise TypeError(f"{name}: {value!r} is refused: give a number or an array of numbers") from error
+        array = np.asanyarray(value)
+        numbers = array.dtype.kind in "biuf" or (
+            array.dtype.kind == "O" and all(isinstance(each, Real) for each in array.ravel())
+        )
+        if not numbers:
+            raise TypeError(f"the type {array.dtype} has no real numbers")
+        floats = array.astype(np.float64)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise TypeError(f"{name}: {reprlib.repr(value)} is refused: give a number or an array of numbers") from error
+    return np.asarray(floats.filled(np.nan) if isinstance(floats, np.ma.MaskedArray) else floats)
 
 
 def rows(arguments: Mapping[str, npt.ArrayLike | None]) -> Rows:
@@ -63,3 +82,35 @@ def one_number(name: str, value: npt.ArrayLike) -> float:
     if array.ndim:
         raise ValueError(f"{name}: an array is refused: give one number")
     return float(array)
+
+
+def whole_number(name: str, value: object, low: int, high: int) -> int:
+    """An argument that must be a whole number in a range."""
+    try:
+        number = index(value)  # type: ignore[arg-type]
+    except TypeError as error:
+        raise TypeError(f"{name}: {value!r} is refused: give a whole number, {low} to {high}") from error
+    if not low <= number <= high:
+        raise ValueError(f"{name}: {number} is refused: it must be {low} to {high}")
+    return number
+
+
+class ByValue:
+    """Equality and hash by the values of the fields, which may be arrays: equal numbers in equal shapes."""
+
+    def _values(self) -> tuple[object, ...]:
+        return (type(self), *(_value(field) for field in vars(self).values()))
+
+    def __eq__(self, other: object) -> bool:
+        return self._values() == other._values() if isinstance(other, ByValue) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._values())
+
+
+def _value(field: object) -> object:
+    if field is None or isinstance(field, str | ByValue):
+        return field
+    # Zeros of both signs are equal.
+    array = number_array("field", field) + 0.0  # type: ignore[arg-type]
+    return (array.shape, array.tobytes())

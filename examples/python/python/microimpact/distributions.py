@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from .arrays import Float, number_array, one_number
+from .arrays import ByValue, Float, number_array, one_number
 
 
 @dataclass(frozen=True)
@@ -27,8 +27,8 @@ class Normal:
     deviation: float
 
 
-@dataclass(frozen=True)
-class Samples:
+@dataclass(frozen=True, eq=False)
+class Samples(ByValue):
     """Measured values, each as probable as the others."""
 
     values: npt.ArrayLike

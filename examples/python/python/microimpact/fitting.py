@@ -98,55 +98,58 @@ def fit(
     """Fits restitution laws and laws of contact to measured impacts, by maximum likelihood.
 
     `speed_normal` has approach speeds, m/s. Give `rebound_speed`, m/s, or `overall_restitution`, the rebound speed over the
-    approach speed. `captured` says which spheres were captured; without it, those whose rebound speed is exactly zero. Standard
-    errors: those of both speeds are 0.01 m/s where rebound speeds have none; restitutions without an error scatter by nature. With
-    the `mass` of each sphere, kg, works are in J, and else in J/kg. `laws` names the laws to fit instead of all: constant,
-    speed-restitution, elastic-plastic, viscoelastic, ring, dmt, jkr. Without `natural_scatter` the stated errors are all of the
-    scatter.
+    approach speed. The rebound speed must lie between zero and the approach speed, give or take six standard errors, or a fifth of
+    the approach speed where there are no errors. `captured` says which spheres were captured, whose rebound may be NaN; without it,
+    they are those whose rebound speed is exactly zero. Standard errors of both speeds are 0.01 m/s where rebound speeds have none;
+    restitutions without an error scatter by nature. With the `mass` of each sphere, kg, works are in J, and else in J/kg. `laws`
+    names the laws to fit instead of all: constant, speed-restitution, elastic-plastic, viscoelastic, ring, dmt, jkr. Without
+    `natural_scatter` the stated errors are all of the scatter.
     """
     if (rebound_speed is None) == (overall_restitution is None):
         raise ValueError("rebound_speed: give one of rebound_speed and overall_restitution")
-    measured = rebound_speed if rebound_speed is not None else overall_restitution
-    assumed = VELOCITY_ERROR if rebound_speed is not None else 0.0
-    second_error = rebound_speed_error if rebound_speed is not None else overall_restitution_error
+    as_restitutions = overall_restitution is not None
+    if as_restitutions:
+        measured, error, assumed = ("overall_restitution", overall_restitution), overall_restitution_error, 0.0
+        other = ("rebound_speed_error", rebound_speed_error)
+    else:
+        measured, error, assumed = ("rebound_speed", rebound_speed), rebound_speed_error, VELOCITY_ERROR
+        other = ("overall_restitution_error", overall_restitution_error)
+    if other[1] is not None:
+        raise ValueError(f"{other[0]}: it does not go with {measured[0]}; give {measured[0]}_error")
+    if isinstance(laws, str):
+        raise TypeError(f'laws: "{laws}" is refused: give a list of names')
     broadcast = rows(
         {
             "speed_normal": speed_normal,
             "speed_normal_error": assumed if speed_normal_error is None else speed_normal_error,
-            "rebound": measured,
-            "rebound_error": assumed if second_error is None else second_error,
-            "mass": 0.0 if mass is None else mass,
+            measured[0]: measured[1],
+            f"{measured[0]}_error": assumed if error is None else error,
+            "mass": 1.0 if mass is None else mass,
             "mass_relative_error": mass_relative_error,
             "captured": 0.0 if captured is None else captured,
         }
     )
-    count = broadcast.count
-    speed, speed_error, rebound, rebound_error, masses, mass_error, caught = (
-        np.array(np.broadcast_to(value, (count,))) for value in broadcast.numbers.values()
+    columns = [np.array(np.broadcast_to(value, (broadcast.count,))) for value in broadcast.numbers.values()]
+    speed, speed_error, rebound, rebound_error, masses, mass_error, caught = columns
+    is_captured = None
+    if captured is not None:
+        _require_truth("captured", caught)
+        is_captured = caught != 0.0
+        # A captured sphere has no rebound.
+        rebound = np.where(is_captured & np.isnan(rebound), 0.0, rebound)
+    numbers = (speed, speed_error, rebound, rebound_error, masses, mass_error)
+    answer = _native.fit(
+        numbers, is_captured, mass is not None, as_restitutions, list(dict.fromkeys(laws)), natural_scatter
     )
-    if overall_restitution is not None:
-        rebound, rebound_error = rebound * speed, rebound_error * speed
-    _require("speed_normal", (speed > 0.0) & np.isfinite(speed), speed, "an approach speed must be positive, in m/s")
-    _require("rebound_speed", np.isfinite(rebound), rebound, "it must be a number")
-    errors = {
-        "speed_normal_error": speed_error,
-        "rebound_speed_error": rebound_error,
-        "mass_relative_error": mass_error,
-    }
-    for name, values in errors.items():
-        _require(name, (values >= 0.0) & np.isfinite(values), values, "a standard error must be zero or positive")
-    if mass is not None:
-        _require("mass", (masses > 0.0) & np.isfinite(masses), masses, "a mass must be positive, in kg")
-    is_captured = caught != 0.0 if captured is not None else rebound == 0.0
-    columns = (speed, speed_error, rebound, rebound_error, masses, mass_error)
-    answer = _native.fit(columns, is_captured, mass is not None, list(laws), natural_scatter)
-    return _fit(answer, (speed, np.where(is_captured, 0.0, rebound / speed)))
+    at_rest = rebound == 0.0 if is_captured is None else is_captured
+    return _fit(answer, (speed, np.where(at_rest, 0.0, rebound if as_restitutions else rebound / speed)))
 
 
-def _require(name: str, valid: npt.NDArray[np.bool_], values: Float, demand: str) -> None:
-    if not valid.all():
-        row = int(np.argmin(valid))
-        raise ValueError(f"{name}: {values[row]} is refused: {demand} (at index {row})")
+def _require_truth(name: str, values: Float) -> None:
+    wrong = ~np.isin(values, [0.0, 1.0])
+    if wrong.any():
+        row = int(np.argmax(wrong))
+        raise ValueError(f"{name}: {values[row]} is refused: it must be True or False (at index {row})")
 
 
 def _fit(answer: dict[str, Any], data: tuple[Float, Float]) -> Fit:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from enum import IntEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from .arrays import Float
+from .arrays import Float, Rows, number_array
 
 if TYPE_CHECKING:
     from ._native import _Results, _Statuses
@@ -110,17 +111,19 @@ class Impacts:
     spin_2_out: Float
     """Spin of the second of two spheres after a collision, rad/s: vectors."""
 
-    def __init__(self, results: _Results, shape: tuple[int, ...], errors: str) -> None:
-        (status, parameter, failure), classes, numbers = results
-        check(errors, failure, shape)
-        self.status = status.reshape(shape)
-        self.impact_class = classes.reshape(shape)
-        self._parameter = parameter.reshape(shape)
-        self.quantities = {name: array.reshape(shape) for name, array in numbers.items()}
+    def __init__(self, parts: list[_Results], shape: tuple[int, ...]) -> None:
+        def whole(arrays: Iterable[npt.NDArray[Any]]) -> npt.NDArray[Any]:
+            return np.concatenate(list(arrays)).reshape(shape)
+
+        self.status = whole(status for (status, _, _), _, _ in parts)
+        self.impact_class = whole(classes for _, classes, _ in parts)
+        self._parameter = whole(parameter for (_, parameter, _), _, _ in parts)
+        self.quantities = {name: whole(numbers[name] for _, _, numbers in parts) for name in parts[0][2]}
         for name in VECTORS:
-            parts = [self.quantities.pop(f"{name}_{axis}", None) for axis in "xyz"]
-            if all(part is not None for part in parts):
-                self.quantities[name] = np.stack([part for part in parts if part is not None], axis=-1)
+            components = [self.quantities.pop(f"{name}_{axis}", None) for axis in "xyz"]
+            if all(component is not None for component in components):
+                known = [component for component in components if component is not None]
+                self.quantities[name] = np.stack(known, axis=-1)
 
     def __getattr__(self, name: str) -> Float:
         quantities: dict[str, Float] = self.__dict__.get("quantities", {})
@@ -148,7 +151,7 @@ class Impacts:
     def with_margin(self, speed_normal: npt.ArrayLike, critical: Float) -> Impacts:
         """Adds the quantity `speed_over_critical`: infinite where every speed rebounds, zero where none does."""
         with np.errstate(divide="ignore"):
-            margin = np.asarray(speed_normal, dtype=np.float64) / critical
+            margin = number_array("speed_normal", speed_normal) / critical
         margin = np.broadcast_to(margin, self.status.shape)
         self.quantities["speed_over_critical"] = np.where(self.impact_class == Class.NONE, np.nan, margin)
         return self
@@ -162,30 +165,60 @@ class Impacts:
         )
 
 
-def check(errors: str, failure: tuple[int, str] | None, shape: tuple[int, ...]) -> None:
-    """Raises an error for the first row that failed, unless statuses are asked for."""
+def computed(broadcast: Rows, errors: str, compute: Callable[[dict[str, float | Float], int], _Results]) -> Impacts:
+    """Computes the impacts of all rows, some at a time."""
+    check_errors(errors)
+    parts, before = [], 0
+    for numbers, count in broadcast.parts():
+        parts.append(compute(numbers, count))
+        check(errors, parts[-1][0][2], before, broadcast.shape)
+        before += count
+    return Impacts(parts, broadcast.shape)
+
+
+def critical_speeds(
+    broadcast: Rows, errors: str, compute: Callable[[dict[str, float | Float], int], tuple[_Statuses, Float]]
+) -> Float:
+    """Computes the critical speeds of all rows, some at a time."""
+    check_errors(errors)
+    parts, before = [], 0
+    for numbers, count in broadcast.parts():
+        (_, _, failure), speeds = compute(numbers, count)
+        check(errors, failure, before, broadcast.shape)
+        parts.append(speeds)
+        before += count
+    return np.concatenate(parts).reshape(broadcast.shape)
+
+
+def check_errors(errors: str) -> None:
+    """Demands that errors are raised or are statuses."""
     if errors not in ("raise", "status"):
         raise ValueError(f'errors: "{errors}" is refused: it must be "raise" or "status"')
+
+
+def check(errors: str, failure: tuple[int, str] | None, before: int, shape: tuple[int, ...]) -> None:
+    """Raises an error for the first row that failed, with some rows before it, unless statuses are asked for."""
     if failure is None or errors == "status":
         return
     row, reason = failure
-    place = ", ".join(str(int(index)) for index in np.unravel_index(row, shape)) if shape else ""
+    place = ", ".join(str(int(index)) for index in np.unravel_index(before + row, shape)) if shape else ""
     raise ValueError(f"{reason} (at index {place})" if place else reason)
 
 
-def shaped(found: tuple[_Statuses, Float], shape: tuple[int, ...], errors: str) -> Float:
-    """Critical speeds in the shape of the arguments."""
-    (_, _, failure), speeds = found
-    check(errors, failure, shape)
-    return speeds.reshape(shape)
-
-
-def outputs_of(
-    asked: str | list[str] | tuple[str, ...], basic: tuple[str, ...], all_names: tuple[str, ...]
-) -> list[str]:
-    """The names of the quantities: the basic ones, and those asked for."""
+def outputs_of(asked: object, basic: tuple[str, ...], more: tuple[str, ...]) -> list[str]:
+    """The names of the quantities: the basic ones, and those asked for of the others that an impact of this kind has."""
     if isinstance(asked, str):
         if asked != "all":
             raise ValueError(f'outputs: "{asked}" is refused: give a list of names, or "all"')
-        asked = all_names
-    return list(dict.fromkeys([*basic, *asked]))
+        return [*basic, *more]
+    if not isinstance(asked, Iterable):
+        raise TypeError(f'outputs: {asked!r} is refused: give a list of names, or "all"')
+    # Vectors are computed by their components.
+    vectors = [name for name in VECTORS if f"{name}_x" in basic]
+    planar = [name for name in PLANAR if name not in vectors]
+    names = [name for name in asked if name not in vectors]
+    known = dict.fromkeys([*basic, *planar, *more])
+    for name in names:
+        if name not in known:
+            raise ValueError(f'outputs: "{name}" is refused: impacts of this kind have {", ".join([*known, *vectors])}')
+    return list(dict.fromkeys([*basic, *names]))

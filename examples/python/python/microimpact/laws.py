@@ -7,11 +7,13 @@ from typing import ClassVar
 
 import numpy.typing as npt
 
+from .arrays import ByValue
+
 DAMPINGS = ("none", "hysteretic", "viscoelastic", "constant")
 
 
-@dataclass(frozen=True, kw_only=True)
-class Contact:
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Contact(ByValue):
     """What all laws have: the elastic stiffness, and one damping of the materials.
 
     Damping is hysteretic by `zeta_h`, or named by `damping` with its `damping_value`: `zeta_h` of "hysteretic", the relaxation
@@ -33,6 +35,8 @@ class Contact:
     end_rules: ClassVar[tuple[str, ...]] = ()
 
     def __post_init__(self) -> None:
+        if not self.law:
+            raise TypeError("Contact has no law of its own; use Hertz, Ring, Dmt or Jkr")
         if self.damping is not None and self.damping not in DAMPINGS:
             raise ValueError(f'damping: "{self.damping}" is refused: it must be one of {", ".join(DAMPINGS)}')
         if self.damping is not None and self.zeta_h is not None:
@@ -63,7 +67,7 @@ class Contact:
         }
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Hertz(Contact):
     """Hertz's contact, without adhesion."""
 
@@ -77,7 +81,7 @@ class Hertz(Contact):
         return self.end_rule
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Ring(Contact):
     """Hertz's contact with the paper's ring of adhesion, whose damping acts on rebound."""
 
@@ -94,7 +98,7 @@ class Ring(Contact):
         return {**super().numbers(), "adhesion": self.adhesion, "zeta_a": self.zeta_a}
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Dmt(Contact):
     """Hertz's contact with the adhesion of Derjaguin, Muller and Toporov."""
 
@@ -109,7 +113,7 @@ class Dmt(Contact):
         return {**super().numbers(), "work_of_adhesion": self.work_of_adhesion}
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Jkr(Contact):
     """The contact of Johnson, Kendall and Roberts. It takes no external force."""
 

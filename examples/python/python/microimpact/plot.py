@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from .arrays import Float, number_array
+
 if TYPE_CHECKING:
     from .fitting import Fit
     from .population import Sizes
@@ -30,18 +32,37 @@ def restitution(scene: Scene | RigidBody, speed_normal: npt.ArrayLike, ax: Any =
     from .rigid_body import RigidBody
 
     axes = _axes(ax)
-    speeds = np.asarray(speed_normal, dtype=np.float64)
+    speeds = number_array("speed_normal", speed_normal)
     impacts = scene.classify(speeds) if isinstance(scene, RigidBody) else scene.simulate(speeds)
     axes.plot(speeds, impacts.overall_restitution)
     axes.set(xlabel="approach speed, m/s", ylabel="overall restitution", xscale="log", ylim=(0, 1))
     return axes
 
 
+POINTS = 10
+"""Points that are drawn for each node, so that lines show no corners."""
+
+
+def _smooth(x: Float, y: Float) -> tuple[Float, Float]:
+    """A curve through nodes: cubics whose slopes at the nodes are those of the parabolas through three of them."""
+    nodes = np.append(True, np.diff(x) > 0)
+    x, y = x[nodes], y[nodes]
+    if len(x) < 3:
+        return x, y
+    slope = np.gradient(y, x)
+    # One row of points for each interval, from its first node on.
+    part, width = np.arange(POINTS) / POINTS, np.diff(x)[:, None]
+    rise = np.diff(y)[:, None]
+    first, second = width * slope[:-1, None] - rise, rise - width * slope[1:, None]
+    inner = y[:-1, None] + part * rise + part * (1 - part) * (first * (1 - part) + second * part)
+    return np.append(x[:-1, None] + width * part, x[-1]), np.append(inner, y[-1])
+
+
 def trajectory(course: Trajectory, ax: Any = None) -> Any:
-    """Draws the force of an impact against time; returns the axes."""
+    """Draws the force of an impact against time, as a smooth curve through the nodes; returns the axes."""
     axes = _axes(ax)
-    axes.plot(1e9 * course.time, 1e6 * course.force, label="total")
-    axes.plot(1e9 * course.time, 1e6 * course.elastic, "--", label="elastic")
+    axes.plot(*_smooth(1e9 * course.time, 1e6 * course.force), label="total")
+    axes.plot(*_smooth(1e9 * course.time, 1e6 * course.elastic), "--", label="elastic")
     axes.axhline(0.0, color="grey", linewidth=0.5)
     axes.set(xlabel="time from first contact, ns", ylabel="normal force, µN")
     axes.legend()

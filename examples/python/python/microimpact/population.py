@@ -9,8 +9,18 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import distributions, plot
-from .arrays import Float
+from .arrays import Float, number_array, one_number, whole_number
 from .distributions import Distributed, LogNormal
+
+MOST_BINS = 200
+"""Largest number of ranges of diameters."""
+
+TOLERANCE = 1e-5
+"""Tolerance of the quadrature: the error of a part of an integral over one distribution at which the part is not divided again; ten
+times as much for each further distribution."""
+
+TOLERANCES = (1e-9, 1e-3)
+"""Its range."""
 
 
 class Estimate(NamedTuple):
@@ -22,7 +32,7 @@ class Estimate(NamedTuple):
 
 @dataclass(frozen=True)
 class Sizes:
-    """Capture efficiency in ranges of diameters, each array with a number for each range."""
+    """Capture efficiency in ranges of diameters, each array with a number for each range. A range without spheres has NaN."""
 
     diameter_from: Float
     """Smallest diameter, m."""
@@ -59,7 +69,7 @@ class Population:
     """What a population of spheres does."""
 
     Shapes = tuple[distributions.Shape, distributions.Shape, distributions.Shape, "distributions.Shape | None"]
-    Questions = tuple[int, Sequence[float], Sequence[float]]
+    Questions = tuple[int, Sequence[float], Sequence[float], float]
 
     by_number: dict[str, Estimate]
     """Probabilities of rebound, capture, and each class; a capture that rests counts as rolling."""
@@ -85,23 +95,26 @@ class Population:
         bins: int,
         edges: Sequence[float],
         speeds: Sequence[float],
+        tolerance: float,
     ) -> Population:
         """Asks Rust for the statistics."""
-        if not 0 <= bins <= 200:
-            raise ValueError(f"bins: {bins} is refused: it must be 0 to 200")
-        edge = [float(value) for value in edges]
-        if edge and (len(edge) < 2 or edge[0] <= 0.0 or not all(a < b for a, b in zip(edge, edge[1:]))):
+        bins = whole_number("bins", bins, 0, MOST_BINS)
+        edge = number_array("edges", edges).reshape(-1).tolist()
+        if edge and (len(edge) < 2 or edge[0] <= 0.0 or not all(a < b < np.inf for a, b in zip(edge, edge[1:]))):
             raise ValueError("edges: give two or more positive diameters in m, in increasing order")
-        fast = [float(value) for value in speeds]
+        fast = number_array("speeds", speeds).reshape(-1).tolist()
         if not all(np.isfinite(value) and value > 0.0 for value in fast):
             raise ValueError("speeds: give positive speeds in m/s")
+        tolerance = one_number("tolerance", tolerance)
+        if not TOLERANCES[0] <= tolerance <= TOLERANCES[1]:
+            raise ValueError(f"tolerance: {tolerance} is refused: it must be {TOLERANCES[0]} to {TOLERANCES[1]}")
         shapes = (
             distributions.shape("diameter", diameter),
             distributions.shape("speed", speed),
             _angle(angle_deg),
             None if adhesion is None else distributions.shape("adhesion", adhesion),
         )
-        answer = compute(shapes, (bins, edge, fast))
+        answer = compute(shapes, (bins, edge, fast, tolerance))
         if not all(np.isfinite(number) for _, estimate in answer["by_number"] for number in estimate):
             raise ValueError("population: the quadrature does not resolve these distributions; give narrower ones")
 

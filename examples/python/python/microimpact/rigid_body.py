@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy.typing as npt
 
 from . import _native
-from .arrays import Float, one_number, rows
+from .arrays import ByValue, Float, one_number, rows
 from .distributions import Distributed
-from .impacts import AT_WALL, OF_TWO, PLANAR, Impacts, outputs_of, shaped
+from .impacts import AT_WALL, OF_TWO, PLANAR, Impacts, computed, critical_speeds, outputs_of
 from .motions import AT_REST, UPRIGHT, Numbers, at_wall, in_plane, of_two
-from .population import Population
+from .population import TOLERANCE, Population
 
 COMPUTED = (
     "impulse_ratio_out",
@@ -30,8 +30,8 @@ RESTITUTIONS = ("restitution", "restitution_speed", "yield_speed")
 ADHESIONS = ("work_of_adhesion", "adhesion_coefficient", "adhesion_speed")
 
 
-@dataclass(frozen=True, kw_only=True)
-class RigidBody:
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RigidBody(ByValue):
     """Spheres as rigid bodies: a restitution law, adhesion and friction. Every number may be an array.
 
     Restitution without adhesion is one of `restitution` R, `restitution_speed` k (with `restitution_power` p: R = k^p/(k^p + v^p)),
@@ -90,10 +90,12 @@ class RigidBody:
     def _classified(
         self, motions: Numbers, basic: tuple[str, ...], outputs: str | Sequence[str], errors: str
     ) -> Impacts:
-        names = outputs_of(outputs if isinstance(outputs, str) else list(outputs), basic, COMPUTED)
-        broadcast = rows({**self._with_radius(), **motions})
-        impacts = Impacts(_native.classify(broadcast.numbers, broadcast.count, names), broadcast.shape, errors)
-        return impacts
+        names = outputs_of(outputs, basic, COMPUTED)
+
+        def compute(numbers: dict[str, float | Float], count: int) -> _native._Results:
+            return _native.classify(numbers, count, names)
+
+        return computed(rows({**self._with_radius(), **motions}), errors, compute)
 
     def classify(
         self,
@@ -162,9 +164,7 @@ class RigidBody:
 
         Zero where spheres of every speed rebound, infinite where those of every speed are captured.
         """
-        broadcast = rows(self._with_radius())
-        found = _native.critical_speeds_of_bodies(broadcast.numbers, broadcast.count)
-        return shaped(found, broadcast.shape, errors)
+        return critical_speeds(rows(self._with_radius()), errors, _native.critical_speeds_of_bodies)
 
     def population(
         self,
@@ -176,14 +176,23 @@ class RigidBody:
         bins: int = 8,
         edges: Sequence[float] = (),
         speeds: Sequence[float] = (),
+        tolerance: float = TOLERANCE,
     ) -> Population:
-        """What a population of spheres does, as `Scene.population`; `adhesion` takes the place of the number of adhesion."""
+        """What a population of spheres does, as `Scene.population`, in a few seconds at most.
+
+        `adhesion` takes the place of the body's `work_of_adhesion`, `adhesion_coefficient` or `adhesion_speed`, one of which the body
+        must have: it says what the numbers are.
+        """
         if self.rolling_arm is not None:
             raise ValueError("rolling_arm: populations do not take it; leave it out")
+        if adhesion is not None and all(self._numbers()[name] is None for name in ADHESIONS):
+            raise ValueError(
+                f"adhesion: this body has none; give it one of {', '.join(ADHESIONS)}, whose place the distribution takes"
+            )
         numbers = {name: value for name, value in self._numbers().items() if name != "radius" and value is not None}
         single: dict[str, float | Float] = {name: one_number(name, value) for name, value in numbers.items()}
 
         def compute(shapes: Population.Shapes, questions: Population.Questions) -> dict[str, object]:
             return _native.population_of_bodies(single, shapes, questions)
 
-        return Population.of(compute, diameter, speed, angle_deg, adhesion, bins, edges, speeds)
+        return Population.of(compute, diameter, speed, angle_deg, adhesion, bins, edges, speeds, tolerance)

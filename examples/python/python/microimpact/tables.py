@@ -9,12 +9,15 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from .arrays import Float, rows
+from .arrays import Float, Rows, rows
+from .impacts import check, check_errors
 
 
 class TableOutcome(IntEnum):
     """What a table says of an impact."""
 
+    NONE = -1
+    """The radius or the speed is outside its range: there is no such impact."""
     REBOUND = 0
     CAPTURE = 1
     TOO_CLOSE_TO_CALL = 2
@@ -34,11 +37,11 @@ class Reading(NamedTuple):
     """Bound of the error of the restitution."""
 
 
-def _radii_and_speeds(radius: npt.ArrayLike, speed_normal: npt.ArrayLike) -> tuple[Float, Float, tuple[int, ...]]:
+def _radii_and_speeds(radius: npt.ArrayLike, speed_normal: npt.ArrayLike) -> tuple[Float, Float, Rows]:
     broadcast = rows({"radius": radius, "speed_normal": speed_normal})
     flat = [np.atleast_1d(np.asarray(value)) for value in broadcast.numbers.values()]
     first, second = (np.ascontiguousarray(np.broadcast_to(array, (broadcast.count,))) for array in flat)
-    return first, second, broadcast.shape
+    return first, second, broadcast
 
 
 class BoundaryTable:
@@ -62,10 +65,32 @@ class BoundaryTable:
         """The constants of a table in firmware: smallest radius (m), margin in units of 2^-23 octaves, and cells."""
         return self._table.parts
 
-    def classify(self, radius: npt.ArrayLike, speed_normal: npt.ArrayLike) -> npt.NDArray[np.int8]:
-        """`TableOutcome` of spheres of a radius (m) that arrive with a speed (m/s)."""
-        radii, speeds, shape = _radii_and_speeds(radius, speed_normal)
-        return self._table.classify(radii, speeds).reshape(shape)
+    def classify(
+        self, radius: npt.ArrayLike, speed_normal: npt.ArrayLike, *, errors: str = "raise"
+    ) -> npt.NDArray[np.int8]:
+        """`TableOutcome` of spheres of a radius (m) that arrive with a speed (m/s).
+
+        Raises ValueError for the first radius or speed outside its range; with errors="status" its outcome is `TableOutcome.NONE`.
+        """
+        check_errors(errors)
+        radii, speeds, broadcast = _radii_and_speeds(radius, speed_normal)
+        outcome, failure = self._table.classify(radii, speeds)
+        check(errors, failure, 0, broadcast.shape)
+        return outcome.reshape(broadcast.shape)
+
+    def __eq__(self, other: object) -> bool:
+        return self.parts == other.parts if isinstance(other, BoundaryTable) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(str(self.parts))
+
+    def __reduce__(self) -> tuple[object, tuple[object, ...]]:
+        return _boundary_table, self.parts
+
+
+def _boundary_table(smallest: float, margin: int, cells: list[list[int]]) -> BoundaryTable:
+    """The table of some parts."""
+    return BoundaryTable(_native.BoundaryTable.from_parts(smallest, margin, cells))
 
 
 class RestitutionTable:
@@ -79,8 +104,29 @@ class RestitutionTable:
         """Largest interpolation error of a restitution; that of a reading is larger close to the critical speed."""
         return self._table.error
 
-    def read(self, radius: npt.ArrayLike, speed_normal: npt.ArrayLike) -> Reading:
-        """Outcome and restitution of spheres of a radius (m) that arrive with a speed (m/s)."""
-        radii, speeds, shape = _radii_and_speeds(radius, speed_normal)
-        outcome, restitution, error = self._table.read(radii, speeds)
+    def read(self, radius: npt.ArrayLike, speed_normal: npt.ArrayLike, *, errors: str = "raise") -> Reading:
+        """Outcome and restitution of spheres of a radius (m) that arrive with a speed (m/s).
+
+        Raises ValueError for the first radius or speed outside its range; with errors="status" its outcome is `TableOutcome.NONE`
+        and its numbers are NaN.
+        """
+        check_errors(errors)
+        radii, speeds, broadcast = _radii_and_speeds(radius, speed_normal)
+        outcome, restitution, error, failure = self._table.read(radii, speeds)
+        check(errors, failure, 0, broadcast.shape)
+        shape = broadcast.shape
         return Reading(outcome.reshape(shape), restitution.reshape(shape), error.reshape(shape))
+
+    def __eq__(self, other: object) -> bool:
+        return self._table.parts == other._table.parts if isinstance(other, RestitutionTable) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(str(self._table.parts))
+
+    def __reduce__(self) -> tuple[object, tuple[object, ...]]:
+        return _restitution_table, self._table.parts
+
+
+def _restitution_table(boundary: object, scales: object, nodes: object) -> RestitutionTable:
+    """The table of some parts."""
+    return RestitutionTable(_native.RestitutionTable.from_parts(boundary, scales, nodes))

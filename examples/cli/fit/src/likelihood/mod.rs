@@ -90,6 +90,9 @@ const MEDIAN_ERROR: f64 = 0.15;
 /// Largest speed over the yield speed for which the elastic-plastic law holds: the sphere must stay larger than the contact.
 const SLOWEST_YIELD: f64 = 100.0;
 
+/// Largest variance of the scatter: restitutions lie between 0 and 1.
+const LARGEST_VARIANCE: f64 = 1.0;
+
 /// Nodes of the integrals, for standard normal variables.
 const NODES: usize = 9;
 
@@ -143,7 +146,7 @@ impl Likelihood {
 
     /// The least variance of the scatter that a fit may find, so that no curve through two exact rows has an infinite likelihood.
     pub fn set_least_variance(&mut self, variance: f64) {
-        self.least_variance = variance;
+        self.least_variance = variance.min(LARGEST_VARIANCE);
     }
 
     /// The parameters of the law.
@@ -189,7 +192,7 @@ impl Likelihood {
             Coordinate::AdhesionDamping => (0.0, 5.0),
         });
         let nuisances = self.nuisances.iter().map(|nuisance| match nuisance {
-            Nuisance::Variance => (self.least_variance, 1.0),
+            Nuisance::Variance => (self.least_variance, LARGEST_VARIANCE),
             Nuisance::Outlier => (1e-6, 0.4),
             Nuisance::TailWeight => (0.0, 0.45),
             Nuisance::TailOffset => (-1.0, 1.0),

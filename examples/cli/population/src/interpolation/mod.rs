@@ -10,7 +10,7 @@
 
 mod nodes;
 
-use std::cell::RefCell;
+use std::cell::{RefCell, RefMut};
 
 use microimpact::CriticalSpeed;
 
@@ -42,14 +42,34 @@ pub(crate) struct Interpolated<'a, R> {
     diameters: Grid,
     adhesions: Grid,
     speeds: Chebyshev,
-    /// Inverses of the critical speeds at the nodes, the adhesions innermost; `None` if all spheres rebound.
-    inverses: Option<Vec<f64>>,
+    /// Inverses of the critical speeds at the nodes and their logarithms, the adhesions innermost; `None` if all spheres rebound.
+    inverses: Option<Vec<[f64; 2]>>,
     /// The least and the largest t.
     reach: [f64; 2],
     /// Rebounds at the speeds of each pair of nodes.
     rebounds: Vec<Vec<Rebound>>,
-    /// The last sphere that was asked for, with its rebounds at the speeds.
-    last: RefCell<Option<([f64; 2], Vec<Rebound>)>>,
+    /// The last adhesion that was asked for: most integrals are over spheres of one.
+    last: RefCell<OneAdhesion>,
+}
+
+/// A response to spheres of one adhesion at the nodes of the diameters, as far as it was asked for.
+#[derive(Default)]
+struct OneAdhesion {
+    adhesion: f64,
+    /// Index of the first neighbour among the nodes of the adhesions, and the weights of the neighbours.
+    columns: (usize, Vec<f64>),
+    /// Inverse of the critical speed and its logarithm.
+    inverses: Vec<Option<[f64; 2]>>,
+    /// Rebounds at the nodes of the speeds.
+    rebounds: Vec<Option<Vec<Rebound>>>,
+}
+
+impl OneAdhesion {
+    /// Adds up what the nodes near the adhesion have at a node of the diameters.
+    fn near(&self, row: usize, count: usize, mut add: impl FnMut(f64, usize)) {
+        let (first, weights) = &self.columns;
+        weights.iter().enumerate().for_each(|(column, weight)| add(*weight, row * count + first + column));
+    }
 }
 
 impl<'a, R: Response> Interpolated<'a, R> {
@@ -75,7 +95,7 @@ impl<'a, R: Response> Interpolated<'a, R> {
         let inverses = inverses(&critical?)?;
         let reach = match &inverses {
             Some(inverses) => {
-                let largest = inverses.iter().copied().fold(0.0, f64::max);
+                let largest = inverses.iter().map(|[inverse, _]| *inverse).fold(0.0, f64::max);
                 [0.0, (fastest * largest).max(LEAST_RATIO).acosh()]
             }
             None => [slowest.ln(), fastest.ln()],
@@ -88,7 +108,7 @@ impl<'a, R: Response> Interpolated<'a, R> {
             inverses,
             reach,
             rebounds: Vec::new(),
-            last: RefCell::new(None),
+            last: RefCell::default(),
         };
         interpolated.rebounds = interpolated.at_nodes(&spheres)?;
         Ok(interpolated)
@@ -108,7 +128,7 @@ impl<'a, R: Response> Interpolated<'a, R> {
             let mut row = Vec::new();
             for position in self.speeds.positions() {
                 let speed = match &self.inverses {
-                    Some(inverses) => position.cosh().max(1.0 + CLOSE) / inverses[source],
+                    Some(inverses) => position.cosh().max(1.0 + CLOSE) / inverses[source][0],
                     None => position.exp(),
                 };
                 row.push(self.response.rebound(diameter, adhesion, speed.min(FASTEST))?);
@@ -126,43 +146,59 @@ impl<'a, R: Response> Interpolated<'a, R> {
             let (other_row, other_column) = place(*other);
             row.abs_diff(other_row) + column.abs_diff(other_column)
         };
-        (0..inverses.len()).filter(|other| inverses[*other] > 0.0).min_by_key(distance)
+        (0..inverses.len()).filter(|other| inverses[*other][0] > 0.0).min_by_key(distance)
     }
 
-    /// Adds up what the nodes near a sphere have.
-    fn near(&self, diameter: f64, adhesion: f64, mut add: impl FnMut(f64, usize)) {
-        let (first_row, rows) = self.diameters.weights(diameter.ln());
-        let (first_column, columns) =
-            if self.adhesions.count() == 1 { (0, vec![1.0]) } else { self.adhesions.weights(adhesion.ln()) };
-        for (row, row_weight) in rows.iter().enumerate() {
-            for (column, column_weight) in columns.iter().enumerate() {
-                let index = (first_row + row) * self.adhesions.count() + first_column + column;
-                add(row_weight * column_weight, index);
-            }
+    /// What was asked for of spheres of an adhesion.
+    fn of_adhesion(&self, adhesion: f64) -> RefMut<'_, OneAdhesion> {
+        let mut last = self.last.borrow_mut();
+        if last.inverses.is_empty() || last.adhesion != adhesion {
+            let columns =
+                if self.adhesions.count() == 1 { (0, vec![1.0]) } else { self.adhesions.weights(adhesion.ln()) };
+            let rows = self.diameters.count();
+            *last = OneAdhesion { adhesion, columns, inverses: vec![None; rows], rebounds: vec![None; rows] };
         }
+        last
     }
 
-    /// The rebounds of a sphere at the nodes of the speeds.
-    fn rebounds_of(&self, diameter: f64, adhesion: f64) -> Vec<Rebound> {
-        let mut sums = vec![Rebound { restitution: 0.0, stopped: 0.0 }; self.speeds.count()];
-        self.near(diameter, adhesion, |weight, index| {
-            for (sum, rebound) in sums.iter_mut().zip(&self.rebounds[index]) {
-                sum.restitution += weight * rebound.restitution;
-                sum.stopped += weight * rebound.stopped;
-            }
+    /// Inverse of the critical speed and its logarithm at a node of the diameters.
+    fn inverse_at(&self, last: &mut OneAdhesion, inverses: &[[f64; 2]], row: usize) -> [f64; 2] {
+        if let Some(known) = last.inverses[row] {
+            return known;
+        }
+        let mut sums = [0.0; 2];
+        last.near(row, self.adhesions.count(), |weight, index| {
+            sums = [0, 1].map(|part: usize| sums[part] + weight * inverses[index][part]);
         });
+        last.inverses[row] = Some(sums);
         sums
+    }
+
+    /// The rebounds at the nodes of the speeds, at a node of the diameters.
+    fn rebounds_at<'b>(&self, last: &'b mut OneAdhesion, row: usize) -> &'b [Rebound] {
+        if last.rebounds[row].is_none() {
+            let mut sums = vec![Rebound { restitution: 0.0, stopped: 0.0 }; self.speeds.count()];
+            last.near(row, self.adhesions.count(), |weight, index| {
+                for (sum, rebound) in sums.iter_mut().zip(&self.rebounds[index]) {
+                    sum.restitution += weight * rebound.restitution;
+                    sum.stopped += weight * rebound.stopped;
+                }
+            });
+            last.rebounds[row] = Some(sums);
+        }
+        last.rebounds[row].as_deref().unwrap_or_default()
     }
 }
 
-/// Inverses of critical speeds, zero where spheres of every speed are captured; `None` if spheres of every speed rebound.
-fn inverses(found: &[CriticalSpeed<f64>]) -> Result<Option<Vec<f64>>, PopulationError> {
+/// Inverses of critical speeds and their logarithms, zero where spheres of every speed are captured; `None` if spheres of every speed
+/// rebound.
+fn inverses(found: &[CriticalSpeed<f64>]) -> Result<Option<Vec<[f64; 2]>>, PopulationError> {
     if found.iter().all(|critical| *critical == CriticalSpeed::AlwaysRebounds) {
         return Ok(None);
     }
     let inverse = |critical: &CriticalSpeed<f64>| match critical {
-        CriticalSpeed::At(speed) => Ok(1.0 / speed),
-        CriticalSpeed::NeverRebounds => Ok(0.0),
+        CriticalSpeed::At(speed) => Ok([1.0 / speed, -speed.ln()]),
+        CriticalSpeed::NeverRebounds => Ok([0.0, f64::NEG_INFINITY]),
         CriticalSpeed::AlwaysRebounds => Err(PopulationError::ReboundsOfAPart),
     };
     found.iter().map(inverse).collect::<Result<_, _>>().map(Some)
@@ -171,11 +207,13 @@ fn inverses(found: &[CriticalSpeed<f64>]) -> Result<Option<Vec<f64>>, Population
 impl<R: Response> Response for Interpolated<'_, R> {
     fn critical_speed(&self, diameter: f64, adhesion: f64) -> Result<CriticalSpeed<f64>, PopulationError> {
         let Some(inverses) = &self.inverses else { return Ok(CriticalSpeed::AlwaysRebounds) };
+        let mut last = self.of_adhesion(adhesion);
+        let (first, weights) = self.diameters.weights(diameter.ln());
         let (mut inverse, mut logarithm) = (0.0, 0.0);
-        self.near(diameter, adhesion, |weight, index| {
-            inverse += weight * inverses[index];
-            logarithm += weight * inverses[index].ln();
-        });
+        for (row, weight) in (first..).zip(weights) {
+            let at_row = self.inverse_at(&mut last, inverses, row);
+            (inverse, logarithm) = (inverse + weight * at_row[0], logarithm + weight * at_row[1]);
+        }
         if logarithm.is_finite() {
             inverse = logarithm.exp();
         }
@@ -188,15 +226,16 @@ impl<R: Response> Response for Interpolated<'_, R> {
             _ => speed.ln(),
         };
         let weights = self.speeds.weights(position.max(self.reach[0]).min(self.reach[1]));
-        let mut last = self.last.borrow_mut();
-        let rebounds = match &mut *last {
-            Some((sphere, rebounds)) if *sphere == [diameter, adhesion] => rebounds,
-            other => &mut other.insert(([diameter, adhesion], self.rebounds_of(diameter, adhesion))).1,
-        };
-        let sum =
-            |of: fn(&Rebound) -> f64| rebounds.iter().zip(&weights).map(|(rebound, weight)| weight * of(rebound)).sum();
-        let restitution: f64 = sum(|rebound| rebound.restitution);
-        Ok(Rebound { restitution: restitution.clamp(0.0, 1.0), stopped: sum(|rebound| rebound.stopped) })
+        let mut last = self.of_adhesion(adhesion);
+        let (first, rows) = self.diameters.weights(diameter.ln());
+        let mut sum = Rebound { restitution: 0.0, stopped: 0.0 };
+        for (row, row_weight) in (first..).zip(rows) {
+            for (rebound, weight) in self.rebounds_at(&mut last, row).iter().zip(&weights) {
+                sum.restitution += row_weight * weight * rebound.restitution;
+                sum.stopped += row_weight * weight * rebound.stopped;
+            }
+        }
+        Ok(Rebound { restitution: sum.restitution.clamp(0.0, 1.0), stopped: sum.stopped })
     }
 
     fn stopped_in_capture(&self, diameter: f64, adhesion: f64) -> Result<f64, PopulationError> {

@@ -1,0 +1,32 @@
+//! Threads of this process.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// The threads, and the process that started them. A fork copies this, but no thread: the copy needs threads of its own. The lock is
+/// taken by those alone who hold the interpreter's lock, as a fork does, so that no copy of it stays locked.
+static THREADS: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+
+fn threads() -> PyResult<Arc<ThreadPool>> {
+    let mut threads = THREADS.lock().unwrap_or_else(PoisonError::into_inner);
+    let process = std::process::id();
+    if let Some((_, pool)) = threads.as_ref().filter(|(owner, _)| *owner == process) {
+        return Ok(pool.clone());
+    }
+    let built = ThreadPoolBuilder::new().build();
+    let pool = Arc::new(built.map_err(|error| PyRuntimeError::new_err(format!("threads cannot be started: {error}")))?);
+    if let Some(of_parent) = threads.replace((process, pool.clone())) {
+        // Dropping them would wait for threads that are not there.
+        std::mem::forget(of_parent);
+    }
+    Ok(pool)
+}
+
+/// Computes on all cores, with the interpreter's lock released.
+pub(crate) fn on_all_cores<T: Send>(python: Python<'_>, compute: impl FnOnce() -> T + Send) -> PyResult<T> {
+    let pool = threads()?;
+    Ok(python.detach(|| pool.install(compute)))
+}
