@@ -22,9 +22,9 @@ use microimpact::{
 
 mod config;
 mod contact;
-mod fixed_point;
 #[cfg(feature = "probe")]
 mod events;
+mod fixed_point;
 #[cfg(feature = "probe")]
 mod instrument;
 mod measure;

@@ -197,6 +197,7 @@ fn frame(copy: &Path) -> Result<(), String> {
             "maps/virt.x",
             "measurement/Cargo.toml",
             "scenes/Cargo.toml",
+            "storage/Cargo.toml",
         ]
         .map(|file| Path::new(FOLDER).join(file)),
     );
@@ -238,6 +239,7 @@ fn sources(copy: &Path, parts: &Parts<'_>) -> Result<(), String> {
         (of_the_firmware("src"), &rest),
         (of_the_firmware("scenes/src"), &rest),
         (of_the_firmware("measurement/src"), &Parts::default()),
+        (of_the_firmware("storage/src"), &Parts::default()),
         (of_the_firmware("src/bin"), &Parts::default()),
     ] {
         let to = copy.join(&folder);

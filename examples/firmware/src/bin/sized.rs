@@ -57,7 +57,9 @@ fn scene(radius: f32) -> Result<RigidBody<f32, SpeedRestitution<f32>, WorkOfAdhe
 #[entry]
 fn main() -> ! {
     debug::exit(run().map_err(|_| hprintln!("the set-up or a reading is refused")));
-    loop {}
+    loop {
+        cortex_m::asm::wfi();
+    }
 }
 
 fn run() -> Result<(), Rejection> {

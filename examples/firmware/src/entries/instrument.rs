@@ -135,7 +135,7 @@ fn link() -> Result<(), InputError> {
     let method = FixedCost::<5>::new(black_box(3))?.with_outputs::<7>();
     let configure = |scene: &SceneConfig<f32>| Ok::<_, Refusal>(Simulated { scene: scene.scene()?, method });
     let classifier = Simulated { scene: super::config::scene::<f32>()?, method };
-    let instrument: Instrument<_, _, f32, 6, 1> = Instrument::new(classifier, lines(), SpeedBins::new([any()])?);
+    let instrument: Instrument<_, _, f32, 6, 1> = Instrument::new(classifier, lines::<6>(), SpeedBins::new([any()])?);
     let mut station = Station::new(instrument);
     let mut outlet = Outlet::<f32, PlanarReading<f32>, Class, 184>::default();
     let mut hear = |reply: &Reply<f32, Class>| {
@@ -144,7 +144,7 @@ fn link() -> Result<(), InputError> {
         }
     };
     hear(&station.started::<PlanarReading<f32>>());
-    let requests = [
+    let requests: [Request<_>; 6] = [
         Request::Event { number, reading },
         Request::Report { number },
         Request::Describe { number },
