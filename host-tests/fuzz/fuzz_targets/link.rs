@@ -113,7 +113,10 @@ fn serve(stream: &[u8]) {
     }
     let arrivals = inlet.arrivals();
     assert_eq!(arrivals.events, readings);
-    assert_eq!(arrivals.events + arrivals.duplicates + arrivals.reports + arrivals.commands + arrivals.faults.total(), frames);
+    assert_eq!(
+        arrivals.events + arrivals.duplicates + arrivals.reports + arrivals.commands + arrivals.faults.total(),
+        frames
+    );
     let tally = station.tally();
     assert_eq!(tally.classified() + tally.rejections().total(), readings);
 }
