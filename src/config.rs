@@ -10,7 +10,9 @@ use crate::{ConstantRestitution, InputError, Real, RigidBody, SpeedRestitution, 
 /// Gyration ratio of a solid sphere.
 const SOLID: f64 = 0.4;
 
-/// A scene of either model as plain numbers in SI units, with the terms that it has.
+/// A scene of either model as plain numbers in SI units, with the terms that it has: restitution or stiffness, damping, adhesion,
+/// friction, and an external force on a contact. Rolling dissipation, a peeling moment, tangential compliance and external impulses
+/// are left to typed scenes.
 ///
 /// It can be a constant, be written by `serde`, and be changed at run time. Its numbers are not checked until
 /// [`scene`](Self::scene) makes a scene of it.

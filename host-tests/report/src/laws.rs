@@ -225,7 +225,7 @@ fn damped(lammps: &[Row], unit: f64) -> Result<Part, Box<dyn Error>> {
         "The same laws in LAMMPS",
         plot::chart(&ratio_axis(), &restitution_axis(), &lines)?,
         "laws-damped",
-        "The sphere of the figure above with the adhesion of Derjaguin, Muller and Toporov (dmt), where without damping e = 1, \
+        "The sphere of the figure beside it with the adhesion of Derjaguin, Muller and Toporov (dmt), where without damping e = 1, \
          and with viscoelastic damping. Both programs have the same law, damping and end of contact; that of jkr is pull-off.",
         [RATIO, "e, ours, dmt, undamped", "e, ours, dmt, viscoelastic", "e, ours, jkr, viscoelastic"],
         rows,

@@ -186,6 +186,18 @@ fn records_of_other_firmware_are_named() {
     assert_eq!(block_on(storage.load()), Ok(Some(Later { radius: 1.0 })));
 }
 
+/// The longest configuration fits the buffer that the documentation states.
+#[test]
+fn longest_configuration_fits() {
+    let mut storage = Storage::<_, 80>::new(Flash::new(), ADDRESSES).unwrap();
+    let damping = DampingConfig::Hysteretic { zeta: 10.5 };
+    let adhesion = AdhesionConfig::Ring { strength: 250.0, zeta: 6.25 };
+    let model = ModelConfig::Contact { stiffness: 1e10, damping, adhesion, force: 0.0 };
+    let longest = SceneConfig::solid(1e-6, 1000.0, model);
+    block_on(storage.save(&longest)).unwrap();
+    assert_eq!(block_on(storage.load()), Ok(Some(longest)));
+}
+
 #[test]
 fn pages_and_buffers_that_do_not_do_are_refused() {
     assert_eq!(Storage::<_, 128>::new(Flash::new(), 0..PAGE as u32).err(), Some(MapConfigError::RangeTooSmall));

@@ -98,6 +98,7 @@ fn numbers_of_table_1() {
 fn impossible_rows_say_why() {
     let bad = [
         ("faster than R,1.012e-5,2600,130,0.02,2.8,0,,2.84,0.21,", "rebound speed exceeds R times the approach speed"),
+        ("faster than it came,1e-5,2600,,0.02,2.8,0,,3,0,", "the sphere leaves faster than it came"),
         ("gains slip,1e-5,2600,130,0.02,2.8,1,0,2,2,", "impulse ratio is outside its bounds, 0 to mu_0"),
         ("slip reversed,1e-5,2600,130,0.02,2.8,1,0,2,0.2,", "impulse ratio is outside its bounds, 0 to mu_0"),
         ("gains energy,1e-5,2600,130,0.02,2.8,4,0,2,3.5,-2e6", "kinetic energy after the impact exceeds"),

@@ -17,12 +17,12 @@ use crate::{Class, Outcome};
 /// struct Sizes;
 ///
 /// impl Described for Sizes {
-///     const ID: u8 = 200;
+///     const ID: u8 = 128;
 /// }
-/// assert_eq!((<f32 as Described>::ID, PlanarReading::<f32>::ID, Class::ID, Sizes::ID), (1, 3, 2, 200));
+/// assert_eq!((<f32 as Described>::ID, PlanarReading::<f32>::ID, Class::ID, Sizes::ID), (1, 3, 2, 128));
 /// ```
 pub trait Described {
-    /// Number of the type: those of this library are below 128. Types of your own have numbers from 128 on.
+    /// Number of the type: those of this library are below 128. Types of your own have numbers from 128 to 143.
     const ID: u8;
 }
 
@@ -60,11 +60,17 @@ impl<T> Described for UncertainReading<T> {
 }
 
 impl<T, R: Described> Described for SizedReading<T, R> {
-    const ID: u8 = R::ID | 0x10;
+    const ID: u8 = {
+        assert!(R::ID & 0x30 == 0, "a sized reading is stamped, not the reading in it");
+        R::ID | 0x10
+    };
 }
 
 impl<R: Described> Described for Stamped<R> {
-    const ID: u8 = R::ID | 0x20;
+    const ID: u8 = {
+        assert!(R::ID & 0x20 == 0, "a reading is stamped once");
+        R::ID | 0x20
+    };
 }
 
 /// What an instrument speaks of: its number type, its readings and its classes.

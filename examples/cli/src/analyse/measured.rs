@@ -2,7 +2,8 @@
 
 use microimpact::rigid::{Departure, EnergyLedger, infer, infer_assuming_rolling, infer_with_spins};
 use microimpact::{
-    ConstantRestitution, Dual, Impact, NormalMotion, Oblique, Parameter, Real, RestitutionLaw, Sphere, TangentialImpact,
+    ConstantRestitution, Dual, Impact, ImpactError, NormalMotion, Oblique, Parameter, Real, RestitutionLaw, Sphere,
+    TangentialImpact,
 };
 use sheet::{Input, Row};
 
@@ -106,7 +107,12 @@ impl<T: Number> Measured<T> {
                 infer_with_spins(&sphere, &law, &spinning, &after, turning_out / sphere.radius(), tolerance)
             }
         }
-        .map_err(|error| row.reason(error))?;
+        .map_err(|error| match error {
+            ImpactError::ReboundExceedsRestitution if !has_law => {
+                "rebound_speed_m_s: the sphere leaves faster than it came, by more than its errors explain; check both speeds".into()
+            }
+            error => row.reason(error),
+        })?;
         let slip = impact.tangential.slip();
         let measured_slip = spin.map(|_| (slip.value.into(), slip.standard_error(&errors).into()));
         let slip_before = (tangential.value - turning.value).into();

@@ -102,8 +102,8 @@ impl<E> From<sequential_storage::Error<E>> for StorageError<E> {
     }
 }
 
-/// Records in some pages of flash. `BYTES` is the length of the longest record, eight bytes for its overhead, rounded up to words
-/// of the flash; a [`SceneConfig`] in double precision takes 104.
+/// Records in some pages of flash. `BYTES` is the length of the longest record, and three bytes for its key and version, rounded up to
+/// words of the flash: 80 for a [`SceneConfig`] in double precision, whose longest has 75 bytes.
 pub struct Storage<F: NorFlash, const BYTES: usize> {
     records: MapStorage<u8, F, Cache<Uncached, Uncached, Uncached, u8>>,
     buffer: [u8; BYTES],

@@ -62,7 +62,9 @@ pub(super) fn picture(all: &[Series]) -> Result<(Figure, Table), String> {
     let mut rows = Vec::new();
     for (place, core) in cores.iter().enumerate() {
         // The legend names a core once, with its ratios.
-        let name = core.range().map_or_else(|| core.name.clone(), |range| format!("{}: {}", core.name, times(range)));
+        let name = core
+            .range()
+            .map_or_else(|| core.name.clone(), |range| format!("{}: peer {} as long", core.name, times(range)));
         let kinds = [("ours", Mark::Joined, &*name), ("best peer", Mark::Dashed, "")];
         for (points, (who, mark, name)) in core.fronts.iter().zip(kinds) {
             let at = |point: &&Point| Some((point.error?, core.unit * point.cost));
@@ -71,7 +73,7 @@ pub(super) fn picture(all: &[Series]) -> Result<(Figure, Table), String> {
             lines.push(Line::new(name, mark, points).like(place));
         }
     }
-    lines.push(Line::new("dashed: the best peer", Mark::Dashed, Vec::new()).like(BLACK));
+    lines.push(Line::new("solid: ours; dashed: the best peer", Mark::Dashed, Vec::new()).like(BLACK));
     let data = Table {
         name: "cost-lead".to_owned(),
         caption: sentence(&cores),
@@ -80,7 +82,7 @@ pub(super) fn picture(all: &[Series]) -> Result<(Figure, Table), String> {
     };
     let (x, y) = (Axis::logarithmic("error", "ε", "1"), Axis::logarithmic("time of an impact", "t", "µs"));
     let drawing = plot::tall_chart(&x.between(1e-13, 1e-2), &y, &lines)?;
-    Ok((Figure { title: "How long does one impact take?".to_owned(), drawing, data }, ratios(&cores)))
+    Ok((Figure { title: "How long does an impact take to compute?".to_owned(), drawing, data }, ratios(&cores)))
 }
 
 /// How far ahead, and where behind.
@@ -92,7 +94,11 @@ fn sentence(cores: &[Core<'_>]) -> String {
     };
     let behind: Vec<_> = cores.iter().filter_map(behind).collect();
     let behind = if behind.is_empty() { "nowhere ahead".to_owned() } else { format!("ahead {}", behind.join("; ")) };
-    let boards = if cores.len() > 1 { " On boards 100 instructions count as 1 µs." } else { "" };
+    let boards = if cores.len() > 1 {
+        " On boards 100 instructions count as 1 µs. The largest factors are at 1e-7, where f32 still serves us and a peer needs f64."
+    } else {
+        ""
+    };
     let range = cores.iter().filter_map(Core::range).reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)));
     format!(
         "In the impact of Table 1, the best peer takes {} as long as our best method for the same error, and is {behind}.{boards}",
