@@ -16,6 +16,7 @@ use super::{Decoder, Described, FrameFault, PROTOCOL, Reply, Schema};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[derive(serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub enum ReplyFault {
     /// The frame is damaged.

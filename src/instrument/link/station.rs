@@ -36,6 +36,7 @@ pub struct Station<C, S, T, const CLASSES: usize, const BINS: usize> {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[derive(serde::Serialize, serde::Deserialize)]
 pub struct Received {
     /// Counts of the [`Inlet`](super::Inlet).
     pub arrivals: Arrivals,
