@@ -133,7 +133,7 @@ of_number!(f32);
 of_number!(f64);
 
 impl<T: Copy, const N: usize, const R: usize, const S: usize> RestitutionTable<T, N, R, S> {
-    /// The numbers of the table, for [`from_parts`](RestitutionTable::<f32, N, R, S>::from_parts).
+    /// The numbers of the table, for `from_parts`, which f32 and f64 have.
     ///
     /// ```
     /// use microimpact::CriticalSpeed;
