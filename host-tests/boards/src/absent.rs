@@ -91,7 +91,7 @@ const OF_THE_SIMULATION: [Term; 11] = [
     Term {
         name: "laws chosen at run time",
         modules: &["chosen"],
-        types: &["AnyLaw", "AnyDamping", "AnyForce"],
+        types: &["AnyLaw", "AnyDamping", "AnyForce", "AnyRestitution", "AnyAdhesion"],
         ..TERM
     },
     Term {
