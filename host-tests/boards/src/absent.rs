@@ -110,7 +110,8 @@ const OF_THE_SIMULATION: [Term; 11] = [
 ];
 
 /// What no impact alone uses.
-const AROUND_AN_IMPACT: [Term; 6] = [
+const AROUND_AN_IMPACT: [Term; 7] = [
+    Term { name: "configurations", modules: &["config"], ..TERM },
     Term { name: "motions in space", modules: &["space"], ..TERM },
     Term { name: "tables", modules: &["table"], ..TERM },
     Term { name: "calibration", modules: &["measure"], ..TERM },
