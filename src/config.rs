@@ -39,7 +39,7 @@ const SOLID: f64 = 0.4;
 /// assert!((e - 0.746193).abs() < 1e-6);
 ///
 /// let mistaken = SceneConfig { radius: 5.06, ..GLASS_ON_STEEL }.scene().unwrap_err();
-/// assert_eq!(mistaken.to_string(), "radius is 5.06 m, but must be 1e-10 to 1 m");
+/// assert_eq!(mistaken.to_string(), "radius is 5.06 m, but must be 1e-10 to 1 m; enter 5.06 um as 5.06e-6");
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
