@@ -1,6 +1,7 @@
 //! An impact of which both legs are measured, compared with the prediction of a model.
 
 use crate::measure::{Estimate, NormalDistribution};
+use crate::numbers::norm;
 use crate::rigid::Departure;
 use crate::{InputError, NormalMotion, Parameter, PlanarMotion, Real};
 
@@ -209,9 +210,9 @@ impl<T: Real> ObservedRebound<T> {
         let (mu_by_approach, mu_by_rebound) = (-mu * v_error / impulse, -mu * rebound_error / impulse);
         let (mu_by_tangential, mu_by_after) = (-t_error / impulse, after_error / impulse);
         let restitution = Agreement {
-            measured: Estimate { value: e, standard_error: norm(&[e_own, e_by_rebound]) },
+            measured: Estimate { value: e, standard_error: norm([e_own, e_by_rebound]) },
             predicted: e_predicted,
-            error: norm(&[
+            error: norm([
                 e_own - e_by_v,
                 e_by_t,
                 e_by_u,
@@ -222,10 +223,10 @@ impl<T: Real> ObservedRebound<T> {
         let impulse_ratio = Agreement {
             measured: Estimate {
                 value: mu,
-                standard_error: norm(&[mu_by_approach, mu_by_tangential, mu_by_rebound, mu_by_after]),
+                standard_error: norm([mu_by_approach, mu_by_tangential, mu_by_rebound, mu_by_after]),
             },
             predicted: mu_predicted,
-            error: norm(&[
+            error: norm([
                 mu_by_approach - mu_by_v,
                 mu_by_tangential - mu_by_t,
                 mu_by_u,
@@ -241,9 +242,4 @@ impl<T: Real> ObservedRebound<T> {
 /// Overall restitution and impulse ratio of velocities before and after an impact.
 fn ratios<T: Real>(approach: T, tangential: T, after: &Departure<T>) -> [T; 2] {
     [after.normal / approach, (after.tangential - tangential) / (after.normal + approach)]
-}
-
-/// Root of the sum of squares.
-fn norm<T: Real>(parts: &[T]) -> T {
-    parts.iter().fold(T::ZERO, |sum, &part| sum + part * part).sqrt()
 }

@@ -25,6 +25,7 @@ use self::expansion::{Expanded, STOPPED};
 use self::integrals::{MIDDLE, REMAINDERS, bounded, multiple};
 use self::normal::CERTAIN;
 use crate::contact::{Contact, ContactLaw, ErrorControl, Impulses};
+use crate::numbers::norm;
 use crate::rigid::{MicroforceTerm, ReboundAdhesion};
 use crate::{
     Class, Coulomb, CriticalSpeed, Dual, InputError, NormalImpact, NormalMotion, Oblique, Outcome, Parameter, Real,
@@ -41,8 +42,7 @@ impl<T: Real, const N: usize> Dual<T, N> {
     /// assert_eq!((a * b).standard_error(&[1.5, 0.4]), 5.0);
     /// ```
     pub fn standard_error(&self, errors: &[T; N]) -> T {
-        let parts = self.partials.iter().zip(errors).map(|(partial, error)| *partial * *error);
-        parts.fold(T::ZERO, |sum, part| sum + part * part).sqrt()
+        norm(self.partials.iter().zip(errors).map(|(partial, error)| *partial * *error))
     }
 }
 

@@ -5,6 +5,7 @@ mod dual;
 #[cfg(feature = "fixed")]
 mod fixed;
 mod inverse;
+mod norm;
 mod real;
 mod root;
 mod tables;
@@ -14,5 +15,6 @@ pub use dual::Dual;
 #[cfg(feature = "fixed")]
 pub use fixed::{FixedPoint, InFixedPoint};
 pub(crate) use inverse::{inverse, power};
+pub(crate) use norm::norm;
 pub use real::Real;
 pub(crate) use root::{NotConverged, root};

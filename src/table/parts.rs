@@ -161,6 +161,15 @@ impl<T: Copy, const N: usize, const R: usize, const S: usize> RestitutionTable<T
     }
 }
 
+#[cfg(feature = "serde")]
+impl<T: Copy, const N: usize, const R: usize, const S: usize> From<RestitutionTable<T, N, R, S>>
+    for RestitutionParts<T, N, R, S>
+{
+    fn from(table: RestitutionTable<T, N, R, S>) -> Self {
+        table.parts()
+    }
+}
+
 /// Serializes the nodes as one sequence, because serde does not support arrays of every length.
 #[cfg(feature = "serde")]
 fn in_one_row<T, Z, const R: usize, const S: usize>(nodes: &[[[T; 2]; S]; R], serializer: Z) -> Result<Z::Ok, Z::Error>

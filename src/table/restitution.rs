@@ -178,15 +178,6 @@ impl<T, const N: usize, const R: usize, const S: usize> RestitutionTable<T, N, R
     pub(super) const COUNTED: () = assert!(R >= 3 && S >= 4 && R <= 256 && S <= 256, "3 to 256 radii, 4 to 256 speeds");
 }
 
-#[cfg(feature = "serde")]
-impl<T: Copy, const N: usize, const R: usize, const S: usize> From<RestitutionTable<T, N, R, S>>
-    for RestitutionParts<T, N, R, S>
-{
-    fn from(table: RestitutionTable<T, N, R, S>) -> Self {
-        table.parts()
-    }
-}
-
 /// Largest changes over that of sqrt(d).
 struct Slopes<T> {
     restitution: T,

@@ -14,9 +14,6 @@ const SPEEDS: usize = 12;
 /// Tolerance of the simulations.
 const TOLERANCE: f64 = 1e-9;
 
-/// Numbers of cells for which such a table can be made: its type contains them.
-const CELLS: [u32; 6] = [4, 8, 12, 16, 24, 32];
-
 /// What the table is for.
 pub struct Subject {
     pub smallest_radius: f64,
@@ -30,18 +27,19 @@ pub struct Subject {
 
 /// Writes the table with a number of cells.
 pub fn write(to: &mut dyn Write, cells: u32, subject: &Subject) -> Result<(), Box<dyn Error>> {
-    match cells {
-        4 => subject.write::<4>(to),
-        8 => subject.write::<8>(to),
-        12 => subject.write::<12>(to),
-        16 => subject.write::<16>(to),
-        24 => subject.write::<24>(to),
-        32 => subject.write::<32>(to),
-        other => {
-            let numbers = CELLS.map(|cells| cells.to_string()).join(", ");
-            Err(format!("--cells {other} is refused: a restitution table has one of {numbers} cells").into())
-        }
+    // The number of cells is part of the type of a table.
+    macro_rules! of_length {
+        ($($length:literal)*) => {
+            match cells {
+                $($length => subject.write::<$length>(to),)*
+                other => {
+                    let lengths = [$($length),*].map(|length: u32| length.to_string()).join(", ");
+                    Err(format!("--cells {other} is refused: a restitution table has one of {lengths} cells").into())
+                }
+            }
+        };
     }
+    of_length!(4 8 12 16 24 32)
 }
 
 impl Subject {

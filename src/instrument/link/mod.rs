@@ -18,4 +18,4 @@ pub use inlet::Inlet;
 pub use message::{Arrivals, FrameFaults, MOST_CLASSES, PROTOCOL, Refusal, Reply, Report, Request};
 pub use outlet::{Outlet, ReplyFault};
 pub use schema::{Described, Schema};
-pub use station::{Received, Station};
+pub use station::{Received, Station, fixed_scene};

@@ -9,7 +9,7 @@ use crate::{Approach, Real, SceneConfig};
 /// An instrument behind a link: it answers the requests of a host.
 ///
 /// ```
-/// use microimpact::instrument::link::{Received, Reply, Request, Station};
+/// use microimpact::instrument::link::{Received, Reply, Request, Station, fixed_scene};
 /// use microimpact::instrument::{Instrument, NoLines, NormalReading, SpeedBins};
 /// use microimpact::{ConstantRestitution, Outcome, RigidBody, Sphere};
 ///
@@ -17,7 +17,7 @@ use crate::{Approach, Real, SceneConfig};
 /// let instrument: Instrument<_, _, f64, 3, 1> = Instrument::new(scene, NoLines, SpeedBins::new([10.0])?);
 /// let mut station = Station::new(instrument);
 /// let request = Request::Event { number: 7, reading: NormalReading { approach: 1.0 } };
-/// let reply = station.answer(&request, &Received::default(), Station::<(), (), f64, 0, 0>::fixed);
+/// let reply = station.answer(&request, &Received::default(), fixed_scene);
 /// assert!(matches!(reply, Reply::Classified { number: 7, verdict } if verdict.class == Outcome::Rebound));
 /// # Ok::<(), microimpact::InputError>(())
 /// ```
@@ -77,24 +77,6 @@ impl<C, S, T, const CLASSES: usize, const BINS: usize> Station<C, S, T, CLASSES,
     pub const fn instrument(&self) -> &Instrument<C, S, T, CLASSES, BINS> {
         &self.instrument
     }
-
-    /// For [`answer`](Self::answer): refuses every scene, as an instrument does whose scene does not change.
-    ///
-    /// # Errors
-    /// Always.
-    ///
-    /// ```
-    /// use microimpact::instrument::link::{Refusal, Station};
-    /// use microimpact::{ModelConfig, ReboundAdhesionConfig, RestitutionConfig, SceneConfig};
-    ///
-    /// let restitution = RestitutionConfig::Constant { restitution: 0.9 };
-    /// let model = ModelConfig::RigidBody { restitution, adhesion: ReboundAdhesionConfig::None };
-    /// let scene = SceneConfig::solid(1e-6, 1000.0, model);
-    /// assert_eq!(Station::<(), (), f64, 0, 0>::fixed::<()>(&scene), Err(Refusal::Fixed));
-    /// ```
-    pub const fn fixed<K>(_scene: &SceneConfig<T>) -> Result<K, Refusal> {
-        Err(Refusal::Fixed)
-    }
 }
 
 impl<C, S, T: Real, const CLASSES: usize, const BINS: usize> Station<C, S, T, CLASSES, BINS> {
@@ -122,7 +104,7 @@ impl<C, S, T: Real, const CLASSES: usize, const BINS: usize> Station<C, S, T, CL
     }
 
     /// Answers a request. `received` is what the way from the host has counted so far, and `configure` makes a classifier of a scene
-    /// that the host sends, or refuses it: [`fixed`](Self::fixed) refuses every scene.
+    /// that the host sends, or refuses it: [`fixed_scene`] refuses every scene.
     ///
     /// ```
     /// use microimpact::instrument::link::{Received, Refusal, Reply, Request, Station};
@@ -221,4 +203,21 @@ impl<C, S, T: Real, const CLASSES: usize, const BINS: usize> Station<C, S, T, CL
             ticks,
         }
     }
+}
+
+/// For [`Station::answer`]: refuses every scene, as an instrument does whose scene does not change.
+///
+/// # Errors
+/// Always.
+///
+/// ```
+/// use microimpact::instrument::link::{Refusal, fixed_scene};
+/// use microimpact::{ModelConfig, ReboundAdhesionConfig, RestitutionConfig, SceneConfig};
+///
+/// let restitution = RestitutionConfig::Constant { restitution: 0.9 };
+/// let model = ModelConfig::RigidBody { restitution, adhesion: ReboundAdhesionConfig::None };
+/// assert_eq!(fixed_scene::<f64, ()>(&SceneConfig::solid(1e-6, 1000.0, model)), Err(Refusal::Fixed));
+/// ```
+pub const fn fixed_scene<T, C>(_scene: &SceneConfig<T>) -> Result<C, Refusal> {
+    Err(Refusal::Fixed)
 }

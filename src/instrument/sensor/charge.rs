@@ -92,9 +92,7 @@ impl<T: Real> ImageCharge<T> {
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn particle(&self, pulse: &ChargePulse) -> Result<ChargedParticle<T>, InputError> {
-        let time = self.clock.time(pulse.width)?;
-        let errors = [relative_error(&self.length)?, relative_error(&time)?];
-        let speed = with_relative_errors(self.length.value / time.value, &errors)?;
+        let speed = self.clock.speed_over(&self.length, pulse.width)?;
         let height = T::constant(pulse.height.into());
         let value = Parameter::Charge.check(height * self.sensitivity.value)?;
         let by_height = self.height_variance.sqrt() * self.sensitivity.value;

@@ -73,4 +73,10 @@ impl<T: Real> Clock<T> {
         let edges = self.edge_variance.sqrt() / ticks;
         with_relative_errors(ticks / self.frequency.value, &[edges, relative_error(&self.frequency)?])
     }
+
+    /// Speed over a length that takes this number of ticks, m/s.
+    pub(super) fn speed_over(&self, length: &Estimate<T>, ticks: u32) -> Result<Estimate<T>, InputError> {
+        let time = self.time(ticks)?;
+        with_relative_errors(length.value / time.value, &[relative_error(length)?, relative_error(&time)?])
+    }
 }

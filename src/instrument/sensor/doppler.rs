@@ -2,6 +2,7 @@
 
 use super::{Clock, calibration, relative_error};
 use crate::measure::Estimate;
+use crate::numbers::norm;
 use crate::{InputError, Parameter, Real};
 
 /// What a counter measures of a Doppler burst.
@@ -92,6 +93,6 @@ impl<T: Real> Doppler<T> {
         let value = self.spacing.value * (frequency - self.shift);
         let by_time = self.spacing.value * frequency * relative_error(&time)?;
         let by_spacing = value * relative_error(&self.spacing)?;
-        Ok(Estimate { value, standard_error: (by_time * by_time + by_spacing * by_spacing).sqrt() })
+        Ok(Estimate { value, standard_error: norm([by_time, by_spacing]) })
     }
 }

@@ -29,7 +29,7 @@ pub use transit::Transit;
 use core::f64::consts::PI;
 
 use crate::measure::Estimate;
-use crate::numbers::cube_root;
+use crate::numbers::{cube_root, norm};
 use crate::{InputError, Parameter, Real};
 
 /// Variance of the rounding error of an integer.
@@ -50,8 +50,7 @@ fn relative_error<T: Real>(estimate: &Estimate<T>) -> Result<T, InputError> {
 
 /// A result with the root of the sum of the squares of relative errors.
 fn with_relative_errors<T: Real>(value: T, errors: &[T]) -> Result<Estimate<T>, InputError> {
-    let squares = errors.iter().fold(T::ZERO, |sum, &error| sum + error * error);
-    let standard_error = Parameter::RelativeError.check(squares.sqrt())? * value.abs();
+    let standard_error = Parameter::RelativeError.check(norm(errors.iter().copied()))? * value.abs();
     Ok(Estimate { value, standard_error })
 }
 

@@ -1,6 +1,6 @@
 //! Speed from the transit between two light beams.
 
-use super::{Clock, calibration, relative_error, with_relative_errors};
+use super::{Clock, calibration};
 use crate::measure::Estimate;
 use crate::{InputError, Parameter, Real};
 
@@ -59,8 +59,6 @@ impl<T: Real> Transit<T> {
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn speed(&self, ticks: u32) -> Result<Estimate<T>, InputError> {
-        let time = self.clock.time(ticks)?;
-        let errors = [relative_error(&self.distance)?, relative_error(&time)?];
-        with_relative_errors(self.distance.value / time.value, &errors)
+        self.clock.speed_over(&self.distance, ticks)
     }
 }

@@ -6,7 +6,7 @@ use core::hint::black_box;
 use embedded_hal::digital::{ErrorType, OutputPin};
 use microimpact::contact::{Collocation, Contact, FixedCost};
 use microimpact::instrument::link::{
-    Encoder, FrameFault, Inlet, Outlet, Received, Refusal, Reply, Report, Request, Station,
+    Encoder, FrameFault, Inlet, Outlet, Received, Refusal, Reply, Report, Request, Station, fixed_scene,
 };
 use microimpact::instrument::{
     ClassLines, ClassSet, Classified, Classifier, Instrument, NoLines, NormalReading, ObliqueReading, PlanarReading,
@@ -158,7 +158,7 @@ fn link() -> Result<(), InputError> {
             if let Some(request) = inlet.receive::<PlanarReading<f32>, f32>(black_box(byte)) {
                 let received = Received { arrivals: inlet.arrivals(), lost: any::<f32>() as u32, ticks: 0 };
                 hear(&station.answer(&request, &received, configure));
-                hear(&station.answer(&request, &received, Station::<(), (), f32, 0, 0>::fixed));
+                hear(&station.answer(&request, &received, fixed_scene));
             }
         }
     }

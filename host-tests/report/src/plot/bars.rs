@@ -4,7 +4,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::legend::{self, Entry, Symbol};
-use super::{Axis, COLOURS, LABELS_BELOW, MARGIN, MARGIN_RIGHT, TYPE, WIDTH, text};
+use super::{Axis, COLOURS, LABELS_BELOW, MARGIN, MARGIN_RIGHT, TYPE, WIDTH, style_mesh, text};
 
 /// Height of a bar with its gap.
 const ROW: u32 = 84;
@@ -56,21 +56,9 @@ impl Panel {
             .set_label_area_size(LabelAreaPosition::Bottom, LABELS_BELOW)
             .build_cartesian_2d(axis.over(std::iter::empty()), rows.over(std::iter::empty()))
             .map_err(text)?;
-        chart
-            .configure_mesh()
-            .disable_y_mesh()
-            .disable_y_axis()
-            .x_desc(&axis.label)
-            .x_labels(6)
-            .max_light_lines(1)
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(BLACK.mix(0.15).stroke_width(2))
-            .axis_style(BLACK.stroke_width(2))
-            .set_all_tick_mark_size(12)
-            .axis_desc_style(("sans-serif", TYPE))
-            .label_style(("sans-serif", TYPE))
-            .draw()
-            .map_err(text)?;
+        let mut mesh = chart.configure_mesh();
+        mesh.disable_y_mesh().disable_y_axis().x_desc(&axis.label).x_labels(6);
+        style_mesh(&mut mesh).draw().map_err(text)?;
         for (index, bar) in self.bars.iter().enumerate() {
             // The first is at the top.
             let bottom = (self.bars.len() - 1 - index) as f64;

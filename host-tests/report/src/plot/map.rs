@@ -9,7 +9,7 @@ use super::{Area, Axis, HEIGHT, LABELS, LABELS_BELOW, Line, MARGIN, Scale, TYPE,
 
 /// Width of the scale of colours.
 const BAR: u32 = 320;
-/// Colours that a map tells apart: fewer make a shorter file.
+/// Number of colours of a map: fewer make a shorter file.
 const LEVELS: u32 = 64;
 /// Place of the first line on a map among the colours: one that the map does not have.
 const FIRST_LINE: usize = 3;

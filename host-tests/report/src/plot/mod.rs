@@ -3,6 +3,7 @@
 //! A drawing has type that can be read on a phone. What is black in it follows the page's colours, and its ground is
 //! transparent. The legend stands below the axes; the page has the title and the caption.
 
+use plotters::chart::MeshStyle;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -89,20 +90,22 @@ fn axes<'a>(
         .set_label_area_size(LabelAreaPosition::Bottom, LABELS_BELOW)
         .build_cartesian_2d(x.over(abscissas.into_iter()), y.over(ordinates.into_iter()))
         .map_err(text)?;
-    chart
-        .configure_mesh()
-        .x_desc(&x.label)
-        .y_desc(&y.label)
-        .x_labels(if area.dim_in_pixel().0 < WIDTH { 6 } else { 8 })
-        .y_labels(8)
-        .max_light_lines(1)
+    let x_labels = if area.dim_in_pixel().0 < WIDTH { 6 } else { 8 };
+    let mut mesh = chart.configure_mesh();
+    mesh.x_desc(&x.label).y_desc(&y.label).x_labels(x_labels).y_labels(8);
+    style_mesh(&mut mesh).draw().map_err(text)?;
+    Ok(chart)
+}
+
+/// Lines and type of the axes of every drawing.
+fn style_mesh<'m, 'a, 'b, 'c>(
+    mesh: &'m mut MeshStyle<'a, 'b, Scale, Scale, SVGBackend<'c>>,
+) -> &'m mut MeshStyle<'a, 'b, Scale, Scale, SVGBackend<'c>> {
+    mesh.max_light_lines(1)
         .light_line_style(TRANSPARENT)
         .bold_line_style(BLACK.mix(0.15).stroke_width(2))
         .axis_style(BLACK.stroke_width(2))
         .set_all_tick_mark_size(12)
         .axis_desc_style(("sans-serif", TYPE))
         .label_style(("sans-serif", TYPE))
-        .draw()
-        .map_err(text)?;
-    Ok(chart)
 }
