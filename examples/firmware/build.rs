@@ -18,7 +18,8 @@ MEMORY
 const MAPS: [(&str, &str); 2] = [("thumbv8m", "maps/mps2-an505.x"), ("riscv32", "maps/virt.x")];
 
 /// Binaries whose scenes are measured, the flash of each by what its code refers to: relocations and a map say that.
-const MEASURED: [&str; 7] = ["classify", "contacts", "variants", "collocations", "recordings", "law", "calibrate"];
+const MEASURED: [&str; 8] =
+    ["classify", "contacts", "double_contacts", "variants", "collocations", "recordings", "law", "calibrate"];
 
 /// A binary with so many methods in it that only the largest boards hold it, and their map.
 const LARGE: (&str, &str) = ("methods", "maps/mps2.x");

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::{self, Display};
 
-use microimpact_scenes::contacts::{REFUSED, visit_contacts};
+use microimpact_scenes::contacts::{REFUSED, visit_contacts, visit_double_contacts};
 use microimpact_scenes::laws::{self, visit_laws};
 use microimpact_scenes::scenes::UNDECIDED;
 use microimpact_scenes::scenes::{Answer, Number, Scene, Visitor, visit_scenes};
@@ -233,6 +233,7 @@ pub(crate) fn expected(with_laws: bool) -> Result<BTreeMap<Case, Expected>, Stri
     let mut host = Host { verdicts: BTreeMap::new(), refused: Vec::new() };
     visit_scenes(&mut host);
     visit_contacts(&mut host);
+    visit_double_contacts(&mut host);
     visit_variants(&mut host);
     visit_collocations(&mut host);
     visit_recordings(&mut host);

@@ -208,7 +208,7 @@ fn answer<T: Number>(class: &'static str, contact: Option<NormalContact<T>>) -> 
     Answer { class, speed_margin: None, friction_margin: None, restitution }
 }
 
-/// Goes through the scenes of the simulation in both number types.
+/// Goes through the scenes of the simulation in single precision.
 pub fn visit_contacts(visitor: &mut impl Visitor) {
     visitor.visit::<f32, NormalContacts<f32, FixedCost<4>>>();
     visitor.visit::<f32, NormalContacts<f32, FixedCost<5>>>();
@@ -218,6 +218,10 @@ pub fn visit_contacts(visitor: &mut impl Visitor) {
     visitor.visit::<f32, NormalContacts<f32, Collocation<5, f32>>>();
     visitor.visit::<f32, NormalContacts<f32, Collocation<7, f32>>>();
     visitor.visit::<f32, ObliqueContacts<f32, Collocation<7, f32>, Slip>>();
+}
+
+/// Goes through the scenes of the simulation in double precision.
+pub fn visit_double_contacts(visitor: &mut impl Visitor) {
     visitor.visit::<f64, NormalContacts<f64, Collocation<9, f64>>>();
     visitor.visit::<f64, ObliqueContacts<f64, Collocation<9, f64>, Slip>>();
 }

@@ -1,4 +1,4 @@
-//! Measures the scenes of the contact simulation.
+//! Measures the scenes of the contact simulation in single precision.
 
 #![no_std]
 #![no_main]
