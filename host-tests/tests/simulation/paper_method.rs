@@ -279,3 +279,20 @@ fn a_spin_that_decays_faster_than_the_steps_is_no_result() {
     }
     assert!(answers[..4].iter().all(|solved| *solved) && answers[12..].contains(&false), "{answers:?}");
 }
+
+/// Friction that ends a fast slip within a hundredth of a step: sliding backward must not be left over, which a rolling sphere never loses.
+#[test]
+fn a_slip_that_ends_within_a_step_leaves_a_rolling_sphere() {
+    let sphere = Sphere::solid(1.008e-5, 100.0).unwrap();
+    let scene = Contact::hertz(sphere, Stiffness::new(1e8).unwrap()).with_damping(1.0).unwrap();
+    let scene = scene.with_ring(0.0316, 1.0).unwrap().with_friction(885.2).unwrap().with_peeling(4.88e-10).unwrap();
+    let motion = NormalMotion::new(17.25).unwrap().with_tangential(0.1).unwrap().with_spin(&sphere, 1.196e7).unwrap();
+    let exact = scene.solve(&motion, &Collocation::<12, f64>::new(1e-10).unwrap()).unwrap().tangential;
+    for steps in [16, 100, 1000] {
+        let found = scene.solve(&motion, &RungeKuttaGill::new(steps)).unwrap();
+        assert_eq!(found.run.status, Status::Solved);
+        let slip = (found.tangential.velocity() - sphere.radius() * found.tangential.spin()).abs();
+        let error = (found.tangential.velocity() - exact.velocity()).abs();
+        assert!(slip < 1e-9 && error < 0.01 * 17.25, "{steps} steps: slip {slip:e}, error {error:e}");
+    }
+}
