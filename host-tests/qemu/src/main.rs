@@ -29,8 +29,8 @@ mod report;
 mod session;
 
 /// Runs the firmware on an emulated Cortex-M4F, or on Cortex-M0, M3, M4F, M7, M33 and RISC-V, and
-/// reports class and instructions of every classification, flash, static memory, stack,
-/// and whether a panicking path is left.
+/// says whether every class is the host's, what a classification takes at most, and whether a panicking
+/// path is left; --details prints all figures.
 ///
 /// What is missing is installed where that is possible: targets by rustup, or else
 /// Debian's compiler, and QEMU.
@@ -49,6 +49,9 @@ struct Arguments {
     /// panicking paths are not looked for
     #[arg(long)]
     counts: bool,
+    /// Every figure after the verdict: each impact's class and instructions, each scene's flash, stack and static memory
+    #[arg(long)]
+    details: bool,
     /// Form of the figures on standard output
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -170,10 +173,13 @@ fn run(arguments: &Arguments, permission: Permission) -> Result<Vec<String>, Str
         }
         Format::Csv if arguments.counts => counts::write(&toolchain.compiler, &figures, io::stdout())?,
         Format::Table => {
-            println!("{}", report::classes(&protocols));
-            println!("{}", report::footprint(&checked));
-            println!("{}", counts::absent_terms(&figures));
-            println!("{}", report::panics(&proved));
+            print!("{}", report::verdict(&protocols, &checked, &figures, &proved));
+            if arguments.details {
+                println!("\n{}", report::classes(&protocols));
+                println!("{}", report::footprint(&checked));
+                println!("{}", counts::absent_terms(&figures));
+                println!("{}", report::panics(&proved));
+            }
         }
         Format::Csv => {
             let rows: Vec<(&str, &Figure)> = figures.iter().map(|figure| (&*toolchain.compiler, figure)).collect();

@@ -1,4 +1,4 @@
-//! The tables that a run prints.
+//! The verdict and the tables that a run prints.
 
 use std::fmt::Write;
 use std::ops::Range;
@@ -10,6 +10,68 @@ use crate::answers::{Case, Protocol};
 use crate::limits;
 use boards::figures::{Figure, Quantity};
 use boards::{Board, REFERENCE_CORE};
+
+/// What the verdict states of the rigid body's scenes.
+const STATED: [Quantity; 4] = [Quantity::Classify, Quantity::Flash, Quantity::Stack, Quantity::StaticMemory];
+
+/// The outcome of a run in a few lines; what failed is listed after it.
+pub(crate) fn verdict(
+    protocols: &[(&Board, Protocol)],
+    checked: &[Figure],
+    figures: &[Figure],
+    proved: &[(&Board, bool)],
+) -> String {
+    let cores: Vec<&str> = protocols.iter().map(|(board, _)| board.core).collect();
+    let impacts: usize = protocols.iter().map(|(_, protocol)| protocol.measurements.len()).sum();
+    let mut text = format!("Ran {impacts} classifications on {}.\n", cores.join(", "));
+    let rigid: Vec<String> = STATED.iter().filter_map(|quantity| largest(checked, *quantity)).collect();
+    // Writing to a String cannot fail.
+    if !rigid.is_empty() {
+        let _ =
+            writeln!(text, "The rigid body takes at most, {REFERENCE_CORE}, {}: {}.", limits::SCALAR, rigid.join("; "));
+    }
+    let absent: Vec<f64> = figures
+        .iter()
+        .filter(|figure| figure.subject.quantity == Quantity::AbsentTerms)
+        .map(|figure| figure.value)
+        .collect();
+    if !absent.is_empty() {
+        let bytes: f64 = absent.iter().sum();
+        let _ = writeln!(text, "Terms that a scene leaves out: {bytes} bytes in {} firmwares.", absent.len());
+    }
+    if !proved.is_empty() {
+        let free = proved.iter().filter(|(_, proved)| *proved).count();
+        let _ = writeln!(text, "No panicking path in the library: proved on {free} of {} cores.", proved.len());
+    }
+    text.push_str("Instructions are not cycles. `--details` prints every figure.\n");
+    text
+}
+
+/// The largest value of a quantity in the rigid body's scenes, with its limit.
+fn largest(checked: &[Figure], quantity: Quantity) -> Option<String> {
+    let rigid = |figure: &&Figure| {
+        let scene = &figure.subject.scene;
+        figure.subject.quantity == quantity && table_of(scene) == RIGID_BODY && !limits::is_small(scene)
+    };
+    let figure = checked.iter().filter(rigid).max_by(|a, b| a.value.total_cmp(&b.value))?;
+    let limit = limits::of(&figure.subject.scene, quantity)?;
+    let (name, unit, value) = (quantity.name(), quantity.unit(), quantity.digits(figure.value));
+    Some(format!("{name} {value} {unit} (limit {limit})"))
+}
+
+/// Place of the rigid body's table in the footprint.
+const RIGID_BODY: usize = 0;
+
+/// Place of a scene's table in the footprint.
+fn table_of(scene: &str) -> usize {
+    match scene {
+        _ if limits::is_fixed_point(scene) => 3,
+        _ if limits::is_simulated(scene) => 1,
+        _ if limits::is_table(scene) => 2,
+        _ if limits::is_calibration(scene) => 4,
+        _ => RIGID_BODY,
+    }
+}
 
 /// Class and instructions of every case, a column for each core.
 pub(crate) fn classes(protocols: &[(&Board, Protocol)]) -> String {
@@ -48,15 +110,8 @@ fn cost(protocol: &Protocol, case: &Case) -> String {
 /// The promises and what became of them, the rigid body's first, then those of the simulation, of tables, of fixed point and
 /// of calibrations; a column for each scene.
 pub(crate) fn footprint(checked: &[Figure]) -> String {
-    let place = |scene: &str| match scene {
-        _ if limits::is_fixed_point(scene) => 3,
-        _ if limits::is_simulated(scene) => 1,
-        _ if limits::is_table(scene) => 2,
-        _ if limits::is_calibration(scene) => 4,
-        _ => 0,
-    };
     let tables = [0, 1, 2, 3, 4].map(|table| {
-        let own: Vec<&Figure> = checked.iter().filter(|figure| place(&figure.subject.scene) == table).collect();
+        let own: Vec<&Figure> = checked.iter().filter(|figure| table_of(&figure.subject.scene) == table).collect();
         footprint_table(&own).to_string()
     });
     format!(
