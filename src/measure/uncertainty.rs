@@ -439,7 +439,7 @@ impl<T: Real> ClassProbabilities<T> {
             let stopped = impact.stopped_slip(impact.speed(), outcome)?;
             Ok((None, [stopped, None, None]))
         })?;
-        Ok(Self::from_sums(bounded(inputs, &expanded, |expanded| expanded.certain(outcome))))
+        Ok(Self::from_sums(bounded(inputs, &expanded, |expanded, _| expanded.certain(outcome))))
     }
 
     /// Probability of a class. A captured sphere that rests counts as rolling, because the probability of rest is zero.
