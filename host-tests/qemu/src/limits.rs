@@ -62,7 +62,9 @@ pub(crate) fn of(scene: &str, quantity: Quantity) -> Option<f64> {
         Quantity::Error if scene == "table/restitution" => Some(1e-3),
         Quantity::Classify if scene == "table/boundary" => Some(60.0),
         Quantity::Classify if scene == "table/restitution" => Some(300.0),
-        Quantity::Classify if is_uncertain(scene) => Some(20e3),
+        Quantity::Classify if scene == "uncertain/speed" => Some(20e3),
+        // The inputs within the bound and the bound itself are two integrals.
+        Quantity::Classify if scene == "uncertain/bounded" => Some(30e3),
         _ if is_uncertain(scene) => None,
         _ if is_simulated(scene) || is_table(scene) || is_calibration(scene) => None,
         Quantity::Classify => Some(150.0),
