@@ -12,6 +12,11 @@
 //! 3. the expansions give the mean, the variance and the skewness of the slip less the stopped slip at a given zeta
 //!    (`excess`);
 //! 4. the probability of sliding is integrated over zeta, above and below the critical speed (`panels`).
+//!
+//! An input with a bound takes the value of the bound beyond it. The probabilities with that value are weighted with the
+//! probability to be beyond. Where the input dominates the ratio of the speeds, the rest is the integral over the part of zeta that
+//! goes with the input within the bound (`normal::Cut`); elsewhere the input within the bound is one with another mean, variance
+//! and skewness.
 
 mod excess;
 mod expansion;
@@ -327,9 +332,10 @@ where
 ///
 /// For inputs with standard errors of up to 10 % and a critical speed, the probabilities of a rigid body and of a simulation
 /// differ by about 0.001 on the average from those of simulated random inputs, and by less than 0.01 in the scenes of the tests,
-/// where both boundaries between the classes are close. The exception is an input near the bound of its range that alone decides,
-/// as a restitution near one: there it may be 0.05. Random inputs beyond the range of their [parameter](Uncertain::within) take
-/// the nearest value of the range. If the inputs without errors have no critical speed, their outcome counts as certain.
+/// where both boundaries between the classes are close; those include scenes in which one input near the bound of its range, as a
+/// restitution near one, alone decides whether the sphere rebounds. Random inputs beyond the range of their
+/// [parameter](Uncertain::within) take the nearest value of the range. If the inputs without errors have no critical speed, their
+/// outcome counts as certain.
 ///
 /// ```
 /// use microimpact::measure::{ClassProbabilities, Uncertain};
@@ -439,7 +445,7 @@ impl<T: Real> ClassProbabilities<T> {
             let stopped = impact.stopped_slip(impact.speed(), outcome)?;
             Ok((None, [stopped, None, None]))
         })?;
-        Ok(Self::from_sums(bounded(inputs, &expanded, |expanded| expanded.certain(outcome))))
+        Ok(Self::from_sums(bounded(inputs, &expanded, |expanded, _| expanded.certain(outcome))))
     }
 
     /// Probability of a class. A captured sphere that rests counts as rolling, because the probability of rest is zero.

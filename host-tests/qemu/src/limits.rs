@@ -21,6 +21,11 @@ pub(crate) fn is_table(scene: &str) -> bool {
     scene.starts_with("table/")
 }
 
+/// Whether a scene has the probabilities of classes.
+pub(crate) fn is_uncertain(scene: &str) -> bool {
+    scene.starts_with("uncertain/")
+}
+
 /// Whether a scene is computed in fixed point.
 pub(crate) fn is_fixed_point(scene: &str) -> bool {
     scene.ends_with("fixed-point")
@@ -57,6 +62,10 @@ pub(crate) fn of(scene: &str, quantity: Quantity) -> Option<f64> {
         Quantity::Error if scene == "table/restitution" => Some(1e-3),
         Quantity::Classify if scene == "table/boundary" => Some(60.0),
         Quantity::Classify if scene == "table/restitution" => Some(300.0),
+        Quantity::Classify if scene == "uncertain/speed" => Some(20e3),
+        // The inputs within the bound and the bound itself are two integrals.
+        Quantity::Classify if scene == "uncertain/bounded" => Some(30e3),
+        _ if is_uncertain(scene) => None,
         _ if is_simulated(scene) || is_table(scene) || is_calibration(scene) => None,
         Quantity::Classify => Some(150.0),
         Quantity::SetUpAndClassify | Quantity::Calibrate | Quantity::Code | Quantity::Error => None,

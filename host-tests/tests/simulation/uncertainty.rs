@@ -228,6 +228,37 @@ fn classes_of_the_rigid_body() -> Result<(), InputError> {
     Ok(())
 }
 
+/// A scene whose R, near its bound or beyond it in many draws, is nearly all that is uncertain about the outcome.
+fn bounded_scene(random: &mut StdRng) -> Scene<7> {
+    let mut scene = Kind::Restitution.hard_scene(random);
+    let [.., work, restitution, _] = &mut scene.inputs;
+    let error = logarithmic(random, 0.005, 0.1);
+    let before = *restitution;
+    *restitution = 1.0 - error * random.random_range(0.0..2.5);
+    // The same critical speed, or one that a deviation within the bound has.
+    *work *= (*restitution * (1.0 + error * random.random_range(-1.5..0.5)) / before).powi(2);
+    for (index, part) in [(0, 0.1), (4, 0.15), (6, 0.05)] {
+        scene.errors[index] = part * error * scene.inputs[index] * random.random::<f64>();
+    }
+    scene.errors[5] = error;
+    scene
+}
+
+/// Where one bounded input decides whether a sphere rebounds: 100 scenes with MICROIMPACT_EXHAUSTIVE.
+#[test]
+fn one_bounded_input_decides() -> Result<(), InputError> {
+    for seed in 0..repetitions(100, 5) {
+        let mut random = StdRng::seed_from_u64(2000 + seed as u64);
+        let scene = bounded_scene(&mut random);
+        let expected = scene.fractions(&mut random, 400_000, |inputs| Kind::Restitution.class(inputs));
+        let found = probabilities(Kind::Restitution.predicted::<f64>(&scene)?);
+        assert!(difference(found, expected) < ACCURACY, "{seed} {scene:?}: {found:?} {expected:?}");
+        let single = probabilities(Kind::Restitution.predicted::<f32>(&scene)?);
+        assert!(difference(single, found) < 1e-4, "{seed} {scene:?}: {single:?} {found:?}");
+    }
+    Ok(())
+}
+
 /// Far from a boundary, and with errors in one input alone, where the other boundary is a step.
 #[test]
 fn certain_outcomes_and_single_errors() -> Result<(), InputError> {

@@ -3,8 +3,8 @@
 use super::Uncertain;
 use super::excess::{Excess, Zeta};
 use super::expansion::{Expanded, REBOUNDS, absolute, relative, squares};
-use super::normal::{CERTAIN, LARGEST_CURVATURE, normal, quantile};
-use super::panels::{CAPTURE_EDGES, Edge, REBOUND_EDGES, integral};
+use super::normal::{CERTAIN, Cut, LARGEST_CURVATURE, normal, quantile};
+use super::panels::{CAPTURE_EDGES, Edge, REBOUND_EDGES, TAIL, integral};
 use crate::{Outcome, Real};
 
 /// Rebounds for which the stopped slip is computed: the square root of the part of the energy that remains, without the loss of
@@ -51,7 +51,15 @@ impl<T: Real, const N: usize> Expanded<T, N> {
         (Zeta { direction, bend, curvature }, critical, error)
     }
 
-    pub(super) fn probabilities(&self) -> [T; 3] {
+    /// Probabilities of a rebound, and of sliding together with rebound and with capture; with a `cut`, together with an input
+    /// within its bound.
+    pub(super) fn probabilities(&self, cut: Option<&Cut<T>>) -> [T; 3] {
+        let measure = |zeta: T| cut.map_or_else(|| normal(zeta), |cut| cut.normal(zeta));
+        let (certain, tail) = (T::constant(CERTAIN), T::constant(TAIL));
+        let towards = |sign: T| {
+            let end = cut.map_or(certain, |cut| cut.certain(sign));
+            (sign, end, if end < certain { T::ZERO } else { tail })
+        };
         let (variable, critical, error) = self.zeta();
         let excess = Excess::new(&variable, &self.slip, &self.mixed);
         let ratio_at = |zeta: T| {
@@ -68,7 +76,7 @@ impl<T: Real, const N: usize> Expanded<T, N> {
         let (mut both, mut other) = (T::ZERO, T::ZERO);
         if let (Some(a), Some(b)) = (a, b) {
             let [p, _] = REMAINDERS.map(T::constant);
-            both = integral(critical, T::ONE, &REBOUND_EDGES, |zeta| {
+            both = integral(critical, towards(T::ONE), &REBOUND_EDGES, |zeta| {
                 let (ratio, slope) = ratio_at(zeta);
                 let x = remainder(ratio.max(T::ONE));
                 let part = (x - p) * T::constant(1.0 / (REMAINDERS[1] - REMAINDERS[0]));
@@ -81,15 +89,16 @@ impl<T: Real, const N: usize> Expanded<T, N> {
                 // The score is nearly linear in x, which rises as a root: d zeta/d x = ratio^3 x/(d ratio/d zeta).
                 let stretch = (ratio * ratio * ratio * x).saturating_div(slope.max(T::SMALLEST));
                 let (position, stretch) = if error > T::ZERO { (x, stretch) } else { (zeta, T::ONE) };
-                Edge::new(normal(zeta), position, stretch, excess.scores(zeta, moments))
+                Edge::new(measure(zeta), position, stretch, excess.scores(zeta, moments))
             });
         }
         if let Some(captured) = captured {
-            other = integral(critical, -T::ONE, &CAPTURE_EDGES, |zeta| {
-                Edge::new(normal(zeta), zeta, T::ONE, excess.scores(zeta, captured))
+            other = integral(critical, towards(-T::ONE), &CAPTURE_EDGES, |zeta| {
+                Edge::new(measure(zeta), zeta, T::ONE, excess.scores(zeta, captured))
             });
         }
-        [normal(T::ZERO - critical).0, both, other]
+        let inside = cut.map_or(T::ONE, Cut::inside);
+        [inside - measure(critical).0, both, other]
     }
 
     /// The probabilities if the outcome is the same for all deviations.
@@ -109,7 +118,7 @@ impl<T: Real, const N: usize> Expanded<T, N> {
 type Node<T> = (T, [T; 3]);
 
 /// Deviations that take the place of a normal one with a bound at this distance: those within the bound, and the bound itself.
-fn within<T: Real>(distance: T) -> [Node<T>; 3] {
+fn within<T: Real>(distance: T) -> [Node<T>; 2] {
     let (inside, density) = normal(distance);
     let mean = T::ZERO - density / inside;
     let variance = T::ONE + distance * mean - mean * mean;
@@ -117,36 +126,11 @@ fn within<T: Real>(distance: T) -> [Node<T>; 3] {
     let third = mean * (distance * distance - T::ONE - mean * (T::constant(3.0) * distance - T::constant(2.0) * mean));
     let spread = variance.max(T::ZERO).sqrt();
     let skew = third / (T::constant(6.0) * variance * spread);
-    let none = (T::ZERO, [T::ZERO; 3]);
-    [(inside, [mean, spread, skew]), (T::ONE - inside, [distance, T::ZERO, T::ZERO]), none]
-}
-
-/// What is added to a normal deviation so that those beyond a bound at this distance take the value of the bound.
-///
-/// Their mean is that of a rule by Gauss and Radau: the bound and two more points, with the right first four moments.
-fn beyond<T: Real>(distance: T) -> [Node<T>; 3] {
-    let (half, two, three) = (T::constant(0.5), T::constant(2.0), T::constant(3.0));
-    let (below, density) = normal(T::ZERO - distance);
-    // Means of the powers of the distance from the bound.
-    let first = density / below - distance;
-    let second = T::ONE - distance * first;
-    let third = two * first - distance * second;
-    let fourth = three * second - distance * third;
-    // The points are the roots of x^2 - 2 middle x + product, which is orthogonal to x and x^2.
-    let determinant = first * third - second * second;
-    let middle = half * (first * fourth - second * third) / determinant;
-    let product = (second * fourth - third * third) / determinant;
-    let spread = (middle * middle - product).max(T::ZERO).sqrt();
-    let (near, far) = (middle - spread, middle + spread);
-    // Weights that have the first two moments.
-    let weight = |x: T, other: T| below * (second - other * first) / (x * (x - other));
-    let (at_near, at_far) = (weight(near, far), weight(far, near));
-    let nodes = [(at_near + at_far, distance), (-at_near, distance + near), (-at_far, distance + far)];
-    nodes.map(|(weight, z)| (weight, [z, T::ZERO, T::ZERO]))
+    [(inside, [mean, spread, skew]), (T::ONE - inside, [distance, T::ZERO, T::ZERO])]
 }
 
 /// Part of the variance of the ratio of the speeds from which on one input dominates. The ratio is then bounded like this
-/// input, which is far from normal.
+/// input, which is far from normal: what is inside the bound is integrated with the part of zeta that this leaves.
 const DOMINANT: f64 = 0.9;
 
 /// Takes the bounds of the inputs into account: beyond its bound, an input has the value of the bound.
@@ -155,34 +139,37 @@ const DOMINANT: f64 = 0.9;
 pub(super) fn bounded<T: Real, const N: usize>(
     inputs: &[Uncertain<T>; N],
     expanded: &Expanded<T, N>,
-    probabilities: impl Fn(&Expanded<T, N>) -> [T; 3],
+    probabilities: impl Fn(&Expanded<T, N>, Option<&Cut<T>>) -> [T; 3],
 ) -> [T; 3] {
     let (mut sum, mut unbounded) = ([T::ZERO; 3], T::ONE);
-    let mut add = |weight: T, expanded: &Expanded<T, N>| {
-        for (sum, part) in sum.iter_mut().zip(probabilities(expanded)) {
+    let mut add = |weight: T, expanded: &Expanded<T, N>, cut: Option<&Cut<T>>| {
+        for (sum, part) in sum.iter_mut().zip(probabilities(expanded, cut)) {
             *sum = *sum + weight * part;
         }
     };
-    let dominant = T::constant(DOMINANT) * squares(&expanded.speeds.linear);
+    let square = squares(&expanded.speeds.linear);
+    let (_, critical, _) = expanded.zeta();
     for ((input, uncertain), linear) in inputs.iter().enumerate().zip(expanded.speeds.linear) {
         let [low, high] = uncertain.bounds;
         for (sign, distance) in [(-T::ONE, low), (T::ONE, high)] {
             if distance >= T::constant(BEYOND) {
                 continue;
             }
-            let dominates = linear * linear >= dominant;
-            if !dominates {
-                unbounded = unbounded - T::ONE;
-            }
-            for (weight, [mean, spread, skew]) in if dominates { beyond(distance) } else { within(distance) } {
-                if weight != T::ZERO {
-                    add(weight, &expanded.with(input, [sign * mean, spread, sign * skew]));
-                }
+            unbounded = unbounded - T::ONE;
+            let mut add_node = |(weight, [mean, spread, skew]): Node<T>| {
+                add(weight, &expanded.with(input, [sign * mean, spread, sign * skew]), None);
+            };
+            let [inside, at_bound] = within(distance);
+            add_node(at_bound);
+            if linear != T::ZERO && linear * linear >= T::constant(DOMINANT) * square {
+                add(T::ONE, expanded, Some(&Cut::new(distance, sign * linear / square.sqrt(), critical)));
+            } else {
+                add_node(inside);
             }
         }
     }
     if unbounded != T::ZERO {
-        add(unbounded, expanded);
+        add(unbounded, expanded, None);
     }
     sum
 }

@@ -169,12 +169,21 @@ pub(super) const REBOUND_EDGES: [f64; 6] = [0.2, 0.8, 1.8, 3.0, 4.8, 9.0];
 /// The same from the critical speed downwards.
 pub(super) const CAPTURE_EDGES: [f64; 4] = [1.2, 2.6, 4.4, 9.0];
 
-/// Distance from the end within which the panel that begins there is the last one: little of the probability is there.
-const TAIL: f64 = 1.6;
+/// Distance from the end within which the panel that begins there is the last one, where little of the probability is there.
+pub(super) const TAIL: f64 = 1.6;
 
-/// Integral of the probability of sliding over panels, from `start` to where zeta is certain in the direction of `sign`.
-pub(super) fn integral<T: Real>(start: T, sign: T, distances: &[f64], edge_at: impl Fn(T) -> Edge<T>) -> T {
-    let largest = T::constant(CERTAIN) - sign * start;
+/// Integral of the probability of sliding over panels, from `start` to where zeta is `certain` in the direction of `sign`. A panel
+/// that begins within the `tail` is the last one.
+pub(super) fn integral<T: Real>(
+    start: T,
+    (sign, certain, tail): (T, T, T),
+    distances: &[f64],
+    edge_at: impl Fn(T) -> Edge<T>,
+) -> T {
+    let largest = certain - sign * start;
+    if largest <= T::ZERO {
+        return T::ZERO;
+    }
     let (mut edge, mut edge_distance) = (edge_at(start), T::ZERO);
     let mut bends = [Bend { slope: T::ZERO, width: T::ZERO }; 2];
     let mut sum = T::ZERO;
@@ -182,8 +191,7 @@ pub(super) fn integral<T: Real>(start: T, sign: T, distances: &[f64], edge_at: i
         if edge_distance >= largest {
             break;
         }
-        let distance =
-            if edge_distance >= largest - T::constant(TAIL) { largest } else { T::constant(*distance).min(largest) };
+        let distance = if edge_distance >= largest - tail { largest } else { T::constant(*distance).min(largest) };
         let next = edge_at(start + sign * distance);
         sum = sum + edge.panel(&next, &mut bends);
         (edge, edge_distance) = (next, distance);

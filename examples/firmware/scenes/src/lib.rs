@@ -16,4 +16,5 @@ pub mod scenes;
 pub mod station;
 pub mod table_1;
 pub mod tables;
+pub mod uncertain;
 pub mod variants;

@@ -19,6 +19,7 @@ use super::table_1::{
     ADHESION_COEFFICIENT, DENSITY_KG_M3, FRICTION, RADIUS_M, RESTITUTION_SPEED_M_S, WORK_OF_ADHESION_J,
 };
 use super::tables::visit_tables;
+use super::uncertain::visit_uncertain;
 
 /// A number type of the comparison.
 pub trait Number: Real + LowerExp {
@@ -239,12 +240,14 @@ pub trait Visitor {
     fn visit<T: Number, S: Scene<T>>(&mut self);
 }
 
-/// Goes through the scenes of the rigid body in both number types, and those of fixed point and of tables.
+/// Goes through the scenes of the rigid body in both number types, and those of fixed point, of tables and of class
+/// probabilities.
 pub fn visit_scenes(visitor: &mut impl Visitor) {
     visit_scenes_of::<f32>(visitor);
     visit_scenes_of::<f64>(visitor);
     visit_fixed_contacts(visitor);
     visit_tables(visitor);
+    visit_uncertain(visitor);
     visit_approximate(visitor);
 }
 
