@@ -3,8 +3,9 @@
 use microimpact::rigid::WorkOfAdhesion;
 use microimpact::{Coulomb, InputError, RigidBody, SpeedRestitution, Sphere};
 
+use crate::error::Error;
 use crate::memory;
-use crate::status::{Class, Error, Failure, Motion, Status, finish, followed, initialise};
+use crate::status::{Class, Failure, Motion, Status, finish, followed, initialise};
 
 /// A rigid body with R = k/(k + v), a work of adhesion and friction. Zero leaves a term out.
 #[repr(C)]
@@ -25,7 +26,7 @@ pub struct RigidScene {
 type Scene = RigidBody<f32, SpeedRestitution<f32>, WorkOfAdhesion<f32>, Coulomb<f32>>;
 
 impl RigidScene {
-    fn check(self) -> Result<Scene, InputError> {
+    pub(crate) fn check(self) -> Result<Scene, InputError> {
         RigidBody::new(Sphere::solid(self.radius, self.density)?, SpeedRestitution::new(self.restitution_speed)?)
             .with_work_of_adhesion(self.work_of_adhesion)?
             .with_friction(self.friction)

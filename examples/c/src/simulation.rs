@@ -3,8 +3,9 @@
 use microimpact::contact::{self, AnyLaw, AnyScene, Collocation, JkrEnd, SimulatedImpact, TangentialVelocities};
 use microimpact::{CriticalSpeed, Fault, InputError, Parameter, PlanarMotion, Sphere, Stiffness};
 
+use crate::error::Error;
 use crate::memory;
-use crate::status::{Class, Error, Failure, Motion, Status, finish, followed, initialise};
+use crate::status::{Class, Failure, Motion, Status, finish, followed, initialise};
 
 /// A contact with Hertz's force, adhesion of one kind, damping of one kind, and friction. Zero leaves a term out.
 #[repr(C)]
@@ -45,7 +46,7 @@ type Scene = AnyScene<f32>;
 pub(crate) type Method = Collocation<7, f32>;
 
 /// What suits single precision.
-const TOLERANCE: f32 = 1e-6;
+pub(crate) const TOLERANCE: f32 = 1e-6;
 
 /// A number that does not go with the others.
 fn refused(parameter: Parameter, value: f32) -> InputError {

@@ -4,8 +4,9 @@ use microimpact::rigid::Departure;
 use microimpact::space::{self, Departing, PairIncidence, WallIncidence};
 use microimpact::{InputError, Oblique, Parameter, Sphere};
 
+use crate::error::Error;
 use crate::memory;
-use crate::status::{Error, Failure, Motion, Status, finish, followed};
+use crate::status::{Failure, Motion, Status, finish, followed};
 
 /// The motion of a solid sphere in space.
 #[repr(C)]

@@ -3,9 +3,10 @@
 use microimpact::table::{self, BoundarySlice, Lookup, TableOutcome, TableRebound};
 use microimpact::{Coulomb, InputError, PlanarMotion, Sphere};
 
+use crate::error::Error;
 use crate::memory;
 use crate::simulation::ContactScene;
-use crate::status::{Error, Failure, Motion, Status, finish, followed};
+use crate::status::{Failure, Motion, Status, finish, followed};
 
 /// What a table says of an impact.
 #[repr(u32)]

@@ -3,9 +3,10 @@
 use microimpact::contact::{AnyLaw, Compliance, CompliantVelocities, Contact, SimulatedImpact, Unloading};
 use microimpact::{InputError, PlanarMotion};
 
+use crate::error::Error;
 use crate::memory;
 use crate::simulation::{ContactScene, Method, simulate_each};
-use crate::status::{Class, Error, Failure, Motion, Status, followed, initialise};
+use crate::status::{Class, Failure, Motion, Status, followed, initialise};
 
 /// A contact that gives sideways before it slips: one elastic element between sphere and surface sticks until friction is exhausted
 /// (Mindlin 1949; Thornton, Cummins and Cleary 2011).

@@ -2,9 +2,10 @@
 
 use microimpact::contact::{self, Recording, Slip, Trajectory};
 
+use crate::error::Error;
 use crate::memory;
 use crate::simulation::{Contact, ContactScene};
-use crate::status::{Error, Failure, Motion, Status, finish, followed};
+use crate::status::{Failure, Motion, Status, finish, followed};
 
 /// Least room for a trajectory: first touch, peak, beginning of rolling and end.
 pub const SMALLEST_TRAJECTORY: usize = 4;

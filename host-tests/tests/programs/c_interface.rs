@@ -13,7 +13,64 @@ fn header() -> String {
     let config = cbindgen::Config::from_file(folder().join("cbindgen.toml")).unwrap();
     let bindings = cbindgen::Builder::new().with_crate(folder()).with_config(config).generate().unwrap();
     bindings.write(&mut text);
-    String::from_utf8(text).unwrap()
+    in_c90(&String::from_utf8(text).unwrap())
+}
+
+/// What cbindgen writes, in the words that C90, C++98 and all later languages share: each enumeration is a nameless one and a type of 32
+/// bits, since the size of an enumeration differs from compiler to compiler; no line comments, and no comma before a brace.
+fn in_c90(text: &str) -> String {
+    let mut lines: Vec<String> = Vec::new();
+    let mut enumeration = None;
+    // Depth of the conditions around the size of an enumeration, and around its type.
+    let mut skipped = 0;
+    for line in text.lines() {
+        if let Some(name) = line.strip_prefix("enum ") {
+            enumeration = Some(name.to_owned());
+            lines.push("enum {".to_owned());
+            continue;
+        }
+        let Some(name) = enumeration.as_deref() else {
+            lines.push(line.split_once(" // ").map_or(line.to_owned(), |(code, note)| format!("{code} /* {note} */")));
+            continue;
+        };
+        if line.starts_with("#if") {
+            skipped += 1;
+        } else if line.starts_with("#endif") {
+            skipped -= 1;
+            // The type comes after the braces, in conditions of its own.
+            if skipped == 0 && lines.last().is_some_and(|last| last == "};") {
+                lines.push(format!("typedef uint32_t {name};"));
+                enumeration = None;
+            }
+        } else if line == "};" {
+            let last = lines.last_mut().unwrap();
+            *last = last.trim_end_matches(',').to_owned();
+            lines.push(line.to_owned());
+        } else if skipped == 0 && line != " {" {
+            lines.push(line.to_owned());
+        }
+    }
+    compact(&lines)
+}
+
+/// The same with each comment of one line on one line.
+fn compact(lines: &[String]) -> String {
+    let mut text = String::new();
+    let mut rest = lines;
+    while let Some(line) = rest.first() {
+        match rest {
+            [open, comment, close, ..] if open.trim() == "/*" && close.trim() == "*/" => {
+                text += &format!("{open} {} */\n", comment.trim_start());
+                rest = &rest[3..];
+            }
+            _ => {
+                text += line;
+                text.push('\n');
+                rest = &rest[1..];
+            }
+        }
+    }
+    text
 }
 
 /// The table that `microimpact table` writes for C.
@@ -93,8 +150,31 @@ mod sanitized {
 
     #[test]
     fn misuse_is_reported_and_harmless() {
-        let output = run("check.c", "check", &[]);
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        for program in ["check", "check_scenes", "check_instrument"] {
+            let output = run(&format!("{program}.c"), program, &[]);
+            assert!(output.status.success(), "{program}: {}", String::from_utf8_lossy(&output.stderr));
+        }
+    }
+
+    /// A program of both headers without a word of any later language.
+    #[test]
+    fn headers_are_valid_in_every_standard() {
+        let program = "#include \"microimpact.h\"\n#include \"microimpact_link.h\"\n\
+            int main(void) { return microimpact_layout() == MICROIMPACT_LAYOUT ? 0 : 1; }\n";
+        let languages: [(&str, &str, &[&str]); 2] = [
+            ("cc", "c", &["c90", "c99", "c11", "c17"]),
+            ("c++", "cpp", &["c++98", "c++11", "c++17", "c++20"]),
+        ];
+        for (compiler, extension, standards) in languages {
+            let source = Path::new(TEMPORARY).join(format!("standards.{extension}"));
+            std::fs::write(&source, program).unwrap();
+            for standard in standards {
+                let mut command = Command::new(compiler);
+                command.arg(format!("-std={standard}")).args(["-pedantic", "-Wall", "-Wextra", "-Werror", "-fsyntax-only"]);
+                let output = command.arg("-I").arg(folder().join("include")).arg(&source).output().unwrap();
+                assert!(output.status.success(), "{standard}: {}", String::from_utf8_lossy(&output.stderr));
+            }
+        }
     }
 
     #[test]

@@ -1,0 +1,90 @@
+/* Reads the frames of an instrument from standard input, and says what is in them: one line for each frame. With the argument
+   "requests", it writes the requests of the documentation instead, one in each line, as hexadecimal numbers. */
+
+#include <stdio.h>
+#include <string.h>
+
+#include "microimpact_link.h"
+
+static const MicroimpactLinkSchema EXPECTED = {MICROIMPACT_LINK_F32, MICROIMPACT_LINK_PLANAR, MICROIMPACT_LINK_FRICTION};
+
+static void show(const MicroimpactLinkReply *reply)
+{
+    size_t i;
+    printf("%d %lu", reply->kind, (unsigned long)reply->number);
+    switch (reply->kind) {
+    case MICROIMPACT_LINK_STARTED:
+    case MICROIMPACT_LINK_DESCRIPTION:
+        printf(" version %lu schema %u %u %u", (unsigned long)reply->protocol, (unsigned)reply->schema.number,
+               (unsigned)reply->schema.reading, (unsigned)reply->schema.classes);
+        break;
+    case MICROIMPACT_LINK_CLASSIFIED:
+        printf(" class %u", (unsigned)reply->impact_class);
+        if (reply->has_restitution)
+            printf(" e %.6g", reply->restitution);
+        break;
+    case MICROIMPACT_LINK_REJECTED:
+    case MICROIMPACT_LINK_REFUSED:
+        if (reply->unsolved)
+            printf(" without");
+        else
+            printf(" parameter %lu fault %lu value %.6g", (unsigned long)reply->parameter, (unsigned long)reply->fault, (double)reply->value);
+        break;
+    case MICROIMPACT_LINK_REPORT_IS:
+        for (i = 0; i < MICROIMPACT_LINK_REPORT; i++)
+            printf(" %lu", (unsigned long)reply->report[i]);
+        break;
+    case MICROIMPACT_LINK_COUNTS:
+    case MICROIMPACT_LINK_RESET:
+        for (i = 0; i < reply->count; i++)
+            printf(" %lu", (unsigned long)reply->counts[i]);
+        break;
+    default:
+        break;
+    }
+    printf("\n");
+}
+
+static void write_frame(const uint8_t *frame, size_t length)
+{
+    size_t i;
+    for (i = 0; i < length; i++)
+        printf("%s%02x", i > 0 ? " " : "", (unsigned)frame[i]);
+    printf("\n");
+}
+
+static void requests(void)
+{
+    uint8_t frame[MICROIMPACT_LINK_FRAME];
+    MicroimpactLinkReading reading;
+    memset(&reading, 0, sizeof reading);
+    reading.approach = 2.8, reading.peripheral = 0.739;
+    write_frame(frame, microimpact_link_event(&EXPECTED, 1, &reading, frame, sizeof frame));
+    write_frame(frame, microimpact_link_request(MICROIMPACT_LINK_ASK_REPORT, 300, frame, sizeof frame));
+    write_frame(frame, microimpact_link_request(MICROIMPACT_LINK_DESCRIBE, 2, frame, sizeof frame));
+    write_frame(frame, microimpact_link_request(MICROIMPACT_LINK_ASK_COUNTS, 3, frame, sizeof frame));
+    write_frame(frame, microimpact_link_request(MICROIMPACT_LINK_ASK_RESET, 4, frame, sizeof frame));
+}
+
+int main(int count, char **arguments)
+{
+    static const char *const FAULTS[] = {"", "", "oversized", "stuffing", "checksum", "content", "schema"};
+    MicroimpactLinkDecoder decoder;
+    MicroimpactLinkReply reply;
+    int byte;
+    if (count > 1 && strcmp(arguments[1], "requests") == 0) {
+        requests();
+        return 0;
+    }
+    memset(&decoder, 0, sizeof decoder);
+    while ((byte = getchar()) != EOF) {
+        int state = microimpact_link_take(&decoder, (uint8_t)byte);
+        if (state == MICROIMPACT_LINK_MESSAGE_IN)
+            state = microimpact_link_reply(&decoder, &EXPECTED, &reply);
+        if (state == MICROIMPACT_LINK_MESSAGE_IN)
+            show(&reply);
+        else if (state != MICROIMPACT_LINK_WAITS)
+            printf("%s\n", FAULTS[state]);
+    }
+    return 0;
+}
