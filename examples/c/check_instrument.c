@@ -146,8 +146,8 @@ static void counts(void)
     memset(&tally, 0, sizeof tally);
     assert(microimpact_tally_read(&tally, &report) == MICROIMPACT_STATUS_UNMADE);
     assert(microimpact_tally_record(&tally, 1.5f, MICROIMPACT_STATUS_OK, &impact) == MICROIMPACT_STATUS_UNMADE);
-    assert(microimpact_tally_init(&tally, &falling, &error) == MICROIMPACT_STATUS_INPUT && error.fault == MICROIMPACT_FAULT_TOO_SMALL);
-    assert(microimpact_tally_init(&tally, &edges, &error) == MICROIMPACT_STATUS_OK);
+    assert(microimpact_tally_init(&tally, falling, &error) == MICROIMPACT_STATUS_INPUT && error.fault == MICROIMPACT_FAULT_TOO_SMALL);
+    assert(microimpact_tally_init(&tally, edges, &error) == MICROIMPACT_STATUS_OK);
     for (int i = 0; i < 4; i++) {
         impact.restitution = 0.5f + 0.1f * (float)i;
         assert(microimpact_tally_record(&tally, 1.5f, MICROIMPACT_STATUS_OK, &impact) == MICROIMPACT_STATUS_OK);

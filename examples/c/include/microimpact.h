@@ -6,350 +6,215 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/*
- Number of the interface: another one has other functions, structures or meanings.
- */
+/* Folds the size of a type into a number, as microimpact_layout does. */
+#define MICROIMPACT_FOLD(number, size) ((uint32_t)((number) * 31u + (uint32_t)(size)))
+#define MICROIMPACT_LAYOUT_0 \
+    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(0u, sizeof(MicroimpactError)), sizeof(MicroimpactClass)), sizeof(MicroimpactMotion)), sizeof(MicroimpactRigidScene))
+#define MICROIMPACT_LAYOUT_1 \
+    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_0, sizeof(MicroimpactClassification)), sizeof(MicroimpactContactScene)), sizeof(MicroimpactContact)), sizeof(MicroimpactSample))
+#define MICROIMPACT_LAYOUT_2 \
+    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_1, sizeof(MicroimpactCompliantScene)), sizeof(MicroimpactCompliantContact)), sizeof(MicroimpactWall)), sizeof(MicroimpactSpatialMotion))
+#define MICROIMPACT_LAYOUT_3 \
+    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_2, sizeof(MicroimpactPair)), sizeof(MicroimpactBoundaryTable)), sizeof(MicroimpactRestitutionTable)), sizeof(MicroimpactTableReading))
+#define MICROIMPACT_LAYOUT_4 \
+    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_3, sizeof(MicroimpactSceneConfig)), sizeof(MicroimpactSceneImpact)), sizeof(MicroimpactEvent)), sizeof(MicroimpactQueue))
+#define MICROIMPACT_LAYOUT_5 \
+    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_4, sizeof(MicroimpactTally)), sizeof(MicroimpactTallyReport)), sizeof(MicroimpactFixedBody) + sizeof(MicroimpactFixedMotion)), sizeof(MicroimpactFixedResult))
+/* To be compared with what microimpact_layout returns. */
+#define MICROIMPACT_LAYOUT \
+    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_5, sizeof(MicroimpactUncertainMotion) + sizeof(MicroimpactUncertainClass)), sizeof(MicroimpactMeasuredImpact) + sizeof(MicroimpactFitRoom)), sizeof(MicroimpactFit))
+
+
+/* Number of the interface: another one has other functions, structures or meanings. */
 #define MICROIMPACT_ABI 2
 
-/*
- Version of the library: major times 10000, minor times 100, patch.
- */
+/* Version of the library: major times 10000, minor times 100, patch. */
 #define MICROIMPACT_VERSION 100
 
-/*
- Room that is enough for every text of microimpact_describe.
- */
+/* Room that is enough for every text of microimpact_describe. */
 #define MICROIMPACT_LARGEST_TEXT 160
 
-/*
- One unit in the numbers of MicroimpactFixedMotion and MicroimpactFixedResult: 2^24.
- */
+/* One unit in the numbers of MicroimpactFixedMotion and MicroimpactFixedResult: 2^24. */
 #define MICROIMPACT_FIXED_ONE (1 << 24)
 
-/*
- Most events that a queue has room for: places go round at twice as many.
- */
+/* Most events that a queue has room for: places go round at twice as many. */
 #define MICROIMPACT_LARGEST_QUEUE 1073741824
 
-/*
- Number of bins of speed of a tally.
- */
+/* Number of bins of speed of a tally. */
 #define MICROIMPACT_TALLY_BINS 8
 
-/*
- Number of bins with that of faster impacts.
- */
+/* Number of bins with that of faster impacts. */
 #define MICROIMPACT_TALLY_RANGES 9
 
-/*
- Number of classes.
- */
+/* Number of classes. */
 #define MICROIMPACT_CLASSES 6
 
-/*
- Least room for a trajectory: first touch, peak, beginning of rolling and end.
- */
+/* Least room for a trajectory: first touch, peak, beginning of rolling and end. */
 #define MICROIMPACT_SMALLEST_TRAJECTORY 4
 
-/*
- Room that is always enough: no trajectory has more samples.
- */
+/* Room that is always enough: no trajectory has more samples. */
 #define MICROIMPACT_LARGEST_TRAJECTORY 64
 
-/*
- How a function has ended.
- */
+/* How a function has ended. */
 enum {
-  /*
-   All is well, and the results are there.
-   */
+  /* All is well, and the results are there. */
   MICROIMPACT_STATUS_OK,
-  /*
-   A pointer that is null or misaligned; there is no result.
-   */
+  /* A pointer that is null or misaligned; there is no result. */
   MICROIMPACT_STATUS_POINTER,
-  /*
-   A number outside its range: the error says which.
-   */
+  /* A number outside its range: the error says which. */
   MICROIMPACT_STATUS_INPUT,
-  /*
-   The simulation did not come to an end within its budget; nothing was written for this motion.
-   */
+  /* The simulation did not come to an end within its budget; nothing was written for this motion. */
   MICROIMPACT_STATUS_UNSOLVED,
-  /*
-   Fewer results fit than there are motions, and those that fit were written; or no trajectory fits.
-   */
+  /* Fewer results fit than there are motions, and those that fit were written; or no trajectory fits. */
   MICROIMPACT_STATUS_CAPACITY,
-  /*
-   A table, a tally or a scene in integers that was never made.
-   */
+  /* A table, a tally or a scene in integers that was never made. */
   MICROIMPACT_STATUS_UNMADE,
-  /*
-   A choice, of a model or a term, that there is not.
-   */
+  /* A choice, of a model or a term, that there is not. */
   MICROIMPACT_STATUS_CHOICE,
-  /*
-   Fewer measurements than a fit needs.
-   */
+  /* Fewer measurements than a fit needs. */
   MICROIMPACT_STATUS_TOO_FEW,
-  /*
-   Measurements that do not determine a parameter.
-   */
+  /* Measurements that do not determine a parameter. */
   MICROIMPACT_STATUS_UNDETERMINED,
-  /*
-   A measurement that no value of a parameter gives.
-   */
+  /* A measurement that no value of a parameter gives. */
   MICROIMPACT_STATUS_CONTRADICTION
 };
 typedef uint32_t MicroimpactStatus;
 
-/*
- What became of the sphere.
- */
+/* What became of the sphere. */
 enum {
-  /*
-   Leaves the surface while its contact point slips.
-   */
+  /* Leaves the surface while its contact point slips. */
   MICROIMPACT_CLASS_REBOUND_SLIDING,
-  /*
-   Leaves the surface rolling.
-   */
+  /* Leaves the surface rolling. */
   MICROIMPACT_CLASS_REBOUND_ROLLING,
-  /*
-   Captured, and slides on.
-   */
+  /* Captured, and slides on. */
   MICROIMPACT_CLASS_CAPTURED_SLIDING,
-  /*
-   Captured, and rolls on.
-   */
+  /* Captured, and rolls on. */
   MICROIMPACT_CLASS_CAPTURED_ROLLING,
-  /*
-   Captured and at rest.
-   */
+  /* Captured and at rest. */
   MICROIMPACT_CLASS_CAPTURED_RESTING,
-  /*
-   Too close to the critical speed to decide.
-   */
+  /* Too close to the critical speed to decide. */
   MICROIMPACT_CLASS_UNDECIDED
 };
 typedef uint32_t MicroimpactClass;
 
-/*
- How a number misses its range. Its number is that of the protocol of instruments, plus one.
- */
+/* How a number misses its range. Its number is that of the protocol of instruments, plus one. */
 enum {
-  /*
-   No fault.
-   */
+  /* No fault. */
   MICROIMPACT_FAULT_NONE,
-  /*
-   NaN or infinite.
-   */
+  /* NaN or infinite. */
   MICROIMPACT_FAULT_NOT_FINITE,
-  /*
-   Below the smallest valid value.
-   */
+  /* Below the smallest valid value. */
   MICROIMPACT_FAULT_TOO_SMALL,
-  /*
-   Above the largest valid value.
-   */
+  /* Above the largest valid value. */
   MICROIMPACT_FAULT_TOO_LARGE,
-  /*
-   A thickness above the radius of its sphere.
-   */
+  /* A thickness above the radius of its sphere. */
   MICROIMPACT_FAULT_EXCEEDS_RADIUS,
-  /*
-   A tolerance below the precision of single precision, 1e-6.
-   */
+  /* A tolerance below the precision of single precision, 1e-6. */
   MICROIMPACT_FAULT_BELOW_PRECISION,
-  /*
-   A tolerance below what the nodes of the method can keep.
-   */
+  /* A tolerance below what the nodes of the method can keep. */
   MICROIMPACT_FAULT_TOO_FEW_NODES,
-  /*
-   A term that does not go with the others of the scene.
-   */
+  /* A term that does not go with the others of the scene. */
   MICROIMPACT_FAULT_OTHER_LAW,
-  /*
-   A value that does not rise from point to point.
-   */
+  /* A value that does not rise from point to point. */
   MICROIMPACT_FAULT_OUT_OF_ORDER,
-  /*
-   A quantity that acts on one body, where two meet.
-   */
+  /* A quantity that acts on one body, where two meet. */
   MICROIMPACT_FAULT_TWO_BODIES,
-  /*
-   Bodies that do not approach each other along the normal.
-   */
+  /* Bodies that do not approach each other along the normal. */
   MICROIMPACT_FAULT_RECEDING,
-  /*
-   An index beyond the end of a table.
-   */
+  /* An index beyond the end of a table. */
   MICROIMPACT_FAULT_NOT_IN_TABLE,
-  /*
-   Any other fault.
-   */
+  /* Any other fault. */
   MICROIMPACT_FAULT_OTHER
 };
 typedef uint32_t MicroimpactFault;
 
-/*
- What a table says of an impact.
- */
+/* What a table says of an impact. */
 enum {
-  /*
-   The sphere leaves the surface.
-   */
+  /* The sphere leaves the surface. */
   MICROIMPACT_VERDICT_REBOUND,
-  /*
-   The surface holds the sphere.
-   */
+  /* The surface holds the sphere. */
   MICROIMPACT_VERDICT_CAPTURE,
-  /*
-   The speed is closer to the critical one than the error of the table.
-   */
+  /* The speed is closer to the critical one than the error of the table. */
   MICROIMPACT_VERDICT_TOO_CLOSE_TO_CALL,
-  /*
-   The table does not reach there.
-   */
+  /* The table does not reach there. */
   MICROIMPACT_VERDICT_OUTSIDE_TABLE
 };
 typedef uint32_t MicroimpactVerdict;
 
-/*
- The motion along the surface after a rebound.
- */
+/* The motion along the surface after a rebound. */
 enum {
-  /*
-   There is no rebound.
-   */
+  /* There is no rebound. */
   MICROIMPACT_SURFACE_MOTION_NONE,
-  /*
-   The contact point slips.
-   */
+  /* The contact point slips. */
   MICROIMPACT_SURFACE_MOTION_SLIDING,
-  /*
-   The sphere rolls.
-   */
+  /* The sphere rolls. */
   MICROIMPACT_SURFACE_MOTION_ROLLING
 };
 typedef uint32_t MicroimpactSurfaceMotion;
 
-/*
- The model of a scene.
- */
+/* The model of a scene. */
 enum {
-  /*
-   The rigid-body model.
-   */
+  /* The rigid-body model. */
   MICROIMPACT_MODEL_RIGID_BODY,
-  /*
-   The simulation of the contact.
-   */
+  /* The simulation of the contact. */
   MICROIMPACT_MODEL_CONTACT
 };
 typedef uint32_t MicroimpactModel;
 
-/*
- Restitution of a rigid body.
- */
+/* Restitution of a rigid body. */
 enum {
-  /*
-   The same R at every speed.
-   */
+  /* The same R at every speed. */
   MICROIMPACT_RESTITUTION_LAW_CONSTANT,
-  /*
-   R = k/(k + v).
-   */
+  /* R = k/(k + v). */
   MICROIMPACT_RESTITUTION_LAW_SPEED,
-  /*
-   R = k^p/(k^p + v^p).
-   */
+  /* R = k^p/(k^p + v^p). */
   MICROIMPACT_RESTITUTION_LAW_POWER,
-  /*
-   That of an elastic-plastic sphere (Thornton 1997).
-   */
+  /* That of an elastic-plastic sphere (Thornton 1997). */
   MICROIMPACT_RESTITUTION_LAW_ELASTIC_PLASTIC,
-  /*
-   That of a viscoelastic sphere.
-   */
+  /* That of a viscoelastic sphere. */
   MICROIMPACT_RESTITUTION_LAW_VISCOELASTIC
 };
 typedef uint32_t MicroimpactRestitutionLaw;
 
-/*
- Adhesion of a rigid body.
- */
+/* Adhesion of a rigid body. */
 enum {
-  /*
-   None.
-   */
+  /* None. */
   MICROIMPACT_REBOUND_ADHESION_NONE,
-  /*
-   A coefficient rho.
-   */
+  /* A coefficient rho. */
   MICROIMPACT_REBOUND_ADHESION_COEFFICIENT,
-  /*
-   A work, J.
-   */
+  /* A work, J. */
   MICROIMPACT_REBOUND_ADHESION_WORK,
-  /*
-   rho = l^q/(l^q + v^q).
-   */
+  /* rho = l^q/(l^q + v^q). */
   MICROIMPACT_REBOUND_ADHESION_SPEED
 };
 typedef uint32_t MicroimpactReboundAdhesion;
 
-/*
- Damping of the materials of a contact.
- */
+/* Damping of the materials of a contact. */
 enum {
-  /*
-   None.
-   */
+  /* None. */
   MICROIMPACT_DAMPING_NONE,
-  /*
-   That of Hunt and Crossley.
-   */
+  /* That of Hunt and Crossley. */
   MICROIMPACT_DAMPING_HYSTERETIC,
-  /*
-   That of a viscoelastic material.
-   */
+  /* That of a viscoelastic material. */
   MICROIMPACT_DAMPING_VISCOELASTIC,
-  /*
-   That which, without adhesion, leaves the same restitution at every speed.
-   */
+  /* That which, without adhesion, leaves the same restitution at every speed. */
   MICROIMPACT_DAMPING_CONSTANT
 };
 typedef uint32_t MicroimpactDamping;
 
-/*
- Adhesion of a contact, and where contact ends.
- */
+/* Adhesion of a contact, and where contact ends. */
 enum {
-  /*
-   None; contact ends at zero indentation.
-   */
+  /* None; contact ends at zero indentation. */
   MICROIMPACT_ADHESION_NONE,
-  /*
-   None; contact ends where damping cancels the elastic force.
-   */
+  /* None; contact ends where damping cancels the elastic force. */
   MICROIMPACT_ADHESION_WITHOUT_TENSION,
-  /*
-   The ring force of Brach and Dunn.
-   */
+  /* The ring force of Brach and Dunn. */
   MICROIMPACT_ADHESION_RING,
-  /*
-   Derjaguin, Muller and Toporov.
-   */
+  /* Derjaguin, Muller and Toporov. */
   MICROIMPACT_ADHESION_DMT,
-  /*
-   Johnson, Kendall and Roberts; contact ends where it snaps off.
-   */
+  /* Johnson, Kendall and Roberts; contact ends where it snaps off. */
   MICROIMPACT_ADHESION_JKR_SNAP_OFF,
-  /*
-   The same; contact ends at the pull-off force.
-   */
+  /* The same; contact ends at the pull-off force. */
   MICROIMPACT_ADHESION_JKR_PULL_OFF
 };
 typedef uint32_t MicroimpactAdhesion;
@@ -359,367 +224,201 @@ typedef uint32_t MicroimpactAdhesion;
  that was not chosen is not looked at. What is left out is zero.
  */
 typedef struct MicroimpactSceneConfig {
-  /*
-   Radius of the sphere, m.
-   */
+  /* Radius of the sphere, m. */
   float radius;
-  /*
-   Its mean density, kg/m^3.
-   */
+  /* Its mean density, kg/m^3. */
   float density;
   /*
    Squared radius of gyration over squared radius; microimpact_scene_init makes zero that of a solid sphere, 0.4. See
    microimpact_sphere_hollow and microimpact_sphere_coated for others.
    */
   float gyration_ratio;
-  /*
-   Friction coefficient; may be zero.
-   */
+  /* Friction coefficient; may be zero. */
   float friction;
-  /*
-   MicroimpactModel.
-   */
+  /* MicroimpactModel. */
   uint32_t model;
-  /*
-   MicroimpactRestitutionLaw, of a rigid body.
-   */
+  /* MicroimpactRestitutionLaw, of a rigid body. */
   uint32_t restitution_law;
-  /*
-   R of a constant restitution.
-   */
+  /* R of a constant restitution. */
   float restitution;
-  /*
-   Speed k of MICROIMPACT_RESTITUTION_LAW_SPEED and POWER, m/s.
-   */
+  /* Speed k of MICROIMPACT_RESTITUTION_LAW_SPEED and POWER, m/s. */
   float restitution_speed;
-  /*
-   Power p of MICROIMPACT_RESTITUTION_LAW_POWER.
-   */
+  /* Power p of MICROIMPACT_RESTITUTION_LAW_POWER. */
   float restitution_power;
-  /*
-   Speed of first yield of MICROIMPACT_RESTITUTION_LAW_ELASTIC_PLASTIC, m/s.
-   */
+  /* Speed of first yield of MICROIMPACT_RESTITUTION_LAW_ELASTIC_PLASTIC, m/s. */
   float yield_speed;
-  /*
-   MicroimpactReboundAdhesion, of a rigid body.
-   */
+  /* MicroimpactReboundAdhesion, of a rigid body. */
   uint32_t rebound_adhesion;
-  /*
-   rho of MICROIMPACT_REBOUND_ADHESION_COEFFICIENT.
-   */
+  /* rho of MICROIMPACT_REBOUND_ADHESION_COEFFICIENT. */
   float adhesion_coefficient;
-  /*
-   Work of MICROIMPACT_REBOUND_ADHESION_WORK, J.
-   */
+  /* Work of MICROIMPACT_REBOUND_ADHESION_WORK, J. */
   float work_of_adhesion;
-  /*
-   Speed l of MICROIMPACT_REBOUND_ADHESION_SPEED, m/s.
-   */
+  /* Speed l of MICROIMPACT_REBOUND_ADHESION_SPEED, m/s. */
   float adhesion_speed;
-  /*
-   Its power q.
-   */
+  /* Its power q. */
   float adhesion_power;
-  /*
-   Hertz stiffness of a contact, and of MICROIMPACT_RESTITUTION_LAW_VISCOELASTIC, Pa.
-   */
+  /* Hertz stiffness of a contact, and of MICROIMPACT_RESTITUTION_LAW_VISCOELASTIC, Pa. */
   float stiffness;
-  /*
-   Relaxation time of a viscoelastic material, of either model, s.
-   */
+  /* Relaxation time of a viscoelastic material, of either model, s. */
   float relaxation_time;
-  /*
-   MicroimpactDamping, of a contact.
-   */
+  /* MicroimpactDamping, of a contact. */
   uint32_t damping;
-  /*
-   zeta_H of MICROIMPACT_DAMPING_HYSTERETIC.
-   */
+  /* zeta_H of MICROIMPACT_DAMPING_HYSTERETIC. */
   float material_damping;
-  /*
-   e of MICROIMPACT_DAMPING_CONSTANT.
-   */
+  /* e of MICROIMPACT_DAMPING_CONSTANT. */
   float nominal_restitution;
-  /*
-   MicroimpactAdhesion, of a contact.
-   */
+  /* MicroimpactAdhesion, of a contact. */
   uint32_t adhesion;
-  /*
-   f0 of MICROIMPACT_ADHESION_RING, N/m.
-   */
+  /* f0 of MICROIMPACT_ADHESION_RING, N/m. */
   float adhesion_strength;
-  /*
-   Its zeta_A.
-   */
+  /* Its zeta_A. */
   float adhesion_damping;
-  /*
-   Work of adhesion per area of the laws DMT and JKR, J/m^2.
-   */
+  /* Work of adhesion per area of the laws DMT and JKR, J/m^2. */
   float adhesion_energy;
-  /*
-   External force on a contact, N, positive out of the surface.
-   */
+  /* External force on a contact, N, positive out of the surface. */
   float external_force;
-  /*
-   Tolerance of the square of the restitution of a contact; microimpact_scene_init makes zero 1e-6.
-   */
+  /* Tolerance of the square of the restitution of a contact; microimpact_scene_init makes zero 1e-6. */
   float tolerance;
-  /*
-   Iterations of the method of fixed cost, 1 to 40, which then takes the place of the one with a tolerance; zero for the latter.
-   */
+  /* Iterations of the method of fixed cost, 1 to 40, which then takes the place of the one with a tolerance; zero for the latter. */
   uint32_t iterations;
 } MicroimpactSceneConfig;
 
-/*
- A motion before the impact.
- */
+/* A motion before the impact. */
 typedef struct MicroimpactMotion {
-  /*
-   Approach speed, positive, m/s.
-   */
+  /* Approach speed, positive, m/s. */
   float approach;
-  /*
-   Tangential velocity, m/s.
-   */
+  /* Tangential velocity, m/s. */
   float tangential;
-  /*
-   Peripheral velocity, spin times radius, m/s.
-   */
+  /* Peripheral velocity, spin times radius, m/s. */
   float peripheral;
 } MicroimpactMotion;
 
-/*
- A reading with the time at which it was taken, the size of the particle and its material.
- */
+/* A reading with the time at which it was taken, the size of the particle and its material. */
 typedef struct MicroimpactEvent {
-  /*
-   Value of a clock's counter.
-   */
+  /* Value of a clock's counter. */
   uint32_t ticks;
-  /*
-   Index of the particle's material among the scenes.
-   */
+  /* Index of the particle's material among the scenes. */
   uint32_t material;
-  /*
-   Radius of the particle, m; zero for that of the scene.
-   */
+  /* Radius of the particle, m; zero for that of the scene. */
   float radius;
-  /*
-   Its motion.
-   */
+  /* Its motion. */
   struct MicroimpactMotion motion;
 } MicroimpactEvent;
 
-/*
- What became of a sphere of a scene of either model.
- */
+/* What became of a sphere of a scene of either model. */
 typedef struct MicroimpactSceneImpact {
-  /*
-   The class.
-   */
+  /* The class. */
   MicroimpactClass impact_class;
-  /*
-   Overall restitution, zero for a capture.
-   */
+  /* Overall restitution, zero for a capture. */
   float restitution;
-  /*
-   Tangential velocity after the impact, m/s.
-   */
+  /* Tangential velocity after the impact, m/s. */
   float tangential;
-  /*
-   Peripheral velocity after the impact, spin times radius, m/s.
-   */
+  /* Peripheral velocity after the impact, spin times radius, m/s. */
   float peripheral;
 } MicroimpactSceneImpact;
 
-/*
- What was wrong with a number.
- */
+/* What was wrong with a number. */
 typedef struct MicroimpactError {
-  /*
-   Number of the parameter, as in the protocol of instruments, for microimpact_parameter_name.
-   */
+  /* Number of the parameter, as in the protocol of instruments, for microimpact_parameter_name. */
   uint32_t parameter;
-  /*
-   What is wrong with it.
-   */
+  /* What is wrong with it. */
   MicroimpactFault fault;
-  /*
-   Smallest valid value.
-   */
+  /* Smallest valid value. */
   double smallest;
-  /*
-   Largest valid value.
-   */
+  /* Largest valid value. */
   double largest;
-  /*
-   The value that was refused.
-   */
+  /* The value that was refused. */
   double value;
 } MicroimpactError;
 
-/*
- A quantity with its standard error.
- */
+/* A quantity with its standard error. */
 typedef struct MicroimpactMeasured {
-  /*
-   The value.
-   */
+  /* The value. */
   float value;
-  /*
-   Its standard error; zero if it is exact.
-   */
+  /* Its standard error; zero if it is exact. */
   float standard_error;
 } MicroimpactMeasured;
 
-/*
- A measured impact of one of many spheres of the same material.
- */
+/* A measured impact of one of many spheres of the same material. */
 typedef struct MicroimpactMeasuredImpact {
-  /*
-   Radius of the sphere, m.
-   */
+  /* Radius of the sphere, m. */
   float radius;
-  /*
-   Its density, kg/m^3.
-   */
+  /* Its density, kg/m^3. */
   float density;
-  /*
-   Approach speed, m/s; the standard error is zero if it is not known.
-   */
+  /* Approach speed, m/s; the standard error is zero if it is not known. */
   struct MicroimpactMeasured approach;
-  /*
-   Rebound speed, m/s, which errors may make negative. Not looked at for a capture.
-   */
+  /* Rebound speed, m/s, which errors may make negative. Not looked at for a capture. */
   struct MicroimpactMeasured rebound;
-  /*
-   Zero for a rebound, anything else for a capture.
-   */
+  /* Zero for a rebound, anything else for a capture. */
   uint32_t captured;
 } MicroimpactMeasuredImpact;
 
-/*
- Room of the caller for one measured impact, in which microimpact_fit_restitution works.
- */
+/* Room of the caller for one measured impact, in which microimpact_fit_restitution works. */
 typedef struct MicroimpactFitRoom {
-  /*
-   What is in it concerns the library alone.
-   */
+  /* What is in it concerns the library alone. */
   uint32_t words[9];
 } MicroimpactFitRoom;
 
-/*
- A value with its interval of 95 %.
- */
+/* A value with its interval of 95 %. */
 typedef struct MicroimpactInterval {
-  /*
-   The value.
-   */
+  /* The value. */
   float value;
-  /*
-   Lower end.
-   */
+  /* Lower end. */
   float low;
-  /*
-   Upper end.
-   */
+  /* Upper end. */
   float high;
 } MicroimpactInterval;
 
-/*
- Restitution law R = k/(k + v) and work of adhesion, fitted to many impacts.
- */
+/* Restitution law R = k/(k + v) and work of adhesion, fitted to many impacts. */
 typedef struct MicroimpactFit {
-  /*
-   Speed k, m/s.
-   */
+  /* Speed k, m/s. */
   struct MicroimpactInterval restitution_speed;
-  /*
-   Work of adhesion, J.
-   */
+  /* Work of adhesion, J. */
   struct MicroimpactInterval work_of_adhesion;
-  /*
-   Critical speed of the sphere of median mass, m/s; zeros where the law does not fit.
-   */
+  /* Critical speed of the sphere of median mass, m/s; zeros where the law does not fit. */
   struct MicroimpactInterval critical_speed;
-  /*
-   Median mass, kg.
-   */
+  /* Median mass, kg. */
   float mass;
-  /*
-   Natural scatter of the restitution: its standard deviation without the errors of the speeds.
-   */
+  /* Natural scatter of the restitution: its standard deviation without the errors of the speeds. */
   float scatter;
-  /*
-   Number of rebounds.
-   */
+  /* Number of rebounds. */
   uint32_t rebounds;
-  /*
-   Number of captures.
-   */
+  /* Number of captures. */
   uint32_t captures;
-  /*
-   Number of rebounds so far from the curve that they have no weight.
-   */
+  /* Number of rebounds so far from the curve that they have no weight. */
   uint32_t outliers;
-  /*
-   One if the law fits; zero if the impacts show a trend over speed that it does not have, or contradict the critical speed.
-   */
+  /* One if the law fits; zero if the impacts show a trend over speed that it does not have, or contradict the critical speed. */
   uint32_t fits;
 } MicroimpactFit;
 
-/*
- A contact with Hertz's force, adhesion of one kind, damping of one kind, and friction. Zero leaves a term out.
- */
+/* A contact with Hertz's force, adhesion of one kind, damping of one kind, and friction. Zero leaves a term out. */
 typedef struct MicroimpactContactScene {
-  /*
-   Radius of the sphere, m.
-   */
+  /* Radius of the sphere, m. */
   float radius;
-  /*
-   Its density, kg/m^3.
-   */
+  /* Its density, kg/m^3. */
   float density;
-  /*
-   Hertz stiffness, Pa.
-   */
+  /* Hertz stiffness, Pa. */
   float stiffness;
   /*
    Strength zeta_H of hysteretic damping in the materials; may be zero. A damping constant c in s/m of the elastic force times
    1 + c v is zeta_H (m/(r^3 K sqrt(v)))^(2/5), with mass m, radius r, stiffness K and approach speed v.
    */
   float material_damping;
-  /*
-   Strength of the ring of adhesion, N/m; may be zero.
-   */
+  /* Strength of the ring of adhesion, N/m; may be zero. */
   float adhesion_strength;
-  /*
-   Strength of the damping of adhesion; may be zero.
-   */
+  /* Strength of the damping of adhesion; may be zero. */
   float adhesion_damping;
-  /*
-   Friction coefficient; may be zero.
-   */
+  /* Friction coefficient; may be zero. */
   float friction;
-  /*
-   Tolerance of the square of the restitution; microimpact_contact_init fills in 1e-6.
-   */
+  /* Tolerance of the square of the restitution; microimpact_contact_init fills in 1e-6. */
   float tolerance;
-  /*
-   Work of adhesion by Derjaguin, Muller and Toporov, J/m^2; may be zero.
-   */
+  /* Work of adhesion by Derjaguin, Muller and Toporov, J/m^2; may be zero. */
   float dmt_work;
-  /*
-   Work of adhesion by Johnson, Kendall and Roberts, J/m^2; may be zero.
-   */
+  /* Work of adhesion by Johnson, Kendall and Roberts, J/m^2; may be zero. */
   float jkr_work;
-  /*
-   Relaxation time of viscoelastic damping, s; may be zero.
-   */
+  /* Relaxation time of viscoelastic damping, s; may be zero. */
   float relaxation_time;
-  /*
-   Restitution that constant damping leaves without adhesion, 0.001 to 1; zero leaves the damping out.
-   */
+  /* Restitution that constant damping leaves without adhesion, 0.001 to 1; zero leaves the damping out. */
   float nominal_restitution;
   /*
    Zero for an end of contact at zero indentation, or where a JKR contact snaps off. Anything else for an end where damping
@@ -728,123 +427,69 @@ typedef struct MicroimpactContactScene {
   uint32_t ends_by_force;
 } MicroimpactContactScene;
 
-/*
- A rigid body with R = k/(k + v), a work of adhesion and friction. Zero leaves a term out.
- */
+/* A rigid body with R = k/(k + v), a work of adhesion and friction. Zero leaves a term out. */
 typedef struct MicroimpactRigidScene {
-  /*
-   Radius of the sphere, m.
-   */
+  /* Radius of the sphere, m. */
   float radius;
-  /*
-   Its density, kg/m^3.
-   */
+  /* Its density, kg/m^3. */
   float density;
-  /*
-   Speed k of the restitution law, m/s.
-   */
+  /* Speed k of the restitution law, m/s. */
   float restitution_speed;
-  /*
-   Work of adhesion, J; may be zero.
-   */
+  /* Work of adhesion, J; may be zero. */
   float work_of_adhesion;
-  /*
-   Friction coefficient; may be zero.
-   */
+  /* Friction coefficient; may be zero. */
   float friction;
 } MicroimpactRigidScene;
 
-/*
- Room for a rigid body in integers, which microimpact_fixed_init makes.
- */
+/* Room for a rigid body in integers, which microimpact_fixed_init makes. */
 typedef struct MicroimpactFixedBody {
-  /*
-   What is in it concerns the library alone.
-   */
+  /* What is in it concerns the library alone. */
   uint32_t words[8];
 } MicroimpactFixedBody;
 
-/*
- A motion before the impact in 2^-24 of the unit of speed: the approach speed from 0.004 to 8 units, the others up to 8.
- */
+/* A motion before the impact in 2^-24 of the unit of speed: the approach speed from 0.004 to 8 units, the others up to 8. */
 typedef struct MicroimpactFixedMotion {
-  /*
-   Approach speed, positive.
-   */
+  /* Approach speed, positive. */
   int32_t approach;
-  /*
-   Tangential velocity.
-   */
+  /* Tangential velocity. */
   int32_t tangential;
-  /*
-   Peripheral velocity, spin times radius.
-   */
+  /* Peripheral velocity, spin times radius. */
   int32_t peripheral;
 } MicroimpactFixedMotion;
 
-/*
- A class, and what goes with it, in 2^-24. A margin that does not exist is negative.
- */
+/* A class, and what goes with it, in 2^-24. A margin that does not exist is negative. */
 typedef struct MicroimpactFixedResult {
-  /*
-   What became of the sphere.
-   */
+  /* What became of the sphere. */
   MicroimpactClass impact_class;
-  /*
-   Approach speed over the critical speed; 128 at most.
-   */
+  /* Approach speed over the critical speed; 128 at most. */
   int32_t speed_over_critical;
-  /*
-   Friction over the least that ends sliding; 128 at most.
-   */
+  /* Friction over the least that ends sliding; 128 at most. */
   int32_t friction_over_limit;
-  /*
-   Overall restitution, zero for a capture.
-   */
+  /* Overall restitution, zero for a capture. */
   int32_t restitution;
-  /*
-   Tangential velocity after the impact, in the unit of speed.
-   */
+  /* Tangential velocity after the impact, in the unit of speed. */
   int32_t tangential;
-  /*
-   Peripheral velocity after the impact, in the unit of speed.
-   */
+  /* Peripheral velocity after the impact, in the unit of speed. */
   int32_t peripheral;
 } MicroimpactFixedResult;
 
-/*
- A motion before the impact and a radius, with independent standard errors.
- */
+/* A motion before the impact and a radius, with independent standard errors. */
 typedef struct MicroimpactUncertainMotion {
-  /*
-   Approach speed, m/s.
-   */
+  /* Approach speed, m/s. */
   struct MicroimpactMeasured approach;
-  /*
-   Tangential velocity, m/s.
-   */
+  /* Tangential velocity, m/s. */
   struct MicroimpactMeasured tangential;
-  /*
-   Peripheral velocity, m/s.
-   */
+  /* Peripheral velocity, m/s. */
   struct MicroimpactMeasured peripheral;
-  /*
-   Radius of the particle, m.
-   */
+  /* Radius of the particle, m. */
   struct MicroimpactMeasured radius;
 } MicroimpactUncertainMotion;
 
-/*
- Probabilities of the classes.
- */
+/* Probabilities of the classes. */
 typedef struct MicroimpactUncertainClass {
-  /*
-   The class whose probability reaches the confidence, or MICROIMPACT_CLASS_UNDECIDED.
-   */
+  /* The class whose probability reaches the confidence, or MICROIMPACT_CLASS_UNDECIDED. */
   MicroimpactClass impact_class;
-  /*
-   Probability of each class, in the order of MicroimpactClass. A sphere that may rest counts as rolling.
-   */
+  /* Probability of each class, in the order of MicroimpactClass. A sphere that may rest counts as rolling. */
   float probabilities[MICROIMPACT_CLASSES];
 } MicroimpactUncertainClass;
 
@@ -853,132 +498,76 @@ typedef struct MicroimpactUncertainClass {
  other. Its memory is the caller's; only the functions of the queue may touch it once it is made.
  */
 typedef struct MicroimpactQueue {
-  /*
-   Room of the caller for events.
-   */
+  /* Room of the caller for events. */
   struct MicroimpactEvent *events;
-  /*
-   Number of events that there is room for.
-   */
+  /* Number of events that there is room for. */
   uint32_t capacity;
-  /*
-   Place of the oldest event, below twice the capacity. The receiver alone writes it.
-   */
+  /* Place of the oldest event, below twice the capacity. The receiver alone writes it. */
   uint32_t first;
-  /*
-   Place behind the youngest event, below twice the capacity. The sender alone writes it.
-   */
+  /* Place behind the youngest event, below twice the capacity. The sender alone writes it. */
   uint32_t end;
-  /*
-   Events that found the queue full. The sender alone writes it; it saturates.
-   */
+  /* Events that found the queue full. The sender alone writes it; it saturates. */
   uint32_t lost;
 } MicroimpactQueue;
 
-/*
- The class of an impact, and what goes with it. A margin that does not exist is negative.
- */
+/* The class of an impact, and what goes with it. A margin that does not exist is negative. */
 typedef struct MicroimpactClassification {
-  /*
-   What became of the sphere.
-   */
+  /* What became of the sphere. */
   MicroimpactClass impact_class;
-  /*
-   Approach speed over the critical speed.
-   */
+  /* Approach speed over the critical speed. */
   float speed_over_critical;
-  /*
-   Friction over the least that ends sliding.
-   */
+  /* Friction over the least that ends sliding. */
   float friction_over_limit;
-  /*
-   Overall restitution, zero for a capture.
-   */
+  /* Overall restitution, zero for a capture. */
   float restitution;
-  /*
-   Tangential velocity after the impact, m/s.
-   */
+  /* Tangential velocity after the impact, m/s. */
   float tangential;
-  /*
-   Peripheral velocity after the impact, m/s.
-   */
+  /* Peripheral velocity after the impact, m/s. */
   float peripheral;
 } MicroimpactClassification;
 
-/*
- A simulated impact. An indentation that does not exist is negative.
- */
+/* A simulated impact. An indentation that does not exist is negative. */
 typedef struct MicroimpactContact {
-  /*
-   What became of the sphere.
-   */
+  /* What became of the sphere. */
   MicroimpactClass impact_class;
-  /*
-   Overall restitution, zero for a capture.
-   */
+  /* Overall restitution, zero for a capture. */
   float restitution;
-  /*
-   Peak indentation, m.
-   */
+  /* Peak indentation, m. */
   float peak_indentation;
-  /*
-   Tangential velocity after the contact, m/s.
-   */
+  /* Tangential velocity after the contact, m/s. */
   float tangential;
-  /*
-   Spin after the contact, rad/s.
-   */
+  /* Spin after the contact, rad/s. */
   float spin;
 } MicroimpactContact;
 
-/*
- The wall that a sphere hits, at rest or moving.
- */
+/* The wall that a sphere hits, at rest or moving. */
 typedef struct MicroimpactWall {
-  /*
-   Direction from the wall to the sphere, a vector of length one; within 1e-3 of it, the length is set to one.
-   */
+  /* Direction from the wall to the sphere, a vector of length one; within 1e-3 of it, the length is set to one. */
   float normal[3];
-  /*
-   Velocity of the surface of the wall at the contact, m/s; zeros for a wall at rest.
-   */
+  /* Velocity of the surface of the wall at the contact, m/s; zeros for a wall at rest. */
   float velocity[3];
 } MicroimpactWall;
 
-/*
- The motion of a solid sphere in space.
- */
+/* The motion of a solid sphere in space. */
 typedef struct MicroimpactSpatialMotion {
-  /*
-   Velocity of the centre, m/s.
-   */
+  /* Velocity of the centre, m/s. */
   float velocity[3];
-  /*
-   Spin, rad/s.
-   */
+  /* Spin, rad/s. */
   float spin[3];
 } MicroimpactSpatialMotion;
 
-/*
- Two solid spheres that collide.
- */
+/* Two solid spheres that collide. */
 typedef struct MicroimpactPair {
-  /*
-   Radius of each sphere, m.
-   */
+  /* Radius of each sphere, m. */
   float radius[2];
-  /*
-   Density of each sphere, kg/m^3.
-   */
+  /* Density of each sphere, kg/m^3. */
   float density[2];
   /*
    Direction from the centre of the second sphere to that of the first, a vector of length one; within 1e-3 of it, the
    length is set to one.
    */
   float normal[3];
-  /*
-   Motion of each sphere before the impact.
-   */
+  /* Motion of each sphere before the impact. */
   struct MicroimpactSpatialMotion motion[2];
 } MicroimpactPair;
 
@@ -987,105 +576,59 @@ typedef struct MicroimpactPair {
  or a constant that `cargo microimpact table` has written.
  */
 typedef struct MicroimpactBoundaryTable {
-  /*
-   Radius at which the table begins, m.
-   */
+  /* Radius at which the table begins, m. */
   float smallest_radius;
-  /*
-   Greatest error of the logarithm of a critical speed, in 2^-23 octaves.
-   */
+  /* Greatest error of the logarithm of a critical speed, in 2^-23 octaves. */
   uint32_t margin;
-  /*
-   Cells, in flash or in memory of the caller: a quarter of an octave of radii each.
-   */
+  /* Cells, in flash or in memory of the caller: a quarter of an octave of radii each. */
   const int32_t (*cells)[4];
-  /*
-   Their number.
-   */
+  /* Their number. */
   size_t count;
 } MicroimpactBoundaryTable;
 
-/*
- Room for a table of restitution over two octaves of radii and a range of speeds, which microimpact_restitution_make makes.
- */
+/* Room for a table of restitution over two octaves of radii and a range of speeds, which microimpact_restitution_make makes. */
 typedef struct MicroimpactRestitutionTable {
-  /*
-   What is in it concerns the library alone.
-   */
+  /* What is in it concerns the library alone. */
   uint32_t words[165];
 } MicroimpactRestitutionTable;
 
-/*
- What a restitution table says of an impact.
- */
+/* What a restitution table says of an impact. */
 typedef struct MicroimpactTableReading {
-  /*
-   Rebound or capture.
-   */
+  /* Rebound or capture. */
   MicroimpactVerdict verdict;
-  /*
-   Sliding or rolling.
-   */
+  /* Sliding or rolling. */
   MicroimpactSurfaceMotion surface_motion;
-  /*
-   Overall restitution; zero for a capture, negative where the table has no answer.
-   */
+  /* Overall restitution; zero for a capture, negative where the table has no answer. */
   float restitution;
-  /*
-   Greatest error of the restitution; zero for a capture, negative where the table has no answer.
-   */
+  /* Greatest error of the restitution; zero for a capture, negative where the table has no answer. */
   float restitution_error;
-  /*
-   Tangential velocity after a rebound, m/s; else zero.
-   */
+  /* Tangential velocity after a rebound, m/s; else zero. */
   float tangential;
-  /*
-   Peripheral velocity after a rebound, m/s; else zero.
-   */
+  /* Peripheral velocity after a rebound, m/s; else zero. */
   float peripheral;
 } MicroimpactTableReading;
 
-/*
- Room for a tally, which microimpact_tally_init makes.
- */
+/* Room for a tally, which microimpact_tally_init makes. */
 typedef struct MicroimpactTally {
-  /*
-   What is in it concerns the library alone.
-   */
+  /* What is in it concerns the library alone. */
   uint64_t words[41];
 } MicroimpactTally;
 
-/*
- What a tally has counted.
- */
+/* What a tally has counted. */
 typedef struct MicroimpactTallyReport {
-  /*
-   Impacts of each class, in the order of MicroimpactClass.
-   */
+  /* Impacts of each class, in the order of MicroimpactClass. */
   uint64_t classes[MICROIMPACT_CLASSES];
-  /*
-   Readings with a number outside its range.
-   */
+  /* Readings with a number outside its range. */
   uint64_t refused;
-  /*
-   Motions that the method did not solve.
-   */
+  /* Motions that the method did not solve. */
   uint64_t unsolved;
-  /*
-   Rebounds in each bin of speed; the last number is of those beyond the last bin.
-   */
+  /* Rebounds in each bin of speed; the last number is of those beyond the last bin. */
   uint64_t rebounds[MICROIMPACT_TALLY_RANGES];
-  /*
-   Mean of their overall restitution; zero without rebounds.
-   */
+  /* Mean of their overall restitution; zero without rebounds. */
   float mean[MICROIMPACT_TALLY_RANGES];
-  /*
-   Variance of it; negative with fewer than two rebounds.
-   */
+  /* Variance of it; negative with fewer than two rebounds. */
   float variance[MICROIMPACT_TALLY_RANGES];
-  /*
-   Upper edges of the bins of speed, m/s.
-   */
+  /* Upper edges of the bins of speed, m/s. */
   float edges[MICROIMPACT_TALLY_BINS];
 } MicroimpactTallyReport;
 
@@ -1111,67 +654,37 @@ typedef struct MicroimpactCompliantScene {
   uint32_t incremental_unloading;
 } MicroimpactCompliantScene;
 
-/*
- A simulated impact with compliance along the surface.
- */
+/* A simulated impact with compliance along the surface. */
 typedef struct MicroimpactCompliantContact {
-  /*
-   What became of the sphere. Where friction acts, the contact slips in the end.
-   */
+  /* What became of the sphere. Where friction acts, the contact slips in the end. */
   MicroimpactClass impact_class;
-  /*
-   Overall restitution.
-   */
+  /* Overall restitution. */
   float restitution;
-  /*
-   Peak indentation, m.
-   */
+  /* Peak indentation, m. */
   float peak_indentation;
-  /*
-   Tangential velocity after the contact, m/s.
-   */
+  /* Tangential velocity after the contact, m/s. */
   float tangential;
-  /*
-   Spin after the contact, rad/s.
-   */
+  /* Spin after the contact, rad/s. */
   float spin;
-  /*
-   Velocity of the contact point after the contact, m/s.
-   */
+  /* Velocity of the contact point after the contact, m/s. */
   float slip;
-  /*
-   Tangential over normal impulse, negative against a positive slip.
-   */
+  /* Tangential over normal impulse, negative against a positive slip. */
   float impulse_ratio;
-  /*
-   Number of phases: longest intervals of sticking, or of slip in one direction.
-   */
+  /* Number of phases: longest intervals of sticking, or of slip in one direction. */
   uint32_t phases;
 } MicroimpactCompliantContact;
 
-/*
- A moment of a simulated impact.
- */
+/* A moment of a simulated impact. */
 typedef struct MicroimpactSample {
-  /*
-   Time from first touch, s.
-   */
+  /* Time from first touch, s. */
   float time;
-  /*
-   Indentation, m.
-   */
+  /* Indentation, m. */
   float indentation;
-  /*
-   Its rate, m/s: positive on the way in, negative on the way out, zero at the peak.
-   */
+  /* Its rate, m/s: positive on the way in, negative on the way out, zero at the peak. */
   float velocity;
-  /*
-   Normal force of the surface on the sphere, N, positive where it repels.
-   */
+  /* Normal force of the surface on the sphere, N, positive where it repels. */
   float force;
-  /*
-   Its elastic part, N.
-   */
+  /* Its elastic part, N. */
   float elastic;
 } MicroimpactSample;
 
@@ -1179,14 +692,10 @@ typedef struct MicroimpactSample {
 extern "C" {
 #endif /* __cplusplus */
 
-/*
- Version of the library; MICROIMPACT_VERSION is that of the header. Re-entrant.
- */
+/* Version of the library; MICROIMPACT_VERSION is that of the header. Re-entrant. */
 uint32_t microimpact_version(void);
 
-/*
- Number of the library's interface, to be compared with MICROIMPACT_ABI of the header. Re-entrant.
- */
+/* Number of the library's interface, to be compared with MICROIMPACT_ABI of the header. Re-entrant. */
 uint32_t microimpact_abi(void);
 
 /*
@@ -1349,7 +858,7 @@ uint32_t microimpact_queue_lost(const struct MicroimpactQueue *queue);
 /*
  Initialises a scene with parameters, of which what is left out is zero, and checks every one. The error names the first that
  is outside its range, and may be null. Where this fails, the scene holds zeros, which every function reports. The parameters
- and the scene may be the same memory.
+ and the scene may be the same memory. Re-entrant.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1359,7 +868,7 @@ MicroimpactStatus microimpact_rigid_init(const struct MicroimpactRigidScene *par
                                          struct MicroimpactError *error);
 
 /*
- Classifies an impact of a rigid body. The error may be null.
+ Classifies an impact of a rigid body. The error may be null. Re-entrant.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1408,7 +917,7 @@ MicroimpactStatus microimpact_scene_critical_speed(const struct MicroimpactScene
 /*
  Initialises a scene with parameters, of which what is left out is zero, fills in the tolerance if it is, and checks every
  one. The error names the first that is outside its range, and may be null. Where this fails, the scene holds zeros, which
- every function reports. The parameters and the scene may be the same memory.
+ every function reports. The parameters and the scene may be the same memory. Re-entrant.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1419,7 +928,7 @@ MicroimpactStatus microimpact_contact_init(const struct MicroimpactContactScene 
 
 /*
  Simulates `count` impacts into a buffer with room for `capacity` results, in the order of the motions, and writes how many
- there are, of those before the first that fails. The error may be null.
+ there are, of those before the first that fails. The error may be null. Re-entrant.
 
  # Safety
  Each pointer is null or points to what its type says, the motions to `count` of them and the results to room for
@@ -1441,7 +950,7 @@ MicroimpactStatus microimpact_simulate(const struct MicroimpactContactScene *sce
  across that plane (microimpact_wall_sideways), so that a class such as rolling or resting describes the motion in the plane.
 
  It is an error with the fault MICROIMPACT_FAULT_RECEDING if the sphere does not approach the wall. Where this fails, nothing
- is written but the error, which may be null.
+ is written but the error, which may be null. Re-entrant.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1456,6 +965,7 @@ MicroimpactStatus microimpact_wall_incidence(const struct MicroimpactWall *wall,
  Computes the velocity of a solid sphere across the plane of its impact on a wall (m/s), seen from the wall: from what
  microimpact_wall_incidence takes. The sphere keeps it. So a sphere of MICROIMPACT_CLASS_CAPTURED_RESTING rests only if this
  velocity is zero, and else rolls sideways with it. Where this fails, nothing is written but the error, which may be null.
+ Re-entrant.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1475,6 +985,7 @@ MicroimpactStatus microimpact_wall_sideways(const struct MicroimpactWall *wall,
  but the motion after it is not known: do not call this function for it.
 
  The motions before and after may be the same memory. Where this fails, nothing is written but the error, which may be null.
+ Re-entrant.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1496,7 +1007,7 @@ MicroimpactStatus microimpact_wall_after(const struct MicroimpactWall *wall,
  The tangential velocity is that with which the spheres slip on each other, and the peripheral velocity is zero.
 
  It is an error with the fault MICROIMPACT_FAULT_RECEDING if the spheres do not approach each other. Where this fails, nothing
- is written but the error, which may be null.
+ is written but the error, which may be null. Re-entrant.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1516,7 +1027,7 @@ MicroimpactStatus microimpact_pair_incidence(const struct MicroimpactPair *pair,
  the motions after it are not known: do not call this function for it.
 
  The motions after the impact may be in the memory of those of the pair. Where this fails, nothing is written but the error,
- which may be null.
+ which may be null. Re-entrant.
 
  # Safety
  Each pointer is null or points to what its type says, the motions to room for two of them, and nobody else uses them during
@@ -1558,7 +1069,7 @@ MicroimpactStatus microimpact_sphere_coated(float radius,
 /*
  Makes a boundary table of the material and the surface of a scene, whose radius and friction do not count, from a radius on
  (m), in cells of the caller, which the table keeps pointing to. Where it fails, the cells hold no table. The error may be
- null.
+ null. Re-entrant.
 
  # Safety
  Each pointer is null or points to what its type says, the cells to room for `count` of them, and nobody else uses them
@@ -1572,7 +1083,7 @@ MicroimpactStatus microimpact_boundary_make(const struct MicroimpactContactScene
                                             struct MicroimpactError *error);
 
 /*
- Checks all of a boundary table: a constant once, at start-up. The error may be null.
+ Checks all of a boundary table: a constant once, at start-up. The error may be null. Re-entrant.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call; so do the cells.
@@ -1582,7 +1093,7 @@ MicroimpactStatus microimpact_boundary_check(const struct MicroimpactBoundaryTab
 
 /*
  Tells rebound from capture of a sphere of a radius (m). Of the table, the cell around that radius is checked. The error may
- be null.
+ be null. Re-entrant.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call; so do the cells.
@@ -1595,7 +1106,7 @@ MicroimpactStatus microimpact_boundary_classify(const struct MicroimpactBoundary
 
 /*
  Makes a restitution table of the material, the surface and the friction of a scene, whose radius does not count: over two
- octaves of radii from one on (m), and up to `speed_ratio` times the critical speed. The error may be null.
+ octaves of radii from one on (m), and up to `speed_ratio` times the critical speed. The error may be null. Re-entrant.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1607,7 +1118,7 @@ MicroimpactStatus microimpact_restitution_make(const struct MicroimpactContactSc
                                                struct MicroimpactError *error);
 
 /*
- Reads from a table what becomes of a sphere of a radius (m). The error may be null.
+ Reads from a table what becomes of a sphere of a radius (m). The error may be null. Re-entrant.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1625,7 +1136,7 @@ MicroimpactStatus microimpact_restitution_read(const struct MicroimpactRestituti
  Each pointer is null or points to what its type says, the edges to eight, and nobody else uses it during the call.
  */
 MicroimpactStatus microimpact_tally_init(struct MicroimpactTally *tally,
-                                         const float (*edges)[MICROIMPACT_TALLY_BINS],
+                                         const float *edges,
                                          struct MicroimpactError *error);
 
 /*
@@ -1652,7 +1163,7 @@ MicroimpactStatus microimpact_tally_read(const struct MicroimpactTally *tally,
 
 /*
  Initialises a scene as microimpact_contact_init does, with the tolerance of its contact. If another law of contact is asked for, the
- error names the stiffness ratio with the fault MICROIMPACT_FAULT_OTHER_LAW.
+ error names the stiffness ratio with the fault MICROIMPACT_FAULT_OTHER_LAW. Re-entrant.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1664,7 +1175,7 @@ MicroimpactStatus microimpact_compliant_init(const struct MicroimpactCompliantSc
 /*
  Simulates impacts with compliance along the surface, as microimpact_simulate does without. microimpact_wall_after and
  microimpact_pair_after take the restitution and the tangential velocity of the results. For microimpact_pair_incidence, initialise
- the contact of the scene with the radius and the density of the reduced sphere.
+ the contact of the scene with the radius and the density of the reduced sphere. Re-entrant.
 
  # Safety
  Each pointer is null or points to what its type says, the motions to `count` of them and the results to room for
@@ -1683,7 +1194,7 @@ MicroimpactStatus microimpact_simulate_compliant(const struct MicroimpactComplia
  many there are: at most as many as there is room for, and never more than MICROIMPACT_LARGEST_TRAJECTORY. In less room,
  samples are left out evenly over time; first touch, peak, beginning of rolling and end are always there. In less than
  MICROIMPACT_SMALLEST_TRAJECTORY there is no trajectory. Where this fails, there are no samples and no result. The error may
- be null.
+ be null. Re-entrant.
 
  # Safety
  Each pointer is null or points to what its type says, the samples to room for `capacity` of them, and nobody else uses them
@@ -1702,21 +1213,3 @@ MicroimpactStatus microimpact_simulate_trajectory(const struct MicroimpactContac
 #endif  /* __cplusplus */
 
 #endif  /* MICROIMPACT_H */
-
-/* Folds the size of a type into a number, as microimpact_layout does. */
-#define MICROIMPACT_FOLD(number, size) ((uint32_t)((number) * 31u + (uint32_t)(size)))
-#define MICROIMPACT_LAYOUT_0 \
-    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(0u, sizeof(MicroimpactError)), sizeof(MicroimpactClass)), sizeof(MicroimpactMotion)), sizeof(MicroimpactRigidScene))
-#define MICROIMPACT_LAYOUT_1 \
-    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_0, sizeof(MicroimpactClassification)), sizeof(MicroimpactContactScene)), sizeof(MicroimpactContact)), sizeof(MicroimpactSample))
-#define MICROIMPACT_LAYOUT_2 \
-    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_1, sizeof(MicroimpactCompliantScene)), sizeof(MicroimpactCompliantContact)), sizeof(MicroimpactWall)), sizeof(MicroimpactSpatialMotion))
-#define MICROIMPACT_LAYOUT_3 \
-    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_2, sizeof(MicroimpactPair)), sizeof(MicroimpactBoundaryTable)), sizeof(MicroimpactRestitutionTable)), sizeof(MicroimpactTableReading))
-#define MICROIMPACT_LAYOUT_4 \
-    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_3, sizeof(MicroimpactSceneConfig)), sizeof(MicroimpactSceneImpact)), sizeof(MicroimpactEvent)), sizeof(MicroimpactQueue))
-#define MICROIMPACT_LAYOUT_5 \
-    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_4, sizeof(MicroimpactTally)), sizeof(MicroimpactTallyReport)), sizeof(MicroimpactFixedBody) + sizeof(MicroimpactFixedMotion)), sizeof(MicroimpactFixedResult))
-/* To be compared with what microimpact_layout returns. */
-#define MICROIMPACT_LAYOUT \
-    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_5, sizeof(MicroimpactUncertainMotion) + sizeof(MicroimpactUncertainClass)), sizeof(MicroimpactMeasuredImpact) + sizeof(MicroimpactFitRoom)), sizeof(MicroimpactFit))

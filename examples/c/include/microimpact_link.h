@@ -11,15 +11,15 @@
 #include <string.h>
 
 /* Version of the protocol. */
-#define MICROIMPACT_LINK_PROTOCOL 3
+#define MICROIMPACT_LINK_PROTOCOL 3u
 
 /* Bytes that suffice for every message and its checksum, and for every frame. */
-#define MICROIMPACT_LINK_MESSAGE 192
-#define MICROIMPACT_LINK_FRAME (MICROIMPACT_LINK_MESSAGE + 4)
+#define MICROIMPACT_LINK_MESSAGE 192u
+#define MICROIMPACT_LINK_FRAME (MICROIMPACT_LINK_MESSAGE + 4u)
 
 /* Most classes of a set, and the numbers of a report. */
-#define MICROIMPACT_LINK_CLASSES 6
-#define MICROIMPACT_LINK_REPORT 17
+#define MICROIMPACT_LINK_CLASSES 16u
+#define MICROIMPACT_LINK_REPORT 17u
 
 /* The compiler need not use every function. */
 #if defined(__GNUC__)
@@ -128,24 +128,39 @@ MICROIMPACT_LINK_FUNCTION uint32_t microimpact_link_checksum(const uint8_t *byte
     uint32_t crc = 0xffffffffu;
     size_t i;
     int bit;
-    for (i = 0; i < length; i++) {
+    for (i = 0u; i < length; i++) {
         crc ^= bytes[i];
         for (bit = 0; bit < 8; bit++) {
-            crc = (crc >> 1) ^ ((crc & 1u) != 0u ? 0xedb88320u : 0u);
+            crc = ((crc & 1u) != 0u) ? ((crc >> 1) ^ 0xedb88320u) : (crc >> 1);
         }
     }
     return ~crc;
+}
+
+MICROIMPACT_LINK_FUNCTION void microimpact_link_append(MicroimpactLinkDecoder *decoder, uint8_t byte)
+{
+    if (decoder->length < MICROIMPACT_LINK_MESSAGE) {
+        decoder->message[decoder->length] = byte;
+        decoder->length++;
+    } else {
+        decoder->oversized = 1u;
+    }
 }
 
 /* Takes a byte, and says what has become of it. After MICROIMPACT_LINK_MESSAGE_IN, `message` holds `length` bytes of a message without
    its checksum, until the next byte is taken. */
 MICROIMPACT_LINK_FUNCTION int microimpact_link_take(MicroimpactLinkDecoder *decoder, uint8_t byte)
 {
-    uint32_t found;
     if (byte == 0u) {
-        const uint8_t inside = decoder->inside, left = decoder->left, oversized = decoder->oversized;
+        const uint8_t inside = decoder->inside;
+        const uint8_t left = decoder->left;
+        const uint8_t oversized = decoder->oversized;
         const size_t length = decoder->length;
-        decoder->inside = decoder->left = decoder->zero_next = decoder->oversized = 0u;
+        uint32_t found;
+        decoder->inside = 0u;
+        decoder->left = 0u;
+        decoder->zero_next = 0u;
+        decoder->oversized = 0u;
         decoder->length = 0u;
         if (inside == 0u) {
             return MICROIMPACT_LINK_WAITS;
@@ -172,21 +187,17 @@ MICROIMPACT_LINK_FUNCTION int microimpact_link_take(MicroimpactLinkDecoder *deco
     }
     if (decoder->left == 0u) {
         /* The first byte of a block: how many bytes come before the next zero. */
-        if (decoder->inside != 0u && decoder->zero_next != 0u) {
-            if (decoder->length < MICROIMPACT_LINK_MESSAGE) {
-                decoder->message[decoder->length++] = 0u;
-            } else {
-                decoder->oversized = 1u;
-            }
+        if ((decoder->inside != 0u) && (decoder->zero_next != 0u)) {
+            microimpact_link_append(decoder, 0u);
         }
         decoder->left = (uint8_t)(byte - 1u);
-        decoder->zero_next = (uint8_t)(byte != 0xffu);
-    } else {
-        if (decoder->length < MICROIMPACT_LINK_MESSAGE) {
-            decoder->message[decoder->length++] = byte;
+        if (byte == 0xffu) {
+            decoder->zero_next = 0u;
         } else {
-            decoder->oversized = 1u;
+            decoder->zero_next = 1u;
         }
+    } else {
+        microimpact_link_append(decoder, byte);
         decoder->left--;
     }
     decoder->inside = 1u;
@@ -197,14 +208,16 @@ MICROIMPACT_LINK_FUNCTION int microimpact_link_take(MicroimpactLinkDecoder *deco
 MICROIMPACT_LINK_FUNCTION size_t microimpact_link_frame(const uint8_t *message, size_t length, uint8_t *frame, size_t capacity)
 {
     const uint32_t crc = microimpact_link_checksum(message, length);
-    size_t i, out = 2u, block = 1u;
-    if (length > MICROIMPACT_LINK_MESSAGE - 4u || capacity < length + 4u + 3u) {
+    size_t i;
+    size_t out = 2u;
+    size_t block = 1u;
+    if ((length > (MICROIMPACT_LINK_MESSAGE - 4u)) || (capacity < (length + 7u))) {
         return 0u;
     }
     /* At most 192 bytes, so that no block is longer than 254. */
     frame[0] = 0u;
-    for (i = 0; i < length + 4u; i++) {
-        const uint8_t byte = (uint8_t)(i < length ? message[i] : crc >> (8u * (i - length)));
+    for (i = 0u; i < (length + 4u); i++) {
+        const uint8_t byte = (uint8_t)((i < length) ? message[i] : (crc >> (8u * (i - length))));
         if (byte == 0u) {
             frame[block] = (uint8_t)(out - block);
             block = out;
@@ -229,11 +242,36 @@ typedef struct MicroimpactLinkCursor {
 
 MICROIMPACT_LINK_FUNCTION uint8_t microimpact_link_byte(MicroimpactLinkCursor *in)
 {
-    if (in->good == 0 || in->at >= in->length) {
+    uint8_t byte = 0u;
+    if ((in->good != 0) && (in->at < in->length)) {
+        byte = in->bytes[in->at];
+        in->at++;
+    } else {
         in->good = 0;
-        return 0u;
     }
-    return in->bytes[in->at++];
+    return byte;
+}
+
+MICROIMPACT_LINK_FUNCTION MicroimpactLinkCursor microimpact_link_reader(const uint8_t *bytes, size_t length)
+{
+    MicroimpactLinkCursor in;
+    in.bytes = bytes;
+    in.room = NULL;
+    in.length = length;
+    in.at = 0u;
+    in.good = 1;
+    return in;
+}
+
+MICROIMPACT_LINK_FUNCTION MicroimpactLinkCursor microimpact_link_writer(uint8_t *room, size_t length)
+{
+    MicroimpactLinkCursor out;
+    out.bytes = NULL;
+    out.room = room;
+    out.length = length;
+    out.at = 0u;
+    out.good = 1;
+    return out;
 }
 
 /* An integer of at most `bits` bits. */
@@ -243,8 +281,18 @@ MICROIMPACT_LINK_FUNCTION uint64_t microimpact_link_integer(MicroimpactLinkCurso
     unsigned shift = 0u;
     for (;;) {
         const uint8_t byte = microimpact_link_byte(in);
-        const uint64_t part = byte & 0x7fu;
-        if (shift >= bits || (bits - shift < 7u && (part >> (bits - shift)) != 0u)) {
+        const uint64_t part = (uint64_t)byte & 0x7fu;
+        uint64_t beyond = 0u;
+        if (shift >= bits) {
+            in->good = 0;
+        } else if ((bits - shift) < 7u) {
+            const unsigned within = bits - shift;
+            beyond = part;
+            beyond >>= within;
+        } else {
+            /* All seven bits are within. */
+        }
+        if (beyond != 0u) {
             in->good = 0;
         }
         if (in->good == 0) {
@@ -258,23 +306,37 @@ MICROIMPACT_LINK_FUNCTION uint64_t microimpact_link_integer(MicroimpactLinkCurso
     }
 }
 
+/* Bytes of a number. */
+MICROIMPACT_LINK_FUNCTION unsigned microimpact_link_width(uint8_t type)
+{
+    unsigned width = 4u;
+    if (type == (uint8_t)MICROIMPACT_LINK_F64) {
+        width = 8u;
+    }
+    return width;
+}
+
 MICROIMPACT_LINK_FUNCTION double microimpact_link_number(MicroimpactLinkCursor *in, uint8_t type)
 {
     uint64_t bits = 0u;
+    const unsigned length = microimpact_link_width(type);
+    double number;
     unsigned i;
-    for (i = 0; i < (type == MICROIMPACT_LINK_F64 ? 8u : 4u); i++) {
-        bits |= (uint64_t)microimpact_link_byte(in) << (8u * i);
+    for (i = 0u; i < length; i++) {
+        const unsigned place = 8u * i;
+        uint64_t byte = microimpact_link_byte(in);
+        byte <<= place;
+        bits |= byte;
     }
-    if (type == MICROIMPACT_LINK_F64) {
-        double number;
-        memcpy(&number, &bits, sizeof number);
-        return number;
+    if (length == 8u) {
+        (void)memcpy(&number, &bits, sizeof number);
     } else {
         const uint32_t word = (uint32_t)bits;
-        float number;
-        memcpy(&number, &word, sizeof number);
-        return (double)number;
+        float narrow;
+        (void)memcpy(&narrow, &word, sizeof narrow);
+        number = (double)narrow;
     }
+    return number;
 }
 
 MICROIMPACT_LINK_FUNCTION void microimpact_link_put(MicroimpactLinkCursor *out, uint8_t byte)
@@ -282,33 +344,37 @@ MICROIMPACT_LINK_FUNCTION void microimpact_link_put(MicroimpactLinkCursor *out, 
     if (out->at >= out->length) {
         out->good = 0;
     } else {
-        out->room[out->at++] = byte;
+        out->room[out->at] = byte;
+        out->at++;
     }
 }
 
 MICROIMPACT_LINK_FUNCTION void microimpact_link_put_integer(MicroimpactLinkCursor *out, uint64_t value)
 {
-    while (value >= 0x80u) {
-        microimpact_link_put(out, (uint8_t)(value | 0x80u));
-        value >>= 7;
+    uint64_t rest = value;
+    while (rest >= 0x80u) {
+        microimpact_link_put(out, (uint8_t)((rest & 0x7fu) | 0x80u));
+        rest >>= 7;
     }
-    microimpact_link_put(out, (uint8_t)value);
+    microimpact_link_put(out, (uint8_t)rest);
 }
 
 MICROIMPACT_LINK_FUNCTION void microimpact_link_put_number(MicroimpactLinkCursor *out, uint8_t type, double number)
 {
-    uint64_t bits = 0u;
+    const unsigned length = microimpact_link_width(type);
+    uint64_t bits;
     unsigned i;
-    if (type == MICROIMPACT_LINK_F64) {
-        memcpy(&bits, &number, sizeof bits);
+    if (length == 8u) {
+        (void)memcpy(&bits, &number, sizeof bits);
     } else {
         const float narrow = (float)number;
         uint32_t word;
-        memcpy(&word, &narrow, sizeof word);
+        (void)memcpy(&word, &narrow, sizeof word);
         bits = word;
     }
-    for (i = 0; i < (type == MICROIMPACT_LINK_F64 ? 8u : 4u); i++) {
-        microimpact_link_put(out, (uint8_t)(bits >> (8u * i)));
+    for (i = 0u; i < length; i++) {
+        microimpact_link_put(out, (uint8_t)(bits & 0xffu));
+        bits >>= 8;
     }
 }
 
@@ -316,10 +382,8 @@ MICROIMPACT_LINK_FUNCTION void microimpact_link_put_number(MicroimpactLinkCursor
 MICROIMPACT_LINK_FUNCTION size_t microimpact_link_request(int kind, uint32_t number, uint8_t *frame, size_t capacity)
 {
     uint8_t message[8];
-    MicroimpactLinkCursor out;
-    out.bytes = NULL, out.room = message, out.length = sizeof message, out.at = 0u, out.good = 1;
-    if (kind != MICROIMPACT_LINK_ASK_REPORT && kind != MICROIMPACT_LINK_DESCRIBE && kind != MICROIMPACT_LINK_ASK_COUNTS
-        && kind != MICROIMPACT_LINK_ASK_RESET) {
+    MicroimpactLinkCursor out = microimpact_link_writer(message, sizeof message);
+    if ((kind < MICROIMPACT_LINK_ASK_REPORT) || (kind > MICROIMPACT_LINK_ASK_RESET)) {
         return 0u;
     }
     microimpact_link_put(&out, (uint8_t)kind);
@@ -332,28 +396,31 @@ MICROIMPACT_LINK_FUNCTION size_t microimpact_link_event(const MicroimpactLinkSch
                                                         const MicroimpactLinkReading *reading, uint8_t *frame, size_t capacity)
 {
     uint8_t message[MICROIMPACT_LINK_MESSAGE];
-    const uint8_t kind = schema->reading & 0x0fu, type = schema->number;
-    MicroimpactLinkCursor out;
+    const unsigned kind = (unsigned)schema->reading & 0x0fu;
+    const uint8_t type = schema->number;
+    MicroimpactLinkCursor out = microimpact_link_writer(message, sizeof message);
     double values[4];
     unsigned i;
-    out.bytes = NULL, out.room = message, out.length = sizeof message, out.at = 0u, out.good = 1;
-    values[0] = reading->approach, values[1] = reading->tangential, values[2] = reading->peripheral, values[3] = reading->radius;
-    if (kind < MICROIMPACT_LINK_NORMAL || kind > MICROIMPACT_LINK_UNCERTAIN || schema->reading >= 64u
-        || type < MICROIMPACT_LINK_F32 || type > MICROIMPACT_LINK_F64) {
+    values[0] = reading->approach;
+    values[1] = reading->tangential;
+    values[2] = reading->peripheral;
+    values[3] = reading->radius;
+    if ((kind < (unsigned)MICROIMPACT_LINK_NORMAL) || (kind > (unsigned)MICROIMPACT_LINK_UNCERTAIN) || (schema->reading >= 64u)
+        || ((type != (uint8_t)MICROIMPACT_LINK_F32) && (type != (uint8_t)MICROIMPACT_LINK_F64))) {
         return 0u;
     }
-    microimpact_link_put(&out, MICROIMPACT_LINK_EVENT);
+    microimpact_link_put(&out, (uint8_t)MICROIMPACT_LINK_EVENT);
     microimpact_link_put_integer(&out, number);
-    if ((schema->reading & MICROIMPACT_LINK_STAMPED) != 0) {
+    if (((unsigned)schema->reading & (unsigned)MICROIMPACT_LINK_STAMPED) != 0u) {
         microimpact_link_put_integer(&out, reading->ticks);
     }
-    if ((schema->reading & MICROIMPACT_LINK_SIZED) != 0) {
+    if (((unsigned)schema->reading & (unsigned)MICROIMPACT_LINK_SIZED) != 0u) {
         microimpact_link_put_number(&out, type, reading->radius);
         microimpact_link_put(&out, reading->material);
     }
-    for (i = 0; i < kind; i++) {
+    for (i = 0u; i < kind; i++) {
         microimpact_link_put_number(&out, type, values[i]);
-        if (kind == MICROIMPACT_LINK_UNCERTAIN) {
+        if (kind == (unsigned)MICROIMPACT_LINK_UNCERTAIN) {
             microimpact_link_put_number(&out, type, reading->errors[i]);
         }
     }
@@ -363,15 +430,27 @@ MICROIMPACT_LINK_FUNCTION size_t microimpact_link_event(const MicroimpactLinkSch
 /* Whether an instrument is of another protocol or schema than a host expects. */
 MICROIMPACT_LINK_FUNCTION int microimpact_link_differs(const MicroimpactLinkReply *reply, const MicroimpactLinkSchema *expected)
 {
-    return reply->protocol != MICROIMPACT_LINK_PROTOCOL || reply->schema.number != expected->number
-           || reply->schema.reading != expected->reading || reply->schema.classes != expected->classes;
+    int differs = 0;
+    if ((reply->protocol != MICROIMPACT_LINK_PROTOCOL) || (reply->schema.number != expected->number)
+        || (reply->schema.reading != expected->reading) || (reply->schema.classes != expected->classes)) {
+        differs = 1;
+    }
+    return differs;
 }
 
-/* Number of classes of a set; zero for one that is not known. */
+/* Number of classes of a set, the largest one of your own sets, from 128 on; zero for one that is not known. */
 MICROIMPACT_LINK_FUNCTION unsigned microimpact_link_classes(uint8_t set)
 {
     static const uint8_t COUNTS[5] = {0u, 3u, 6u, 4u, 5u};
-    return set < 5u ? COUNTS[set] : 0u;
+    unsigned count = 0u;
+    if (set >= 128u) {
+        count = MICROIMPACT_LINK_CLASSES;
+    } else if (set < 5u) {
+        count = COUNTS[set];
+    } else {
+        /* Not known. */
+    }
+    return count;
 }
 
 MICROIMPACT_LINK_FUNCTION void microimpact_link_choice(MicroimpactLinkCursor *in, MicroimpactLinkReply *reply)
@@ -382,7 +461,7 @@ MICROIMPACT_LINK_FUNCTION void microimpact_link_choice(MicroimpactLinkCursor *in
     } else if (choice == 0u) {
         reply->parameter = (uint32_t)microimpact_link_integer(in, 32u);
         reply->fault = (uint32_t)microimpact_link_integer(in, 32u);
-        reply->value = (float)microimpact_link_number(in, MICROIMPACT_LINK_F32);
+        reply->value = (float)microimpact_link_number(in, (uint8_t)MICROIMPACT_LINK_F32);
     } else {
         in->good = 0;
     }
@@ -393,10 +472,9 @@ MICROIMPACT_LINK_FUNCTION void microimpact_link_choice(MicroimpactLinkCursor *in
 MICROIMPACT_LINK_FUNCTION int microimpact_link_reply(const MicroimpactLinkDecoder *decoder, const MicroimpactLinkSchema *expected,
                                                      MicroimpactLinkReply *reply)
 {
-    MicroimpactLinkCursor in;
+    MicroimpactLinkCursor in = microimpact_link_reader(decoder->message, decoder->length);
     size_t i;
-    in.bytes = decoder->message, in.room = NULL, in.length = decoder->length, in.at = 0u, in.good = 1;
-    memset(reply, 0, sizeof *reply);
+    (void)memset(reply, 0, sizeof *reply);
     reply->kind = (int)microimpact_link_integer(&in, 31u);
     if (reply->kind != MICROIMPACT_LINK_STARTED) {
         reply->number = (uint32_t)microimpact_link_integer(&in, 32u);
@@ -406,7 +484,7 @@ MICROIMPACT_LINK_FUNCTION int microimpact_link_reply(const MicroimpactLinkDecode
     case MICROIMPACT_LINK_DESCRIPTION:
         reply->protocol = (uint32_t)microimpact_link_integer(&in, 32u);
         /* Another version may describe itself otherwise. */
-        if (in.good != 0 && reply->protocol != MICROIMPACT_LINK_PROTOCOL) {
+        if ((in.good != 0) && (reply->protocol != MICROIMPACT_LINK_PROTOCOL)) {
             return MICROIMPACT_LINK_SCHEMA;
         }
         reply->schema.number = microimpact_link_byte(&in);
@@ -416,7 +494,7 @@ MICROIMPACT_LINK_FUNCTION int microimpact_link_reply(const MicroimpactLinkDecode
     case MICROIMPACT_LINK_CLASSIFIED: {
         const uint64_t number_of_class = microimpact_link_integer(&in, 32u);
         const uint8_t option = microimpact_link_byte(&in);
-        if (number_of_class >= microimpact_link_classes(expected->classes) || option > 1u) {
+        if ((number_of_class >= microimpact_link_classes(expected->classes)) || (option > 1u)) {
             in.good = 0;
         }
         reply->impact_class = (uint8_t)number_of_class;
@@ -431,7 +509,7 @@ MICROIMPACT_LINK_FUNCTION int microimpact_link_reply(const MicroimpactLinkDecode
         microimpact_link_choice(&in, reply);
         break;
     case MICROIMPACT_LINK_REPORT_IS:
-        for (i = 0; i < MICROIMPACT_LINK_REPORT; i++) {
+        for (i = 0u; i < MICROIMPACT_LINK_REPORT; i++) {
             reply->report[i] = microimpact_link_integer(&in, 64u);
         }
         break;
@@ -442,7 +520,7 @@ MICROIMPACT_LINK_FUNCTION int microimpact_link_reply(const MicroimpactLinkDecode
             reply->count = 0u;
             in.good = 0;
         }
-        for (i = 0; i < reply->count; i++) {
+        for (i = 0u; i < reply->count; i++) {
             reply->counts[i] = microimpact_link_integer(&in, 64u);
         }
         break;
@@ -452,11 +530,11 @@ MICROIMPACT_LINK_FUNCTION int microimpact_link_reply(const MicroimpactLinkDecode
         in.good = 0;
         break;
     }
-    if (in.good == 0 || in.at != in.length) {
+    if ((in.good == 0) || (in.at != in.length)) {
         return MICROIMPACT_LINK_CONTENT;
     }
-    if ((reply->kind == MICROIMPACT_LINK_STARTED || reply->kind == MICROIMPACT_LINK_DESCRIPTION)
-        && microimpact_link_differs(reply, expected) != 0) {
+    if (((reply->kind == MICROIMPACT_LINK_STARTED) || (reply->kind == MICROIMPACT_LINK_DESCRIPTION))
+        && (microimpact_link_differs(reply, expected) != 0)) {
         return MICROIMPACT_LINK_SCHEMA;
     }
     return MICROIMPACT_LINK_MESSAGE_IN;

@@ -132,10 +132,7 @@ pub unsafe extern "C" fn microimpact_fit_restitution(
 impl MeasuredImpact {
     fn row(&self) -> Result<Row, Failure> {
         let sphere = Sphere::solid(self.radius, self.density)?;
-        let estimate = |measured: Measured| Estimate {
-            value: measured.value,
-            standard_error: measured.standard_error,
-        };
+        let estimate = |measured: Measured| Estimate { value: measured.value, standard_error: measured.standard_error };
         let rebound = (self.captured == 0).then(|| estimate(self.rebound));
         Ok(Row { sphere, approach: estimate(self.approach), rebound })
     }

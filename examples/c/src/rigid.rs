@@ -35,7 +35,7 @@ impl RigidScene {
 
 /// Initialises a scene with parameters, of which what is left out is zero, and checks every one. The error names the first that
 /// is outside its range, and may be null. Where this fails, the scene holds zeros, which every function reports. The parameters
-/// and the scene may be the same memory.
+/// and the scene may be the same memory. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -67,7 +67,7 @@ pub struct Classification {
     pub peripheral: f32,
 }
 
-/// Classifies an impact of a rigid body. The error may be null.
+/// Classifies an impact of a rigid body. The error may be null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.

@@ -2,8 +2,7 @@
 
 use microimpact::contact::{Collocation, FixedCost, JkrEnd};
 use microimpact::{
-    AdhesionConfig, AnyModel, DampingConfig, ModelConfig, PlanarMotion, ReboundAdhesionConfig,
-    RestitutionConfig,
+    AdhesionConfig, AnyModel, DampingConfig, ModelConfig, PlanarMotion, ReboundAdhesionConfig, RestitutionConfig,
 };
 
 use crate::error::Error;

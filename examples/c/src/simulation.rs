@@ -103,7 +103,7 @@ impl ContactScene {
 
 /// Initialises a scene with parameters, of which what is left out is zero, fills in the tolerance if it is, and checks every
 /// one. The error names the first that is outside its range, and may be null. Where this fails, the scene holds zeros, which
-/// every function reports. The parameters and the scene may be the same memory.
+/// every function reports. The parameters and the scene may be the same memory. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -134,7 +134,7 @@ pub struct Contact {
 }
 
 /// Simulates `count` impacts into a buffer with room for `capacity` results, in the order of the motions, and writes how many
-/// there are, of those before the first that fails. The error may be null.
+/// there are, of those before the first that fails. The error may be null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, the motions to `count` of them and the results to room for

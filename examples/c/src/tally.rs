@@ -63,15 +63,11 @@ pub struct TallyReport {
 /// # Safety
 /// Each pointer is null or points to what its type says, the edges to eight, and nobody else uses it during the call.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn microimpact_tally_init(
-    tally: *mut Tally,
-    edges: *const [f32; TALLY_BINS],
-    error: *mut Error,
-) -> Status {
+pub unsafe extern "C" fn microimpact_tally_init(tally: *mut Tally, edges: *const f32, error: *mut Error) -> Status {
     // SAFETY: the contract of this function is that of the functions in `memory`; the tally is room for a `Made`.
     unsafe {
         let made = || -> Result<(), Failure> {
-            let bins = SpeedBins::new(followed(memory::read(edges))?)?;
+            let bins = SpeedBins::new(followed(memory::read(edges.cast::<[f32; TALLY_BINS]>()))?)?;
             followed(memory::write(tally.cast(), Made { mark: MARK, tally: instrument::Tally::new(bins) }))
         };
         finish(made(), error)

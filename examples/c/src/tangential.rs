@@ -42,7 +42,7 @@ impl CompliantScene {
 }
 
 /// Initialises a scene as microimpact_contact_init does, with the tolerance of its contact. If another law of contact is asked for, the
-/// error names the stiffness ratio with the fault MICROIMPACT_FAULT_OTHER_LAW.
+/// error names the stiffness ratio with the fault MICROIMPACT_FAULT_OTHER_LAW. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -96,7 +96,7 @@ impl CompliantContact {
 
 /// Simulates impacts with compliance along the surface, as microimpact_simulate does without. microimpact_wall_after and
 /// microimpact_pair_after take the restitution and the tangential velocity of the results. For microimpact_pair_incidence, initialise
-/// the contact of the scene with the radius and the density of the reduced sphere.
+/// the contact of the scene with the radius and the density of the reduced sphere. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, the motions to `count` of them and the results to room for

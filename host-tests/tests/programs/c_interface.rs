@@ -97,6 +97,25 @@ fn header_is_current() {
     assert_eq!(stored, header(), "the interface has changed; `{write}` writes its header anew");
 }
 
+/// Whether an interrupt may call it is stated for every function.
+#[test]
+fn every_function_says_whether_an_interrupt_may_call_it() {
+    let header = header();
+    let functions: Vec<_> = header
+        .match_indices(" microimpact_")
+        .filter(|(at, _)| {
+            let line = header[..*at].rsplit('\n').next().unwrap();
+            ["MicroimpactStatus", "uint32_t", "size_t"].contains(&line)
+        })
+        .collect();
+    assert!(functions.len() > 35);
+    for (at, _) in functions {
+        let (_, comment) = header[..at].rsplit_once("/*").unwrap();
+        let function = header[at..].split('(').next().unwrap();
+        assert!(["e-entrant", "interrupt"].iter().any(|word| comment.contains(word)), "{function}");
+    }
+}
+
 #[test]
 fn constant_is_current() {
     assert_eq!(std::fs::read_to_string(constant_file()).unwrap(), constant());
@@ -161,16 +180,20 @@ mod sanitized {
     fn headers_are_valid_in_every_standard() {
         let program = "#include \"microimpact.h\"\n#include \"microimpact_link.h\"\n\
             int main(void) { return microimpact_layout() == MICROIMPACT_LAYOUT ? 0 : 1; }\n";
-        let languages: [(&str, &str, &[&str]); 2] = [
-            ("cc", "c", &["c90", "c99", "c11", "c17"]),
-            ("c++", "cpp", &["c++98", "c++11", "c++17", "c++20"]),
-        ];
+        let languages: [(&str, &str, &[&str]); 2] =
+            [("cc", "c", &["c90", "c99", "c11", "c17"]), ("c++", "cpp", &["c++98", "c++11", "c++17", "c++20"])];
         for (compiler, extension, standards) in languages {
             let source = Path::new(TEMPORARY).join(format!("standards.{extension}"));
             std::fs::write(&source, program).unwrap();
             for standard in standards {
                 let mut command = Command::new(compiler);
-                command.arg(format!("-std={standard}")).args(["-pedantic", "-Wall", "-Wextra", "-Werror", "-fsyntax-only"]);
+                command.arg(format!("-std={standard}")).args([
+                    "-pedantic",
+                    "-Wall",
+                    "-Wextra",
+                    "-Werror",
+                    "-fsyntax-only",
+                ]);
                 let output = command.arg("-I").arg(folder().join("include")).arg(&source).output().unwrap();
                 assert!(output.status.success(), "{standard}: {}", String::from_utf8_lossy(&output.stderr));
             }
