@@ -1,10 +1,11 @@
 /* Reads the frames of an instrument from standard input, and says what is in them: one line for each frame. With the argument
-   "requests", it writes the requests of the documentation instead, one in each line, as hexadecimal numbers. */
+   "requests", it writes the requests of the documentation instead, one in each line, as hexadecimal numbers; with "repeat-requests" and
+   "repeat-replies" it reads those, and writes each again; with "scenes" it says what is in the scenes that a host sets. */
 
 #include <stdio.h>
 #include <string.h>
 
-#include "microimpact_link.h"
+#include "microimpact_instrument_link.h"
 
 static const MicroimpactLinkSchema EXPECTED = {MICROIMPACT_LINK_F32, MICROIMPACT_LINK_PLANAR, MICROIMPACT_LINK_FRICTION};
 
@@ -66,6 +67,48 @@ static void requests(void)
     write_frame(frame, microimpact_link_request(MICROIMPACT_LINK_ASK_RESET, 4, frame, sizeof frame));
 }
 
+/* The numbers of a scene that are not zero. */
+static void show_scene(const MicroimpactSceneConfig *scene)
+{
+#define SHOW(field) \
+    if (scene->field != 0) \
+        printf(#field "=%.6g ", (double)scene->field);
+    SHOW(radius) SHOW(density) SHOW(gyration_ratio) SHOW(friction) SHOW(model) SHOW(restitution_law) SHOW(restitution)
+    SHOW(restitution_speed) SHOW(restitution_power) SHOW(yield_speed) SHOW(rebound_adhesion) SHOW(adhesion_coefficient)
+    SHOW(work_of_adhesion) SHOW(adhesion_speed) SHOW(adhesion_power) SHOW(stiffness) SHOW(relaxation_time) SHOW(damping)
+    SHOW(material_damping) SHOW(nominal_restitution) SHOW(adhesion) SHOW(adhesion_strength) SHOW(adhesion_damping)
+    SHOW(adhesion_energy) SHOW(external_force)
+#undef SHOW
+    printf("\n");
+}
+
+static void scene(const MicroimpactLinkDecoder *decoder)
+{
+    MicroimpactLinkRequest request;
+    if (microimpact_link_read_request(decoder, &EXPECTED, &request) == MICROIMPACT_LINK_MESSAGE_IN)
+        show_scene(&request.scene);
+}
+
+/* Reads the message in a decoder and writes it again. */
+static void repeat(const MicroimpactLinkDecoder *decoder, int are_requests)
+{
+    uint8_t frame[MICROIMPACT_LINK_FRAME];
+    MicroimpactLinkRequest request;
+    MicroimpactLinkReply reply;
+    size_t length = 0;
+    if (are_requests && microimpact_link_read_request(decoder, &EXPECTED, &request) == MICROIMPACT_LINK_MESSAGE_IN) {
+        if (request.kind == MICROIMPACT_LINK_EVENT)
+            length = microimpact_link_event(&EXPECTED, request.number, &request.reading, frame, sizeof frame);
+        else if (request.kind == MICROIMPACT_LINK_CONFIGURE)
+            length = microimpact_link_configure(&EXPECTED, request.number, &request.scene, frame, sizeof frame);
+        else
+            length = microimpact_link_request(request.kind, request.number, frame, sizeof frame);
+    } else if (!are_requests && microimpact_link_reply(decoder, &EXPECTED, &reply) == MICROIMPACT_LINK_MESSAGE_IN) {
+        length = microimpact_link_write_reply(&EXPECTED, &reply, frame, sizeof frame);
+    }
+    write_frame(frame, length);
+}
+
 int main(int count, char **arguments)
 {
     static const char *const FAULTS[] = {"", "", "oversized", "stuffing", "checksum", "content", "schema"};
@@ -77,6 +120,17 @@ int main(int count, char **arguments)
         return 0;
     }
     memset(&decoder, 0, sizeof decoder);
+    if (count > 1) {
+        while ((byte = getchar()) != EOF) {
+            if (microimpact_link_take(&decoder, (uint8_t)byte) != MICROIMPACT_LINK_MESSAGE_IN)
+                continue;
+            if (strcmp(arguments[1], "scenes") == 0)
+                scene(&decoder);
+            else
+                repeat(&decoder, strcmp(arguments[1], "repeat-requests") == 0);
+        }
+        return 0;
+    }
     while ((byte = getchar()) != EOF) {
         int state = microimpact_link_take(&decoder, (uint8_t)byte);
         if (state == MICROIMPACT_LINK_MESSAGE_IN)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs the MISRA C 2012 addon of cppcheck on both headers, as a product includes them: `examples/c/misra.sh`. What is not one of the
+# Runs the MISRA C 2012 addon of cppcheck on the headers, as a product includes them: `examples/c/misra.sh`. What is not one of the
 # deviations that README lists is printed, and makes the exit status 1. cppcheck is a package of Debian.
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -13,6 +13,6 @@ for rule in "${deviations[@]}"; do
 done
 unit=$(mktemp --suffix=.c)
 trap 'rm -f "$unit"' EXIT
-printf '#include "microimpact.h"\n#include "microimpact_link.h"\n' >"$unit"
+printf '#include "microimpact.h"\n#include "microimpact_link.h"\n#include "microimpact_instrument_link.h"\n' >"$unit"
 cppcheck --quiet --std=c90 --addon=misra --enable=style --error-exitcode=1 -I include "${suppressed[@]}" "$unit"
 echo "no deviation but from the rules ${deviations[*]}"

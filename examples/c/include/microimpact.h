@@ -1,4 +1,5 @@
-/* microimpact for C: impacts of microspheres. Made by cbindgen from examples/c/src; all units SI, all numbers float. */
+/* microimpact for C: impacts of microspheres. Made by cbindgen from examples/c/src; all units SI, all numbers float.
+   README lists instructions and stack of every function. */
 
 #ifndef MICROIMPACT_H
 #define MICROIMPACT_H

@@ -27,7 +27,23 @@ def test_requests():
         "Describe, number 2": link.request("describe", 2),
         "Counts, number 3": link.request("counts", 3),
         "Reset, number 4": link.request("reset", 4),
+        "Configure, number 5: Table 1 as a rigid body": link.configure(
+            OWN,
+            5,
+            link.rigid_body(("speed", 130.0), ("work", 2.22e-12)),
+            radius=5.06e-6,
+            density=2600,
+            friction=0.1,
+        ),
+        "Configure, number 6: the law of Johnson, Kendall and Roberts": link.configure(
+            OWN,
+            6,
+            link.contact(7.5e10, ("hysteretic", 10.5), ("jkr snap-off", 0.2)),
+            radius=5.06e-6,
+            density=2600,
+        ),
     }
+    assert written.keys() == frames.keys()
     for text, frame in written.items():
         assert frames[text] == frame, text
 
@@ -128,3 +144,12 @@ def test_events_of_other_schemas():
 
 def test_the_example_of_the_documentation():
     assert doctest.testmod(link).attempted > 4 and doctest.testmod(link).failed == 0
+
+
+def test_scenes_that_there_are_not():
+    with pytest.raises(
+        ValueError, match="damping is 'strong', but must be one of none, hysteretic, viscoelastic, constant"
+    ):
+        link.contact(1e10, ("strong", 1.0))
+    with pytest.raises(ValueError, match="restitution 'power' has 2 numbers, but there are 1"):
+        link.rigid_body(("power", 1.0))

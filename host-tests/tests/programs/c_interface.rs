@@ -175,10 +175,11 @@ mod sanitized {
         }
     }
 
-    /// A program of both headers without a word of any later language.
+    /// A program of the headers without a word of any later language.
     #[test]
     fn headers_are_valid_in_every_standard() {
         let program = "#include \"microimpact.h\"\n#include \"microimpact_link.h\"\n\
+            #include \"microimpact_instrument_link.h\"\n\
             int main(void) { return microimpact_layout() == MICROIMPACT_LAYOUT ? 0 : 1; }\n";
         let languages: [(&str, &str, &[&str]); 2] =
             [("cc", "c", &["c90", "c99", "c11", "c17"]), ("c++", "cpp", &["c++98", "c++11", "c++17", "c++20"])];

@@ -5,9 +5,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::OnceLock;
 
-use microimpact::Class;
-use microimpact::instrument::link::{Decoder, Encoder, PROTOCOL, Refusal, Reply, Schema};
-use microimpact::instrument::{ClassSet, Rejection};
+use microimpact::contact::JkrEnd;
+use microimpact::instrument::link::{Decoder, Encoder, PROTOCOL, Refusal, Reply, Request, Schema};
+use microimpact::instrument::{ClassSet, PlanarReading, Rejection};
+use microimpact::{
+    AdhesionConfig, Class, DampingConfig, ModelConfig, ReboundAdhesionConfig, RestitutionConfig, SceneConfig,
+};
 use serde::Serialize;
 
 const PAGE: &str = include_str!("../../../src/instrument/link/protocol.md");
@@ -114,9 +117,98 @@ fn c_reads_the_frames_of_the_documentation() {
 #[test]
 fn c_writes_the_frames_of_the_documentation() {
     let written = printed(&[], Some("requests"));
-    let text = |frame: &Vec<u8>| frame.iter().map(|byte| format!("{byte:02x}")).collect::<Vec<_>>().join(" ");
-    let frames: Vec<_> = golden("From the host").iter().map(text).collect();
+    let frames: Vec<_> = golden("From the host").iter().map(|frame| hexadecimal(frame)).collect();
     assert_eq!(written.lines().collect::<Vec<_>>(), frames[..5]);
+}
+
+fn hexadecimal(frame: &[u8]) -> String {
+    frame.iter().map(|byte| format!("{byte:02x}")).collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn c_repeats_the_frames_of_the_documentation() {
+    for (list, argument) in [("From the host", "repeat-requests"), ("From the instrument", "repeat-replies")] {
+        let frames = golden(list);
+        let repeated = printed(&frames.concat(), Some(argument));
+        assert_eq!(
+            repeated.lines().collect::<Vec<_>>(),
+            frames.iter().map(|frame| hexadecimal(frame)).collect::<Vec<_>>()
+        );
+    }
+}
+
+/// Scenes with each term, and the names that C has for their numbers.
+fn scenes() -> Vec<(SceneConfig<f32>, String)> {
+    let mut scenes = Vec::new();
+    let solid = |model| SceneConfig { friction: 0.25, ..SceneConfig::solid(5e-6, 2600.0, model) };
+    let sphere = "radius=5e-06 density=2600 gyration_ratio=0.4 friction=0.25 ";
+    let restitutions = [
+        (RestitutionConfig::Constant { restitution: 0.5 }, "restitution=0.5 "),
+        (RestitutionConfig::Speed { speed: 130.0 }, "restitution_law=1 restitution_speed=130 "),
+        (
+            RestitutionConfig::Power { speed: 120.0, power: 0.75 },
+            "restitution_law=2 restitution_speed=120 restitution_power=0.75 ",
+        ),
+        (RestitutionConfig::ElasticPlastic { yield_speed: 3.0 }, "restitution_law=3 yield_speed=3 "),
+    ];
+    let bound = [
+        (ReboundAdhesionConfig::None, ""),
+        (ReboundAdhesionConfig::Coefficient { coefficient: 0.125 }, "rebound_adhesion=1 adhesion_coefficient=0.125 "),
+        (ReboundAdhesionConfig::Work { work: 2e-12 }, "rebound_adhesion=2 work_of_adhesion=2e-12 "),
+        (
+            ReboundAdhesionConfig::Speed { speed: 1.5, power: 2.0 },
+            "rebound_adhesion=3 adhesion_speed=1.5 adhesion_power=2 ",
+        ),
+    ];
+    for (restitution, of_restitution) in restitutions {
+        for (adhesion, of_adhesion) in bound {
+            let model = ModelConfig::RigidBody { restitution, adhesion };
+            scenes.push((solid(model), format!("{sphere}{of_restitution}{of_adhesion}")));
+        }
+    }
+    let viscoelastic = RestitutionConfig::Viscoelastic { stiffness: 7e10, relaxation_time: 1e-9 };
+    let model = ModelConfig::RigidBody { restitution: viscoelastic, adhesion: ReboundAdhesionConfig::None };
+    scenes.push((solid(model), format!("{sphere}restitution_law=4 stiffness=7e+10 relaxation_time=1e-09 ")));
+    let dampings = [
+        (DampingConfig::None, "", ""),
+        (DampingConfig::Hysteretic { zeta: 10.5 }, "", "damping=1 material_damping=10.5 "),
+        (DampingConfig::Viscoelastic { relaxation_time: 2e-9 }, "relaxation_time=2e-09 ", "damping=2 "),
+        (DampingConfig::Constant { restitution: 0.75 }, "", "damping=3 nominal_restitution=0.75 "),
+    ];
+    let adhesions = [
+        (AdhesionConfig::None, ""),
+        (AdhesionConfig::WithoutTension, "adhesion=1 "),
+        (
+            AdhesionConfig::Ring { strength: 250.0, zeta: 6.25 },
+            "adhesion=2 adhesion_strength=250 adhesion_damping=6.25 ",
+        ),
+        (AdhesionConfig::Dmt { work: 0.5 }, "adhesion=3 adhesion_energy=0.5 "),
+        (AdhesionConfig::Jkr { work: 0.25, end: JkrEnd::SnapOff }, "adhesion=4 adhesion_energy=0.25 "),
+        (AdhesionConfig::Jkr { work: 0.25, end: JkrEnd::PullOff }, "adhesion=5 adhesion_energy=0.25 "),
+    ];
+    for (damping, of_time, of_damping) in dampings {
+        for (adhesion, of_adhesion) in adhesions {
+            let model = ModelConfig::Contact { stiffness: 7e10, damping, adhesion, force: 1e-8 };
+            let text =
+                format!("{sphere}model=1 stiffness=7e+10 {of_time}{of_damping}{of_adhesion}external_force=1e-08 ");
+            scenes.push((solid(model), text));
+        }
+    }
+    scenes
+}
+
+/// Every term of a scene, from Rust to C by name, and from C to Rust.
+#[test]
+fn c_reads_and_writes_every_scene() {
+    let scenes = scenes();
+    let configured = |(number, (scene, _)): (usize, &(SceneConfig<f32>, String))| {
+        frame(&Request::<PlanarReading<f32>>::Configure { number: number as u32, scene: *scene })
+    };
+    let frames: Vec<_> = scenes.iter().enumerate().map(configured).collect();
+    let found = printed(&frames.concat(), Some("scenes"));
+    assert_eq!(found.lines().collect::<Vec<_>>(), scenes.iter().map(|(_, text)| text.as_str()).collect::<Vec<_>>());
+    let repeated = printed(&frames.concat(), Some("repeat-requests"));
+    assert_eq!(repeated.lines().collect::<Vec<_>>(), frames.iter().map(|frame| hexadecimal(frame)).collect::<Vec<_>>());
 }
 
 /// Every byte of every frame changed in every bit: nothing is read as another message, and the next frame is read.

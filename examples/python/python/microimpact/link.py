@@ -69,6 +69,12 @@ REPORT = (
 )
 """Names of the numbers of a report."""
 
+RESTITUTIONS = ("constant", "speed", "power", "elastic-plastic", "viscoelastic")
+REBOUND_ADHESIONS = ("none", "coefficient", "work", "speed")
+DAMPINGS = ("none", "hysteretic", "viscoelastic", "constant")
+ADHESIONS = ("none", "without tension", "ring", "dmt", "jkr snap-off", "jkr pull-off")
+"""Terms of a scene, in the order of the protocol."""
+
 _REQUESTS = {"report": 1, "describe": 2, "counts": 3, "reset": 4}
 _REPLIES = (
     "started",
@@ -84,6 +90,10 @@ _REPLIES = (
 _NUMBERS = {1: "<f", 2: "<d"}
 _MOST_CLASSES = 16
 _OWN = 128
+
+
+Term = tuple[object, ...]
+"""The name of a term and its numbers: ("work", 2.22e-12)."""
 
 
 class LinkError(Exception):
@@ -170,6 +180,51 @@ def event(
     size = struct.pack(form, radius) + bytes([material]) if schema.reading & SIZED else b""
     reading = b"".join(struct.pack(form, value) for value in values)
     return frame(b"\0" + _integer(_checked(number)) + stamp + size + reading)
+
+
+def rigid_body(restitution: Term, adhesion: Term = ("none",)) -> tuple[object, ...]:
+    """A rigid body for `configure`: of RESTITUTIONS and REBOUND_ADHESIONS, each with its numbers as in the documentation."""
+    law = _term("restitution", RESTITUTIONS, (1, 1, 2, 1, 2), restitution)
+    return (0, *law, *_term("adhesion", REBOUND_ADHESIONS, (0, 1, 1, 2), adhesion))
+
+
+def contact(
+    stiffness: float, damping: Term = ("none",), adhesion: Term = ("none",), force: float = 0.0
+) -> tuple[object, ...]:
+    """A contact for `configure`: of DAMPINGS and ADHESIONS, each with its numbers as in the documentation."""
+    choice, *numbers = _term("adhesion", ADHESIONS, (0, 0, 2, 1, 1, 1), adhesion)
+    # Where contact ends is a choice of its own.
+    law = (choice, *numbers) if choice < 4 else (4, *numbers, choice - 4)
+    return (1, float(stiffness), *_term("damping", DAMPINGS, (0, 1, 1, 1), damping), *law, float(force))
+
+
+def _term(what: str, names: Sequence[str], lengths: Sequence[int], term: Term) -> tuple[object, ...]:
+    name, *numbers = term
+    if name not in names:
+        raise ValueError(f"{what} is {name!r}, but must be one of {', '.join(names)}")
+    choice = names.index(name)
+    if len(numbers) != lengths[choice]:
+        raise ValueError(f"{what} {name!r} has {lengths[choice]} numbers, but there are {len(numbers)}")
+    return (choice, *map(float, numbers))
+
+
+def configure(
+    schema: Schema,
+    number: int,
+    model: Sequence[object],
+    *,
+    radius: float,
+    density: float,
+    friction: float = 0.0,
+    gyration_ratio: float = 0.4,
+) -> bytes:
+    """The frame of the request to classify by a scene: `rigid_body` or `contact`. The instrument checks its numbers."""
+    if schema.number not in _NUMBERS:
+        raise ValueError(f"number type is {schema.number}, but must be 1 (f32) or 2 (f64)")
+    form = _NUMBERS[schema.number]
+    values = (float(radius), float(density), float(gyration_ratio), float(friction), *model)
+    scene = (struct.pack(form, value) if isinstance(value, float) else _integer(value) for value in values)
+    return frame(b"\5" + _integer(_checked(number)) + b"".join(scene))
 
 
 def unframe(content: bytes) -> bytes:
