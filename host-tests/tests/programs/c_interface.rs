@@ -50,7 +50,44 @@ fn in_c90(text: &str) -> String {
             lines.push(line.to_owned());
         }
     }
-    compact(&lines)
+    compact(&with_costs(&lines))
+}
+
+/// The same with what README says of each function at the end of its comment.
+fn with_costs(lines: &[String]) -> Vec<String> {
+    let page = std::fs::read_to_string(folder().join("README.md")).unwrap();
+    let mut told: Vec<String> = Vec::new();
+    for line in lines {
+        if let Some(function) = function(line) {
+            let comment = told.iter().rposition(|line| line == "/*").unwrap();
+            let safety = told[comment..].iter().position(|line| line.trim() == "# Safety");
+            // Before the empty line above the section, or the end of the comment.
+            let end = safety.map_or(told.len() - 1, |safety| comment + safety - 1);
+            told.splice(end..end, costs(&page, function));
+        }
+        told.push(line.clone());
+    }
+    told
+}
+
+/// The function that a line declares, without the beginning of its name.
+fn function(line: &str) -> Option<&str> {
+    let (result, function) = line.split_once(" microimpact_")?;
+    let is_result = ["MicroimpactStatus", "uint32_t", "size_t"].contains(&result);
+    is_result.then(|| function.split('(').next().unwrap())
+}
+
+/// Lines of a comment with the costs of a function, one for each row of README's table.
+fn costs(page: &str, function: &str) -> Vec<String> {
+    let row = |line: &str| {
+        let cells: Vec<_> = line.strip_prefix("| ")?.strip_suffix(" |")?.split(" | ").collect();
+        let [name, instructions, stack] = *cells else { return None };
+        let (of, case) = name.split_once(", ").unwrap_or((name, ""));
+        let case = if case.is_empty() { String::new() } else { format!(", {case}") };
+        let text = format!(" On a Cortex-M3{case}, at most {instructions} instructions and {stack} bytes of stack.");
+        (of == function).then_some(text)
+    };
+    page.lines().filter_map(row).collect()
 }
 
 /// The same with each comment of one line on one line.
@@ -97,23 +134,21 @@ fn header_is_current() {
     assert_eq!(stored, header(), "the interface has changed; `{write}` writes its header anew");
 }
 
-/// Whether an interrupt may call it is stated for every function.
+/// Whether an interrupt may call it, and what it takes, is stated for every function.
 #[test]
-fn every_function_says_whether_an_interrupt_may_call_it() {
+fn every_function_says_whether_an_interrupt_may_call_it_and_what_it_takes() {
     let header = header();
-    let functions: Vec<_> = header
-        .match_indices(" microimpact_")
-        .filter(|(at, _)| {
-            let line = header[..*at].rsplit('\n').next().unwrap();
-            ["MicroimpactStatus", "uint32_t", "size_t"].contains(&line)
-        })
-        .collect();
-    assert!(functions.len() > 35);
-    for (at, _) in functions {
-        let (_, comment) = header[..at].rsplit_once("/*").unwrap();
-        let function = header[at..].split('(').next().unwrap();
-        assert!(["e-entrant", "interrupt"].iter().any(|word| comment.contains(word)), "{function}");
+    let (mut at, mut functions) = (0, 0);
+    for line in header.lines() {
+        if let Some(function) = function(line) {
+            let (_, comment) = header[..at].rsplit_once("/*").unwrap();
+            assert!(["e-entrant", "interrupt"].iter().any(|word| comment.contains(word)), "{function}");
+            assert!(comment.contains("bytes of stack"), "{function}");
+            functions += 1;
+        }
+        at += line.len() + 1;
     }
+    assert!(functions > 35);
 }
 
 #[test]
