@@ -262,6 +262,11 @@ mod sanitized {
         assert_eq!(lines("law"), 4 * c_results::MOTIONS.len());
         // Compliance by both rules of unloading: one phase, and several.
         assert_eq!(lines("compliant"), 2 * c_results::MOTIONS.len());
+        for kind in ["power", "fixed-cost", "integers"] {
+            assert_eq!(lines(kind), c_results::MOTIONS.len(), "{kind}");
+        }
+        let unsolved = printed.lines().filter(|line| line.ends_with("unsolved")).count();
+        assert!(unsolved < c_results::MOTIONS.len() / 2, "{printed}");
         let phases: Vec<_> = printed
             .lines()
             .filter(|line| line.starts_with("compliant"))
