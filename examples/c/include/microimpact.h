@@ -734,8 +734,8 @@ size_t microimpact_parameter_name(uint32_t parameter,
 size_t microimpact_parameter_unit(uint32_t parameter, char *buffer, size_t capacity);
 
 /*
- Writes an error in words, from its parameter and its fault, and a zero byte to a buffer, as "approach speed (m/s): below the smallest valid value", cut off where it
- is too small, and returns the length of the whole text, zero if there is no error. MICROIMPACT_LARGEST_TEXT bytes are always enough.
+ Writes an error in words, from its parameter and its fault, and a zero byte to a buffer, as "approach speed (m/s): below the smallest
+ valid value", cut off where it is too small, and returns the length of the whole text, zero if there is no error. MICROIMPACT_LARGEST_TEXT bytes are always enough.
  The numbers are in the error: printf("%s: %g, not %g to %g", text, error.value, error.smallest, error.largest). Re-entrant.
  On a Cortex-M3, at most 1975 instructions and 152 bytes of stack.
 

@@ -154,8 +154,8 @@ pub unsafe extern "C" fn microimpact_parameter_unit(parameter: u32, buffer: *mut
     unsafe { write_text(numbered(parameter).map(Parameter::unit).into_iter(), buffer, capacity) }
 }
 
-/// Writes an error in words, from its parameter and its fault, and a zero byte to a buffer, as "approach speed (m/s): below the smallest valid value", cut off where it
-/// is too small, and returns the length of the whole text, zero if there is no error. MICROIMPACT_LARGEST_TEXT bytes are always enough.
+/// Writes an error in words, from its parameter and its fault, and a zero byte to a buffer, as "approach speed (m/s): below the smallest
+/// valid value", cut off where it is too small, and returns the length of the whole text, zero if there is no error. MICROIMPACT_LARGEST_TEXT bytes are always enough.
 /// The numbers are in the error: printf("%s: %g, not %g to %g", text, error.value, error.smallest, error.largest). Re-entrant.
 ///
 /// # Safety

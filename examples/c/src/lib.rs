@@ -1,7 +1,8 @@
 //! microimpact for C: scenes, classification, simulation and tables, in single precision.
 //!
 //! A scene is a plain structure of numbers, initialised by a function that checks them, or a constant. Every function checks
-//! all of them again, so that a scene that was never initialised is reported, and there is nothing to be freed. Every function is total: whatever it is given, it returns, and says what was wrong.
+//! all of them again, so that a scene that was never initialised is reported, and there is nothing to be freed. Every
+//! function is total: whatever it is given, it returns, and says what was wrong.
 //! A pointer must be null or point to what its type says; null and misaligned pointers are reported.
 
 #![no_std]
@@ -23,6 +24,7 @@ mod status;
 mod tables;
 mod tally;
 mod tangential;
+mod terms;
 mod trajectory;
 
 pub use abi::*;
@@ -41,6 +43,7 @@ pub use status::*;
 pub use tables::*;
 pub use tally::*;
 pub use tangential::*;
+pub use terms::*;
 pub use trajectory::*;
 
 use panic_halt as _;

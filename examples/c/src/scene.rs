@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::memory;
 use crate::simulation::{Contact, TOLERANCE};
 use crate::status::{Class, Failure, Motion, Status, finish, followed, initialise};
+use crate::terms::Model;
 
 /// A scene of either model. The choices, numbers of the enumerations in the comments, say which terms are present; a number of a term
 /// that was not chosen is not looked at. What is left out is zero.
@@ -73,78 +74,6 @@ pub struct SceneConfig {
     pub tolerance: f32,
     /// Iterations of the method of fixed cost, 1 to 40, which then takes the place of the one with a tolerance; zero for the latter.
     pub iterations: u32,
-}
-
-/// The model of a scene.
-#[repr(u32)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Model {
-    /// The rigid-body model.
-    RigidBody,
-    /// The simulation of the contact.
-    Contact,
-}
-
-/// Restitution of a rigid body.
-#[repr(u32)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RestitutionLaw {
-    /// The same R at every speed.
-    Constant,
-    /// R = k/(k + v).
-    Speed,
-    /// R = k^p/(k^p + v^p).
-    Power,
-    /// That of an elastic-plastic sphere (Thornton 1997).
-    ElasticPlastic,
-    /// That of a viscoelastic sphere.
-    Viscoelastic,
-}
-
-/// Adhesion of a rigid body.
-#[repr(u32)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ReboundAdhesion {
-    /// None.
-    None,
-    /// A coefficient rho.
-    Coefficient,
-    /// A work, J.
-    Work,
-    /// rho = l^q/(l^q + v^q).
-    Speed,
-}
-
-/// Damping of the materials of a contact.
-#[repr(u32)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Damping {
-    /// None.
-    None,
-    /// That of Hunt and Crossley.
-    Hysteretic,
-    /// That of a viscoelastic material.
-    Viscoelastic,
-    /// That which, without adhesion, leaves the same restitution at every speed.
-    Constant,
-}
-
-/// Adhesion of a contact, and where contact ends.
-#[repr(u32)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Adhesion {
-    /// None; contact ends at zero indentation.
-    None,
-    /// None; contact ends where damping cancels the elastic force.
-    WithoutTension,
-    /// The ring force of Brach and Dunn.
-    Ring,
-    /// Derjaguin, Muller and Toporov.
-    Dmt,
-    /// Johnson, Kendall and Roberts; contact ends where it snaps off.
-    JkrSnapOff,
-    /// The same; contact ends at the pull-off force.
-    JkrPullOff,
 }
 
 /// A choice of a C program among all that there are.

@@ -1,4 +1,4 @@
-//! The protocol's frames in C and in Python: both read and write those of the documentation.
+//! The frames of a link in C: it reads and writes those of the documentation, and refuses damaged ones and other instruments.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
