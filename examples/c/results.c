@@ -223,9 +223,65 @@ static int pairs(void)
     return 1;
 }
 
+/* Scenes that are one structure: laws that the others do not have, a hollow sphere, and the method of fixed cost. */
+static int of_one_scene(void)
+{
+    MicroimpactSceneConfig power = {.friction = 0.1f, .model = MICROIMPACT_MODEL_RIGID_BODY,
+                                    .restitution_law = MICROIMPACT_RESTITUTION_LAW_POWER, .restitution_speed = 90.0f, .restitution_power = 0.75f,
+                                    .rebound_adhesion = MICROIMPACT_REBOUND_ADHESION_SPEED, .adhesion_speed = 1.5f, .adhesion_power = 2.0f};
+    MicroimpactSceneConfig fixed_cost = {.radius = 5.06e-6f, .density = 2600.0f, .friction = 0.1f, .model = MICROIMPACT_MODEL_CONTACT,
+                                         .stiffness = 7.5e10f, .damping = MICROIMPACT_DAMPING_HYSTERETIC, .material_damping = 10.5f,
+                                         .adhesion = MICROIMPACT_ADHESION_RING, .adhesion_strength = 250.0f, .adhesion_damping = 6.25f,
+                                         .iterations = 3};
+    MicroimpactSceneImpact c;
+    if (microimpact_sphere_hollow(5.06e-6f, 1e-6f, 2600.0f, &power, NULL) != MICROIMPACT_STATUS_OK
+        || microimpact_scene_init(&power, &power, NULL) != MICROIMPACT_STATUS_OK
+        || microimpact_scene_init(&fixed_cost, &fixed_cost, NULL) != MICROIMPACT_STATUS_OK)
+        return 0;
+    for (size_t i = 0; i < COUNT(MOTIONS); i++) {
+        if (microimpact_scene_classify(&power, &MOTIONS[i], &c, NULL) != MICROIMPACT_STATUS_OK)
+            return 0;
+        printf("power %lu %d %08lx %08lx %08lx\n", (unsigned long)i, (int)c.impact_class, bits(c.restitution), bits(c.tangential), bits(c.peripheral));
+        const MicroimpactStatus status = microimpact_scene_classify(&fixed_cost, &MOTIONS[i], &c, NULL);
+        if (status == MICROIMPACT_STATUS_UNSOLVED)
+            printf("fixed-cost %lu unsolved\n", (unsigned long)i);
+        else if (status == MICROIMPACT_STATUS_OK)
+            printf("fixed-cost %lu %d %08lx %08lx %08lx\n", (unsigned long)i, (int)c.impact_class, bits(c.restitution), bits(c.tangential),
+                   bits(c.peripheral));
+        else
+            return 0;
+    }
+    return 1;
+}
+
+/* The nearest eighth of a velocity, in 2^-24 of 4 m/s. */
+static int32_t in_units(float velocity)
+{
+    const float eighths = velocity * 8.0f;
+    return (int32_t)(eighths < 0.0f ? eighths - 0.5f : eighths + 0.5f) * (MICROIMPACT_FIXED_ONE / 32);
+}
+
+static int integers(void)
+{
+    MicroimpactFixedBody fixed;
+    MicroimpactFixedResult c;
+    if (microimpact_fixed_init(&body, 4.0f, &fixed, NULL) != MICROIMPACT_STATUS_OK)
+        return 0;
+    for (size_t i = 0; i < COUNT(MOTIONS); i++) {
+        const MicroimpactFixedMotion motion = {in_units(MOTIONS[i].approach), in_units(MOTIONS[i].tangential), in_units(MOTIONS[i].peripheral)};
+        if (microimpact_fixed_classify(&fixed, &motion, &c, NULL) != MICROIMPACT_STATUS_OK)
+            return 0;
+        printf("integers %lu %d %ld %ld %ld\n", (unsigned long)i, (int)c.impact_class, (long)c.restitution, (long)c.tangential, (long)c.peripheral);
+    }
+    return 1;
+}
+
 int main(void)
 {
     MicroimpactError error;
+    /* Header and library belong together, and this compiler lays out structures as the library does. */
+    if (microimpact_abi() != MICROIMPACT_ABI || microimpact_layout() != MICROIMPACT_LAYOUT)
+        return 10;
     if (microimpact_rigid_init(&BODY, &body, &error) != MICROIMPACT_STATUS_OK
         || microimpact_contact_init(&CONTACT, &contact, &error) != MICROIMPACT_STATUS_OK
         || microimpact_contact_init(&ELASTIC, &elastic, &error) != MICROIMPACT_STATUS_OK)
@@ -254,5 +310,7 @@ int main(void)
         return 8;
     if (!compliant())
         return 9;
+    if (!of_one_scene() || !integers())
+        return 11;
     return 0;
 }

@@ -13,6 +13,12 @@ static void fault(void)
     _Exit(3);
 }
 
+/* What a program does when the timer of the core starts anew: nothing, unless it has a function of this name. */
+void timer_round(void);
+__attribute__((weak)) void timer_round(void)
+{
+}
+
 static void reset(void)
 {
     memcpy(data_start, data_load, (size_t)(data_end - data_start));
@@ -23,5 +29,6 @@ static void reset(void)
 }
 
 __attribute__((section(".vectors"), used)) static const uintptr_t VECTORS[] = {
-    (uintptr_t)stack_top, (uintptr_t)reset, (uintptr_t)fault, (uintptr_t)fault,
+    (uintptr_t)stack_top, (uintptr_t)reset, (uintptr_t)fault, (uintptr_t)fault, (uintptr_t)fault, (uintptr_t)fault,
+    (uintptr_t)fault, 0u, 0u, 0u, 0u, (uintptr_t)fault, (uintptr_t)fault, 0u, (uintptr_t)fault, (uintptr_t)timer_round,
 };

@@ -3,8 +3,9 @@
 use microimpact::rigid::WorkOfAdhesion;
 use microimpact::{Coulomb, InputError, RigidBody, SpeedRestitution, Sphere};
 
+use crate::error::Error;
 use crate::memory;
-use crate::status::{Class, Error, Failure, Motion, Status, finish, followed, initialise};
+use crate::status::{Class, Failure, Motion, Status, finish, followed, initialise};
 
 /// A rigid body with R = k/(k + v), a work of adhesion and friction. Zero leaves a term out.
 #[repr(C)]
@@ -25,7 +26,7 @@ pub struct RigidScene {
 type Scene = RigidBody<f32, SpeedRestitution<f32>, WorkOfAdhesion<f32>, Coulomb<f32>>;
 
 impl RigidScene {
-    fn check(self) -> Result<Scene, InputError> {
+    pub(crate) fn check(self) -> Result<Scene, InputError> {
         RigidBody::new(Sphere::solid(self.radius, self.density)?, SpeedRestitution::new(self.restitution_speed)?)
             .with_work_of_adhesion(self.work_of_adhesion)?
             .with_friction(self.friction)
@@ -34,7 +35,7 @@ impl RigidScene {
 
 /// Initialises a scene with parameters, of which what is left out is zero, and checks every one. The error names the first that
 /// is outside its range, and may be null. Where this fails, the scene holds zeros, which every function reports. The parameters
-/// and the scene may be the same memory.
+/// and the scene may be the same memory. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -66,7 +67,7 @@ pub struct Classification {
     pub peripheral: f32,
 }
 
-/// Classifies an impact of a rigid body. The error may be null.
+/// Classifies an impact of a rigid body. The error may be null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.

@@ -3,8 +3,9 @@
 use microimpact::contact::{self, AnyLaw, AnyScene, Collocation, JkrEnd, SimulatedImpact, TangentialVelocities};
 use microimpact::{CriticalSpeed, Fault, InputError, Parameter, PlanarMotion, Sphere, Stiffness};
 
+use crate::error::Error;
 use crate::memory;
-use crate::status::{Class, Error, Failure, Motion, Status, finish, followed, initialise};
+use crate::status::{Class, Failure, Motion, Status, finish, followed, initialise};
 
 /// A contact with Hertz's force, adhesion of one kind, damping of one kind, and friction. Zero leaves a term out.
 #[repr(C)]
@@ -45,7 +46,7 @@ type Scene = AnyScene<f32>;
 pub(crate) type Method = Collocation<7, f32>;
 
 /// What suits single precision.
-const TOLERANCE: f32 = 1e-6;
+pub(crate) const TOLERANCE: f32 = 1e-6;
 
 /// A number that does not go with the others.
 fn refused(parameter: Parameter, value: f32) -> InputError {
@@ -102,7 +103,7 @@ impl ContactScene {
 
 /// Initialises a scene with parameters, of which what is left out is zero, fills in the tolerance if it is, and checks every
 /// one. The error names the first that is outside its range, and may be null. Where this fails, the scene holds zeros, which
-/// every function reports. The parameters and the scene may be the same memory.
+/// every function reports. The parameters and the scene may be the same memory. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -133,7 +134,7 @@ pub struct Contact {
 }
 
 /// Simulates `count` impacts into a buffer with room for `capacity` results, in the order of the motions, and writes how many
-/// there are, of those before the first that fails. The error may be null.
+/// there are, of those before the first that fails. The error may be null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, the motions to `count` of them and the results to room for

@@ -4,8 +4,9 @@ use microimpact::rigid::Departure;
 use microimpact::space::{self, Departing, PairIncidence, WallIncidence};
 use microimpact::{InputError, Oblique, Parameter, Sphere};
 
+use crate::error::Error;
 use crate::memory;
-use crate::status::{Error, Failure, Motion, Status, finish, followed};
+use crate::status::{Failure, Motion, Status, finish, followed};
 
 /// The motion of a solid sphere in space.
 #[repr(C)]
@@ -145,7 +146,7 @@ unsafe fn write_after<I: Oblique<f32>, M: Copy>(
 /// across that plane (microimpact_wall_sideways), so that a class such as rolling or resting describes the motion in the plane.
 ///
 /// It is an error with the fault MICROIMPACT_FAULT_RECEDING if the sphere does not approach the wall. Where this fails, nothing
-/// is written but the error, which may be null.
+/// is written but the error, which may be null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -169,6 +170,7 @@ pub unsafe extern "C" fn microimpact_wall_incidence(
 /// Computes the velocity of a solid sphere across the plane of its impact on a wall (m/s), seen from the wall: from what
 /// microimpact_wall_incidence takes. The sphere keeps it. So a sphere of MICROIMPACT_CLASS_CAPTURED_RESTING rests only if this
 /// velocity is zero, and else rolls sideways with it. Where this fails, nothing is written but the error, which may be null.
+/// Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -195,6 +197,7 @@ pub unsafe extern "C" fn microimpact_wall_sideways(
 /// but the motion after it is not known: do not call this function for it.
 ///
 /// The motions before and after may be the same memory. Where this fails, nothing is written but the error, which may be null.
+/// Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -225,7 +228,7 @@ pub unsafe extern "C" fn microimpact_wall_after(
 /// The tangential velocity is that with which the spheres slip on each other, and the peripheral velocity is zero.
 ///
 /// It is an error with the fault MICROIMPACT_FAULT_RECEDING if the spheres do not approach each other. Where this fails, nothing
-/// is written but the error, which may be null.
+/// is written but the error, which may be null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -261,7 +264,7 @@ pub unsafe extern "C" fn microimpact_pair_incidence(
 /// the motions after it are not known: do not call this function for it.
 ///
 /// The motions after the impact may be in the memory of those of the pair. Where this fails, nothing is written but the error,
-/// which may be null.
+/// which may be null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, the motions to room for two of them, and nobody else uses them during

@@ -3,9 +3,10 @@
 use microimpact::table::{self, BoundarySlice, Lookup, TableOutcome, TableRebound};
 use microimpact::{Coulomb, InputError, PlanarMotion, Sphere};
 
+use crate::error::Error;
 use crate::memory;
 use crate::simulation::ContactScene;
-use crate::status::{Error, Failure, Motion, Status, finish, followed};
+use crate::status::{Failure, Motion, Status, finish, followed};
 
 /// What a table says of an impact.
 #[repr(u32)]
@@ -49,7 +50,7 @@ pub struct BoundaryTable {
 
 /// Makes a boundary table of the material and the surface of a scene, whose radius and friction do not count, from a radius on
 /// (m), in cells of the caller, which the table keeps pointing to. Where it fails, the cells hold no table. The error may be
-/// null.
+/// null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, the cells to room for `count` of them, and nobody else uses them
@@ -76,7 +77,7 @@ pub unsafe extern "C" fn microimpact_boundary_make(
     }
 }
 
-/// Checks all of a boundary table: a constant once, at start-up. The error may be null.
+/// Checks all of a boundary table: a constant once, at start-up. The error may be null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call; so do the cells.
@@ -94,7 +95,7 @@ pub unsafe extern "C" fn microimpact_boundary_check(table: *const BoundaryTable,
 }
 
 /// Tells rebound from capture of a sphere of a radius (m). Of the table, the cell around that radius is checked. The error may
-/// be null.
+/// be null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call; so do the cells.
@@ -145,7 +146,7 @@ const _: () = assert!(size_of::<Made>() == size_of::<RestitutionTable>());
 const _: () = assert!(align_of::<Made>() == align_of::<RestitutionTable>());
 
 /// Makes a restitution table of the material, the surface and the friction of a scene, whose radius does not count: over two
-/// octaves of radii from one on (m), and up to `speed_ratio` times the critical speed. The error may be null.
+/// octaves of radii from one on (m), and up to `speed_ratio` times the critical speed. The error may be null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -216,7 +217,7 @@ pub struct TableReading {
     pub peripheral: f32,
 }
 
-/// Reads from a table what becomes of a sphere of a radius (m). The error may be null.
+/// Reads from a table what becomes of a sphere of a radius (m). The error may be null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.

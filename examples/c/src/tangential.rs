@@ -3,9 +3,10 @@
 use microimpact::contact::{AnyLaw, Compliance, CompliantVelocities, Contact, SimulatedImpact, Unloading};
 use microimpact::{InputError, PlanarMotion};
 
+use crate::error::Error;
 use crate::memory;
 use crate::simulation::{ContactScene, Method, simulate_each};
-use crate::status::{Class, Error, Failure, Motion, Status, followed, initialise};
+use crate::status::{Class, Failure, Motion, Status, followed, initialise};
 
 /// A contact that gives sideways before it slips: one elastic element between sphere and surface sticks until friction is exhausted
 /// (Mindlin 1949; Thornton, Cummins and Cleary 2011).
@@ -41,7 +42,7 @@ impl CompliantScene {
 }
 
 /// Initialises a scene as microimpact_contact_init does, with the tolerance of its contact. If another law of contact is asked for, the
-/// error names the stiffness ratio with the fault MICROIMPACT_FAULT_OTHER_LAW.
+/// error names the stiffness ratio with the fault MICROIMPACT_FAULT_OTHER_LAW. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -95,7 +96,7 @@ impl CompliantContact {
 
 /// Simulates impacts with compliance along the surface, as microimpact_simulate does without. microimpact_wall_after and
 /// microimpact_pair_after take the restitution and the tangential velocity of the results. For microimpact_pair_incidence, initialise
-/// the contact of the scene with the radius and the density of the reduced sphere.
+/// the contact of the scene with the radius and the density of the reduced sphere. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, the motions to `count` of them and the results to room for

@@ -2,9 +2,10 @@
 
 use microimpact::contact::{self, Recording, Slip, Trajectory};
 
+use crate::error::Error;
 use crate::memory;
 use crate::simulation::{Contact, ContactScene};
-use crate::status::{Error, Failure, Motion, Status, finish, followed};
+use crate::status::{Failure, Motion, Status, finish, followed};
 
 /// Least room for a trajectory: first touch, peak, beginning of rolling and end.
 pub const SMALLEST_TRAJECTORY: usize = 4;
@@ -39,7 +40,7 @@ impl From<contact::Sample<f32>> for Sample {
 /// many there are: at most as many as there is room for, and never more than MICROIMPACT_LARGEST_TRAJECTORY. In less room,
 /// samples are left out evenly over time; first touch, peak, beginning of rolling and end are always there. In less than
 /// MICROIMPACT_SMALLEST_TRAJECTORY there is no trajectory. Where this fails, there are no samples and no result. The error may
-/// be null.
+/// be null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, the samples to room for `capacity` of them, and nobody else uses them

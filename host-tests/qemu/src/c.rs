@@ -1,4 +1,5 @@
-//! `cargo qemu c`: the C example of `examples/c`, built by a C compiler against the static library, on an emulated board.
+//! `cargo qemu c`: the C example of `examples/c`, built by a C compiler against the static library, on an emulated board, and what each
+//! function takes there.
 
 use std::fs;
 use std::path::Path;
@@ -6,6 +7,8 @@ use std::process::Command;
 use std::time::Duration;
 
 use reference::c_results;
+
+use crate::costs;
 
 use boards::C_BOARD as BOARD;
 use boards::emulator;
@@ -22,7 +25,7 @@ const PANIC_HANDLER: &str = "rust_begin_unwind";
 const LIMIT: Duration = Duration::from_secs(900);
 
 /// Every line in which the board's results differ from the host's in any bit.
-pub(crate) fn compare(choice: Choice, permission: Permission) -> Result<Vec<String>, String> {
+pub(crate) fn compare(choice: Choice, permission: Permission, overwrite: bool) -> Result<Vec<String>, String> {
     let toolchain = crate::tools(choice, &[BOARD], permission)?;
     eprintln!("C compiler: {}", packages::find(COMPILER, &PACKAGES, "", permission)?);
     let sources = firmware::repository().join("examples/c");
@@ -36,11 +39,13 @@ pub(crate) fn compare(choice: Choice, permission: Permission) -> Result<Vec<Stri
         done("the static library", process::run(&mut cargo, LIMIT))?;
     }
     panics_are_left_out(&target.join(BOARD.triple))?;
-    let executable = folder.join("results");
-    done("the C example", process::run(&mut link(&sources, &folder, &executable), LIMIT))?;
+    let [results, costs] = ["results", "costs"].map(|program| folder.join(program));
+    for (program, executable) in [("results.c", &results), ("costs.c", &costs)] {
+        done(program, process::run(&mut link(&sources, program, &folder, executable), LIMIT))?;
+    }
 
     eprintln!("running on {} ({}) ...", BOARD.core, BOARD.machine);
-    let printed = emulator::run(&BOARD, &executable)?;
+    let printed = emulator::run(&BOARD, &results)?;
     let expected = c_results::expected().map_err(|error| error.to_string())?;
     print!("{printed}");
     let (printed, expected): (Vec<_>, Vec<_>) = (printed.lines().collect(), expected.lines().collect());
@@ -50,10 +55,16 @@ pub(crate) fn compare(choice: Choice, permission: Permission) -> Result<Vec<Stri
     }
     let differing = printed.iter().zip(&expected).filter(|(printed, expected)| printed != expected);
     failures.extend(differing.map(|(printed, expected)| format!("C: {printed}\nRust: {expected}")));
+
+    eprintln!("counting instructions and stack of every function ...");
+    let printed = emulator::run_within(LIMIT, &BOARD, &costs)?;
+    print!("{printed}");
+    let (page, header) = (sources.join("README.md"), sources.join("include/microimpact.h"));
+    failures.extend(costs::compare(&page, &header, &toolchain.compiler, &printed, overwrite)?);
     Ok(failures)
 }
 
-fn link(sources: &Path, folder: &Path, executable: &Path) -> Command {
+fn link(sources: &Path, program: &str, folder: &Path, executable: &Path) -> Command {
     let mut compiler = Command::new(COMPILER);
     compiler
         .args(["-mcpu=cortex-m3", "-mthumb", "-O2", "-std=c11", "-Wall", "-Wextra", "-Werror"])
@@ -62,7 +73,7 @@ fn link(sources: &Path, folder: &Path, executable: &Path) -> Command {
         .arg(sources.join("board.ld"))
         .arg("-I")
         .arg(sources.join("include"))
-        .args([sources.join("startup.c"), sources.join("results.c"), folder.join(LIBRARY)])
+        .args([sources.join("startup.c"), sources.join(program), folder.join(LIBRARY)])
         .arg("-o")
         .arg(executable);
     compiler

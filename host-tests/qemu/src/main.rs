@@ -21,6 +21,7 @@ use boards::{BOARDS, Board, REFERENCE_CORE, absent, emulator, figures, firmware}
 mod answers;
 mod c;
 mod calibrate;
+mod costs;
 mod counts;
 mod instrument;
 mod limits;
@@ -70,7 +71,7 @@ struct Arguments {
 enum Command {
     /// Runs the instrument, sends it events and prints their classes
     Instrument(instrument::Events),
-    /// Runs the C example and compares its results with those of Rust
+    /// Runs the C example, compares its results with those of Rust, and counts what every function takes
     C,
     /// Puts the instrument on trial: full speed, damaged frames, a full queue and a reset
     Load(instrument::Load),
@@ -88,7 +89,7 @@ fn main() -> ExitCode {
     let result = match &arguments.command {
         None => run(&arguments, permission),
         Some(Command::Instrument(events)) => instrument::classify(events, arguments.toolchain, permission),
-        Some(Command::C) => c::compare(arguments.toolchain, permission),
+        Some(Command::C) => c::compare(arguments.toolchain, permission, arguments.overwrite),
         Some(Command::Load(load)) => instrument::load(load, arguments.toolchain, permission),
     };
     let failures = match result {

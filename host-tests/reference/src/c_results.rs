@@ -3,14 +3,15 @@
 use std::fmt::Write;
 
 use microimpact::contact::{
-    Collocation, CompliantVelocities, Contact, ContactLaw, JkrEnd, JkrLaw, PaperScene, Recording, RingScene, Sample,
-    SimulatedImpact, Slip, Trajectory, Unloading,
+    Collocation, CompliantVelocities, Contact, ContactLaw, FixedCost, JkrEnd, JkrLaw, PaperScene, Recording, RingScene,
+    Sample, SimulatedImpact, Slip, Trajectory, Unloading,
 };
+use microimpact::rigid::PowerRestitution;
 use microimpact::space::{Pair, SpatialMotion, Wall};
 use microimpact::table::{BoundarySlice, BoundaryTable, Lookup, RestitutionTable, TableRebound};
 use microimpact::{
-    Approach, Coulomb, InputError, NormalMotion, Oblique, PlanarMotion, Real, RigidBody, SpeedRestitution, Sphere,
-    Stiffness, SurfaceMotion,
+    Approach, Coulomb, InFixedPoint, InputError, NormalMotion, Oblique, PlanarMotion, Real, RigidBody,
+    SpeedRestitution, Sphere, Stiffness, SurfaceMotion,
 };
 
 use microimpact_scenes::table_1::{
@@ -83,7 +84,9 @@ pub fn expected() -> Result<String, InputError> {
         + &restitutions()?
         + &walls()?
         + &pairs()?
-        + &compliant()?)
+        + &compliant()?
+        + &of_one_scene()?
+        + &integers()?)
 }
 
 /// The lines of both models.
@@ -111,6 +114,56 @@ fn impacts() -> Result<String, InputError> {
         );
     }
     Ok(rigid + &simulations("contact", &contact)?)
+}
+
+/// The lines of scenes that C has as one structure, each by its type: a rigid body with two laws that others do not have, of a hollow
+/// sphere, and the method of fixed cost, which may leave an impact unsolved.
+fn of_one_scene() -> Result<String, InputError> {
+    let c = f32::constant;
+    let body = RigidBody::new(Sphere::hollow(c(RADIUS_M), 1e-6, c(DENSITY_KG_M3))?, PowerRestitution::new(90.0, 0.75)?)
+        .with_adhesion_at_speed(1.5, 2.0)?
+        .with_friction(c(FRICTION))?;
+    let contact = surface(c(RADIUS_M))?.with_friction(c(FRICTION))?;
+    let method = FixedCost::<7>::new(3)?;
+    let mut text = String::new();
+    for (index, before) in MOTIONS.into_iter().enumerate() {
+        let (impact, class) = (body.impact(&motion(before)?), body.classify(&motion(before)?).class());
+        let along = (impact.tangential.velocity(), impact.tangential.peripheral());
+        let numbers = [impact.normal.overall_restitution(), along.0, along.1];
+        line(&mut text, &format!("power {index} {}", class as u8), &numbers);
+        let impact = contact.solve(&motion(before)?, &method)?;
+        let along = (impact.tangential.velocity(), impact.tangential.spin() * c(RADIUS_M));
+        let numbers = [impact.normal.overall_restitution(), along.0, along.1];
+        match impact.class() {
+            Some(class) => line(&mut text, &format!("fixed-cost {index} {}", class as u8), &numbers),
+            None => text.push_str(&format!("fixed-cost {index} unsolved\n")),
+        }
+    }
+    Ok(text)
+}
+
+/// The lines of the rigid body in integers, with a unit of 4 m/s. Motions are those that fit.
+fn integers() -> Result<String, InputError> {
+    let c = f32::constant;
+    let body =
+        RigidBody::new(Sphere::solid(c(RADIUS_M), c(DENSITY_KG_M3))?, SpeedRestitution::new(c(RESTITUTION_SPEED_M_S))?)
+            .with_work_of_adhesion(c(WORK_OF_ADHESION_J))?
+            .with_friction(c(FRICTION))?
+            .in_fixed_point(4.0)?;
+    let mut text = String::new();
+    for (index, before) in MOTIONS.into_iter().enumerate() {
+        // An eighth is exact in both.
+        let before = before.map(|velocity| (velocity * 8.0).round() / 8.0);
+        let motion = motion(before)?.in_fixed_point(4.0)?;
+        let (impact, classification) = (body.impact(&motion), body.classify(&motion));
+        let _ = write!(text, "integers {index} {}", classification.class() as u8);
+        let along = [impact.tangential.velocity(), impact.tangential.peripheral()];
+        for number in [impact.normal.overall_restitution()].into_iter().chain(along) {
+            let _ = write!(text, " {}", number.to_bits());
+        }
+        text.push('\n');
+    }
+    Ok(text)
 }
 
 /// The lines of other laws of contact, each by its type.

@@ -3,6 +3,7 @@
 mod analyse;
 mod boundary;
 mod c_interface;
+mod c_link;
 mod classify;
 mod commands;
 mod contract;

@@ -86,6 +86,24 @@ impl FixedPoint {
         self.0.to_bits() as f64 / (1_u64 << FRACTION) as f64
     }
 
+    /// The number of `units` of 2^-24.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::FixedPoint::from_bits(1 << 23).to_f64(), 0.5);
+    /// ```
+    pub const fn from_bits(units: i32) -> Self {
+        Self(I8F24::from_bits(units))
+    }
+
+    /// The number in units of 2^-24.
+    ///
+    /// ```
+    /// assert_eq!(microimpact::FixedPoint::nearest(0.5).to_bits(), 1 << 23);
+    /// ```
+    pub const fn to_bits(self) -> i32 {
+        self.0.to_bits()
+    }
+
     /// Rounds a product with 48 fractional bits to the nearest number, or to the closest bound.
     #[inline]
     fn rounded(product: i64) -> Self {

@@ -182,3 +182,25 @@ impl<T: Real> InFixedPoint<T> for PlanarMotion<T> {
         })
     }
 }
+
+impl PlanarMotion<FixedPoint> {
+    /// Approach speed, tangential and peripheral velocity in a unit of speed: those of an instrument that measures in integers.
+    ///
+    /// # Errors
+    /// A velocity is outside its range.
+    ///
+    /// ```
+    /// use microimpact::{FixedPoint, InFixedPoint, NormalMotion, PlanarMotion};
+    ///
+    /// let velocities = [2.5, 1.0, -0.5].map(FixedPoint::nearest);
+    /// let motion = NormalMotion::new(10.0)?.with_tangential(4.0)?.with_peripheral_velocity(-2.0)?;
+    /// assert_eq!(PlanarMotion::in_units(velocities)?, motion.in_fixed_point(4.0)?);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn in_units([approach, tangential, peripheral]: [FixedPoint; 3]) -> Result<Self, InputError> {
+        let speed = Parameter::SpeedInUnits.check(approach)?;
+        let tangential = Parameter::VelocityInUnits.check(tangential)?;
+        let peripheral = Parameter::VelocityInUnits.check(peripheral)?;
+        Ok(Self { oblique: ObliqueMotion { normal: NormalMotion { speed }, tangential }, peripheral })
+    }
+}

@@ -1,0 +1,12 @@
+# Before version 1.0 each minor version is one of its own.
+set(PACKAGE_VERSION "@VERSION@")
+if(PACKAGE_FIND_VERSION_MAJOR EQUAL 0)
+    string(REGEX MATCH "^0\\.[0-9]+" microimpact_series "${PACKAGE_VERSION}")
+    if(microimpact_series VERSION_EQUAL "0.${PACKAGE_FIND_VERSION_MINOR}" AND NOT PACKAGE_VERSION VERSION_LESS PACKAGE_FIND_VERSION)
+        set(PACKAGE_VERSION_COMPATIBLE TRUE)
+    endif()
+    unset(microimpact_series)
+endif()
+if(PACKAGE_FIND_VERSION VERSION_EQUAL PACKAGE_VERSION)
+    set(PACKAGE_VERSION_EXACT TRUE)
+endif()
