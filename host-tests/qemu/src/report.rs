@@ -27,8 +27,7 @@ pub(crate) fn verdict(
     let rigid: Vec<String> = STATED.iter().filter_map(|quantity| largest(checked, *quantity)).collect();
     // Writing to a String cannot fail.
     if !rigid.is_empty() {
-        let _ =
-            writeln!(text, "The rigid body takes at most, {REFERENCE_CORE}, {}: {}.", limits::SCALAR, rigid.join("; "));
+        let _ = writeln!(text, "The rigid body, {REFERENCE_CORE}, {}: {}.", limits::SCALAR, rigid.join("; "));
     }
     let absent: Vec<f64> = figures
         .iter()
@@ -55,8 +54,7 @@ fn largest(checked: &[Figure], quantity: Quantity) -> Option<String> {
     };
     let figure = checked.iter().filter(rigid).max_by(|a, b| a.value.total_cmp(&b.value))?;
     let limit = limits::of(&figure.subject.scene, quantity)?;
-    let (name, unit, value) = (quantity.name(), quantity.unit(), quantity.digits(figure.value));
-    Some(format!("{name} {value} {unit} (limit {limit})"))
+    Some(format!("{} {} of at most {limit} {}", quantity.name(), quantity.digits(figure.value), quantity.unit()))
 }
 
 /// Place of the rigid body's table in the footprint.
@@ -69,6 +67,7 @@ fn table_of(scene: &str) -> usize {
         _ if limits::is_simulated(scene) => 1,
         _ if limits::is_table(scene) => 2,
         _ if limits::is_calibration(scene) => 4,
+        _ if limits::is_uncertain(scene) => 5,
         _ => RIGID_BODY,
     }
 }
@@ -107,10 +106,10 @@ fn cost(protocol: &Protocol, case: &Case) -> String {
     })
 }
 
-/// The promises and what became of them, the rigid body's first, then those of the simulation, of tables, of fixed point and
-/// of calibrations; a column for each scene.
+/// The promises and what became of them, the rigid body's first, then those of the simulation, of tables, of fixed point, of
+/// calibrations and of class probabilities; a column for each scene.
 pub(crate) fn footprint(checked: &[Figure]) -> String {
-    let tables = [0, 1, 2, 3, 4].map(|table| {
+    let tables = [0, 1, 2, 3, 4, 5].map(|table| {
         let own: Vec<&Figure> = checked.iter().filter(|figure| table_of(&figure.subject.scene) == table).collect();
         footprint_table(&own).to_string()
     });

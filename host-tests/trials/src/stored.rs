@@ -111,9 +111,10 @@ fn two_digits(percent: f64) -> String {
 /// A text with the table in place of the one that begins with the same line.
 fn with_table(text: &str, table: &str) -> Result<String, String> {
     let split = text.split_once(&header());
-    let rest = split.and_then(|(before, rest)| Some((before, rest.split_once("\n\n")?.1)));
-    let (before, after) = rest.ok_or_else(|| format!("{PAGE} has no table that begins with\n{}", header()))?;
-    Ok(format!("{before}{table}\n{after}"))
+    let (before, rest) = split.ok_or_else(|| format!("{PAGE} has no table that begins with\n{}", header()))?;
+    // A table may end the page.
+    let after = rest.split_once("\n\n").map_or_else(String::new, |(_, after)| format!("\n{after}"));
+    Ok(format!("{before}{table}{after}"))
 }
 
 #[cfg(test)]
@@ -134,6 +135,8 @@ mod tests {
         let text = |rows: &str| format!("before\n\n{}{rows}\n\nafter\n\nend\n", header());
         let table = format!("{}| new |\n", header());
         assert_eq!(with_table(&text("| old |\n| older |"), &table), Ok(text("| new |")));
+        let last = |rows: &str| format!("before\n\n{}{rows}\n", header());
+        assert_eq!(with_table(&last("| old |\n| older |"), &table), Ok(last("| new |")));
         assert!(with_table("before\n\nafter\n", &table).is_err());
     }
 }
