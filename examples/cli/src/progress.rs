@@ -1,9 +1,10 @@
-//! What a long command says on a terminal while it works: rows, rows a second, and the time left. Nothing in a pipe.
+//! What a long command says on a terminal while it works: rows, rows a second, and the time left, or what it does. Nothing in a pipe.
 
 use std::cell::Cell;
 use std::fmt;
 use std::io::{self, Read};
 use std::rc::Rc;
+use std::time::Duration;
 
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
@@ -78,5 +79,26 @@ impl Progress {
 impl Drop for Progress {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
+    }
+}
+
+/// Work of unknown length: what it is, and how long it has taken. Only a terminal shows it.
+pub struct Waiting(ProgressBar);
+
+/// Between two turns of the sign that work goes on.
+const TURN: Duration = Duration::from_millis(100);
+
+impl Waiting {
+    /// Says what the work is, until the value is dropped.
+    pub fn new(work: String) -> Self {
+        let bar = ProgressBar::new_spinner().with_style(style("{spinner} {msg}, {elapsed}")).with_message(work);
+        bar.enable_steady_tick(TURN);
+        Self(bar)
+    }
+}
+
+impl Drop for Waiting {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
     }
 }

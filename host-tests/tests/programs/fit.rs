@@ -256,7 +256,10 @@ fn what_cannot_be_read_says_where() {
     }
     let output = fit("speed_normal_m_s,e\n3,0.5\n", &[]);
     assert!(output.complaint().contains("rebound_speed_m_s or overall_restitution"), "{}", output.complaint());
-    assert!(fit(header, &["--law", "magic"]).complaint().contains("the law must be one of"));
+    let unknown = fit(header, &["--law", "magic"]).complaint();
+    assert!(unknown.contains("possible values") && unknown.contains("speed-restitution"), "{unknown}");
+    let several = fit(&format!("{header}-3,2.5,0.1,\n3,2.5,0.1,\n2.8,,0.1,\n"), &[]).complaint();
+    assert!(["row 1: ", "row 3: ", "2 rows are refused"].iter().all(|words| several.contains(words)), "{several}");
 }
 
 /// The example of the help runs, and the figure shows every impact with a legend.

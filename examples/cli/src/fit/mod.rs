@@ -10,11 +10,13 @@ use std::error::Error;
 use std::io::BufRead;
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use impact_fit::{Law, ScatterModel, compete};
 
 use crate::Streams;
 use crate::command::{Reading, exit_status, open};
+use crate::progress::Waiting;
 use answer::Answer;
 pub use rows::INPUTS;
 
@@ -46,7 +48,7 @@ pub struct Options {
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
     /// The law to fit, instead of all.
-    #[arg(long, value_parser = law_of)]
+    #[arg(long, value_parser = PossibleValuesParser::new(Law::ALL.map(Law::name)).try_map(|name| law_of(&name)))]
     law: Option<Law>,
     /// Take the stated errors for all of the scatter; a law that they do not explain does not fit (chi-squared).
     #[arg(long)]
@@ -92,10 +94,7 @@ enum Format {
 }
 
 fn law_of(name: &str) -> Result<Law, String> {
-    Law::ALL.into_iter().find(|law| law.name() == name).ok_or_else(|| {
-        let names: Vec<_> = Law::ALL.iter().map(|law| law.name()).collect();
-        format!("the law must be one of {}", names.join(", "))
-    })
+    Law::ALL.into_iter().find(|law| law.name() == name).ok_or_else(|| format!("no law is called {name}"))
 }
 
 const NAME: &str = "fit";
@@ -113,7 +112,9 @@ fn run(options: &Options, streams: &mut Streams<'_>) -> Result<(), Box<dyn Error
     let table = rows::read(NAME, &options.reading, source, streams.errors)?;
     let laws = options.law.map_or(Law::ALL.to_vec(), |law| vec![law]);
     let scatter = if options.no_natural_scatter { ScatterModel::Errors } else { ScatterModel::Free };
+    let waiting = Waiting::new(format!("fitting {} laws to {} impacts", laws.len(), table.observations.len()));
     let verdict = compete(&table.observations, &laws, scatter);
+    drop(waiting);
     let answer = Answer { table: &table, verdict: &verdict };
     match options.format {
         Format::Table => answer.write_table(streams.output)?,

@@ -65,11 +65,15 @@ pub fn read(
     errors: &mut dyn Write,
 ) -> Result<Measurements, String> {
     let mut sheet = reading.open(command, source, &INPUTS, |_| Vec::new(), errors)?;
-    let mut rows = Vec::new();
+    let (mut rows, mut refused) = (Vec::new(), Vec::new());
     while let Some(row) = sheet.next_row()? {
-        rows.push(
-            row.check().and_then(|()| read_row(&row)).map_err(|reason| format!("row {}: {reason}", row.index()))?,
-        );
+        match row.check().and_then(|()| read_row(&row)) {
+            Ok(read) => rows.push(read),
+            Err(reason) => refused.push(format!("row {}: {reason}", row.index())),
+        }
+    }
+    if !refused.is_empty() {
+        return Err(in_lines(&refused));
     }
     let with_mass = rows.iter().filter(|row| row.observation.sphere.is_some()).count();
     if with_mass > 0 && with_mass < rows.len() {
@@ -106,6 +110,18 @@ pub fn read(
     });
     let observations = rows.into_iter().map(|row| row.observation).collect();
     Ok(Measurements { observations, assumptions, default_error, diameter })
+}
+
+/// Refused rows that are listed.
+const LISTED: usize = 10;
+
+/// Why rows are refused, each on a line. A fit without them might be another.
+fn in_lines(refused: &[String]) -> String {
+    let mut lines = refused[..refused.len().min(LISTED)].join("\n");
+    if refused.len() > 1 {
+        lines += &format!("\n{} rows are refused, and the fit would miss them; correct or delete them", refused.len());
+    }
+    lines
 }
 
 fn read_row(row: &Row<'_>) -> Result<Read, String> {
