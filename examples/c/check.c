@@ -347,10 +347,14 @@ static void boundary(void)
     motion->approach = 0.5f;
     assert(microimpact_boundary_classify(table, 5e-6f, motion, verdict, NULL) == MICROIMPACT_STATUS_OK);
     assert(*verdict == MICROIMPACT_VERDICT_CAPTURE);
-    const float outside[] = {NAN, INFINITY, -INFINITY, -5e-6f, 0.0f, 1e-6f, 1e-5f, 3.4e38f};
+    const float outside[] = {1e-6f, 1e-5f}, none[] = {NAN, INFINITY, -INFINITY, -5e-6f, 0.0f, 3.4e38f};
     for (size_t i = 0; i < sizeof outside / sizeof outside[0]; i++) {
         assert(microimpact_boundary_classify(table, outside[i], motion, verdict, &error) == MICROIMPACT_STATUS_OK);
         assert(*verdict == MICROIMPACT_VERDICT_OUTSIDE_TABLE);
+    }
+    for (size_t i = 0; i < sizeof none / sizeof none[0]; i++) {
+        assert(microimpact_boundary_classify(table, none[i], motion, verdict, &error) == MICROIMPACT_STATUS_INPUT);
+        assert(error.parameter == 0 && error.fault != MICROIMPACT_FAULT_NONE);
     }
 
     assert(microimpact_boundary_make(NULL, 5e-6f, cells, CELLS, table, &error) == MICROIMPACT_STATUS_POINTER);
@@ -410,11 +414,13 @@ static void restitution(void)
     motion->approach = 0.5f;
     assert(microimpact_restitution_read(table, 5.06e-6f, motion, reading, &error) == MICROIMPACT_STATUS_OK);
     assert(reading->verdict == MICROIMPACT_VERDICT_CAPTURE && reading->restitution == 0.0f);
-    const float outside[] = {NAN, INFINITY, -INFINITY, -5e-6f, 0.0f, 1e-6f, 1e-5f, 3.4e38f};
+    const float outside[] = {1e-6f, 1e-5f}, none[] = {NAN, INFINITY, -INFINITY, -5e-6f, 0.0f, 3.4e38f};
     for (size_t i = 0; i < sizeof outside / sizeof outside[0]; i++) {
         assert(microimpact_restitution_read(table, outside[i], motion, reading, &error) == MICROIMPACT_STATUS_OK);
         assert(reading->verdict == MICROIMPACT_VERDICT_OUTSIDE_TABLE && reading->restitution < 0.0f);
     }
+    for (size_t i = 0; i < sizeof none / sizeof none[0]; i++)
+        assert(microimpact_restitution_read(table, none[i], motion, reading, &error) == MICROIMPACT_STATUS_INPUT);
 
     assert(microimpact_restitution_read(NULL, 5e-6f, motion, reading, &error) == MICROIMPACT_STATUS_POINTER);
     assert(microimpact_restitution_read(table, 5e-6f, NULL, reading, &error) == MICROIMPACT_STATUS_POINTER);

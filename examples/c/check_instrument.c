@@ -129,7 +129,7 @@ static void sized_events(void)
     assert(microimpact_event_classify(materials, 2, &event, &impact, &error) == MICROIMPACT_STATUS_OK && fabsf(impact.restitution - 0.9f) < 1e-6f);
     event.material = 2;
     assert(microimpact_event_classify(materials, 2, &event, &impact, &error) == MICROIMPACT_STATUS_INPUT);
-    assert(error.fault == MICROIMPACT_FAULT_NOT_IN_TABLE && error.value == 2.0);
+    assert(error.fault == MICROIMPACT_FAULT_NOT_IN_TABLE && error.value == 2.0 && error.largest == 1.0);
     event.material = 0, event.radius = -1.0f;
     assert(microimpact_event_classify(materials, 2, &event, &impact, &error) == MICROIMPACT_STATUS_INPUT && error.parameter == 0);
     assert(microimpact_event_classify(NULL, 2, &event, &impact, &error) == MICROIMPACT_STATUS_POINTER);
@@ -146,7 +146,7 @@ static void counts(void)
     memset(&tally, 0, sizeof tally);
     assert(microimpact_tally_read(&tally, &report) == MICROIMPACT_STATUS_UNMADE);
     assert(microimpact_tally_record(&tally, 1.5f, MICROIMPACT_STATUS_OK, &impact) == MICROIMPACT_STATUS_UNMADE);
-    assert(microimpact_tally_init(&tally, falling, &error) == MICROIMPACT_STATUS_INPUT && error.fault == MICROIMPACT_FAULT_TOO_SMALL);
+    assert(microimpact_tally_init(&tally, falling, &error) == MICROIMPACT_STATUS_INPUT && error.fault == MICROIMPACT_FAULT_OUT_OF_ORDER);
     assert(microimpact_tally_init(&tally, edges, &error) == MICROIMPACT_STATUS_OK);
     for (int i = 0; i < 4; i++) {
         impact.restitution = 0.5f + 0.1f * (float)i;
@@ -161,6 +161,12 @@ static void counts(void)
     /* What is no class, or no impact, is not counted. */
     impact.impact_class = 6;
     assert(microimpact_tally_record(&tally, 1.5f, MICROIMPACT_STATUS_OK, &impact) == MICROIMPACT_STATUS_CHOICE);
+    impact.impact_class = MICROIMPACT_CLASS_REBOUND_SLIDING, impact.restitution = 1.5f;
+    assert(microimpact_tally_record(&tally, 1.5f, MICROIMPACT_STATUS_OK, &impact) == MICROIMPACT_STATUS_INPUT);
+    impact.restitution = NAN;
+    assert(microimpact_tally_record(&tally, 1.5f, MICROIMPACT_STATUS_OK, &impact) == MICROIMPACT_STATUS_INPUT);
+    impact.restitution = 0.9f;
+    assert(microimpact_tally_record(&tally, -1.5f, MICROIMPACT_STATUS_OK, &impact) == MICROIMPACT_STATUS_INPUT);
     assert(microimpact_tally_record(&tally, 1.5f, MICROIMPACT_STATUS_OK, NULL) == MICROIMPACT_STATUS_POINTER);
     assert(microimpact_tally_record(NULL, 1.5f, MICROIMPACT_STATUS_OK, &impact) == MICROIMPACT_STATUS_POINTER);
     assert(microimpact_tally_read(&tally, &report) == MICROIMPACT_STATUS_OK);

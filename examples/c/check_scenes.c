@@ -56,7 +56,7 @@ static void same_as_each_model(void)
 {
     const MicroimpactRigidScene body = {5.06e-6f, 2600.0f, 130.0f, 2.22e-12f, 0.1f};
     MicroimpactContactScene material;
-    MicroimpactSceneConfig scene = rigid();
+    MicroimpactSceneConfig made, scene = rigid();
     MicroimpactSceneImpact impact;
     MicroimpactClassification classified;
     MicroimpactContact end;
@@ -91,9 +91,11 @@ static void same_as_each_model(void)
     assert(microimpact_scene_critical_speed(&scene, &speed, NULL) == MICROIMPACT_STATUS_CHOICE);
     scene.iterations = 41;
     assert(microimpact_scene_classify(&scene, &MOTION, &impact, &error) == MICROIMPACT_STATUS_INPUT && error.value == 41.0);
-    /* A law without a method of fixed cost is not answered. */
+    /* A law without a method of fixed cost is refused when the scene is made. */
     scene.iterations = 3, scene.adhesion = MICROIMPACT_ADHESION_JKR_SNAP_OFF, scene.adhesion_energy = 0.1f;
-    assert(microimpact_scene_classify(&scene, &MOTION, &impact, &error) == MICROIMPACT_STATUS_UNSOLVED);
+    assert(microimpact_scene_init(&scene, &made, &error) == MICROIMPACT_STATUS_CHOICE);
+    scene.adhesion = MICROIMPACT_ADHESION_WITHOUT_TENSION;
+    assert(microimpact_scene_classify(&scene, &MOTION, &impact, &error) == MICROIMPACT_STATUS_CHOICE);
 }
 
 static void misuse_of_scenes(void)
@@ -195,6 +197,11 @@ static void probabilities(void)
         assert(microimpact_scene_probabilities(&scene, &motion, 0.9f, &found, &error) == MICROIMPACT_STATUS_OK);
         assert(found.impact_class == MICROIMPACT_CLASS_REBOUND_ROLLING);
         assert(microimpact_scene_probabilities(&scene, &motion, 0.4f, &found, &error) == MICROIMPACT_STATUS_INPUT);
+        /* So much of this distribution is negative that no class has a known probability. */
+        motion.approach.standard_error = critical;
+        assert(microimpact_scene_probabilities(&scene, &motion, 0.9f, &found, &error) == MICROIMPACT_STATUS_INPUT);
+        assert(error.value == (double)critical && error.fault == MICROIMPACT_FAULT_TOO_LARGE);
+        motion.approach.standard_error = 0.02f * critical;
     }
     assert(fabsf(sum - 2.0f) < 1e-5f);
     scene.iterations = 3;

@@ -135,7 +135,7 @@ fn check_edges<T: Real>(parameter: Parameter, edges: &[T]) -> Result<(), InputEr
     let mut before = T::ZERO;
     for &edge in edges {
         if parameter.check(edge)? <= before {
-            return Err(InputError { parameter, fault: Fault::TooSmall, value: edge.to_f64() as f32 });
+            return Err(InputError { parameter, fault: Fault::OutOfOrder, value: edge.to_f64() as f32 });
         }
         before = edge;
     }

@@ -70,7 +70,10 @@ enum {
   MICROIMPACT_STATUS_CAPACITY,
   /* A table, a tally or a scene in integers that was never made. */
   MICROIMPACT_STATUS_UNMADE,
-  /* A choice, of a model or a term, that there is not. */
+  /*
+   A choice, of a model or a term, that there is not; or a method that this function does not take: a scene of `iterations` where a
+   tolerance is needed.
+   */
   MICROIMPACT_STATUS_CHOICE,
   /* Fewer measurements than a fit needs. */
   MICROIMPACT_STATUS_TOO_FEW,
@@ -280,7 +283,11 @@ typedef struct MicroimpactSceneConfig {
   float external_force;
   /* Tolerance of the square of the restitution of a contact; microimpact_scene_init makes zero 1e-6. */
   float tolerance;
-  /* Iterations of the method of fixed cost, 1 to 40, which then takes the place of the one with a tolerance; zero for the latter. */
+  /*
+   Iterations of the method of fixed cost, 1 to 40, which then takes the place of the one with a tolerance; zero for the latter.
+   Contact has to begin and end at zero indentation: with MICROIMPACT_ADHESION_WITHOUT_TENSION or JKR the status is
+   MICROIMPACT_STATUS_CHOICE.
+   */
   uint32_t iterations;
 } MicroimpactSceneConfig;
 
@@ -324,7 +331,7 @@ typedef struct MicroimpactError {
   uint32_t parameter;
   /* What is wrong with it. */
   MicroimpactFault fault;
-  /* Smallest valid value. */
+  /* Smallest valid value of the parameter by itself; what other numbers of the scene demand of it, the fault says. */
   double smallest;
   /* Largest valid value. */
   double largest;
@@ -388,7 +395,10 @@ typedef struct MicroimpactFit {
   uint32_t captures;
   /* Number of rebounds so far from the curve that they have no weight. */
   uint32_t outliers;
-  /* One if the law fits; zero if the impacts show a trend over speed that it does not have, or contradict the critical speed. */
+  /*
+   One if nothing in these impacts contradicts the law; zero if they show a trend over speed that it does not have, or contradict
+   the critical speed. Few impacts, or a narrow range of speeds, contradict little.
+   */
   uint32_t fits;
 } MicroimpactFit;
 
@@ -629,7 +639,7 @@ typedef struct MicroimpactTallyReport {
   float mean[MICROIMPACT_TALLY_RANGES];
   /* Variance of it; negative with fewer than two rebounds. */
   float variance[MICROIMPACT_TALLY_RANGES];
-  /* Upper edges of the bins of speed, m/s. */
+  /* Upper edges of the bins of speed, m/s; a speed equal to an edge counts in the bin above it. */
   float edges[MICROIMPACT_TALLY_BINS];
 } MicroimpactTallyReport;
 
@@ -806,7 +816,7 @@ MicroimpactStatus microimpact_fixed_init(const struct MicroimpactRigidScene *sce
 
 /*
  Classifies an impact of a rigid body in integers alone; a number that is refused is the exception, of which the error tells in
- floating point. Velocities are exact to 1e-5 units. The error may be null. Re-entrant.
+ floating point. Velocities are exact to 1e-5 units, and to 1e-4 close to the critical speed. The error may be null. Re-entrant.
  On a Cortex-M3, at most 3611 instructions and 224 bytes of stack.
 
  # Safety
@@ -821,7 +831,8 @@ MicroimpactStatus microimpact_fixed_classify(const struct MicroimpactFixedBody *
  Probabilities of the classes of an uncertain motion, and the class if one reaches the confidence, 0.5 to 1. The scene is that of
  microimpact_scene_init, whose radius does not count; a contact needs a tolerance, not iterations. A rigid body takes 12 thousand
  instructions in single precision on a Cortex-M4F, and a contact millions. With standard errors of up to 10 % the error of a
- probability is below 0.01. The error may be null. Re-entrant.
+ probability is below 0.01, and below 0.03 for few motions that are close to capture and to the limit of slip at once; above three tenths of the approach speed or of the radius they are refused. The error may be null.
+ Re-entrant.
  On a Cortex-M3, rigid body, at most 232933 instructions and 3512 bytes of stack.
  On a Cortex-M3, contact, at most 181129140 instructions and 5576 bytes of stack.
 
@@ -1174,7 +1185,8 @@ MicroimpactStatus microimpact_restitution_read(const struct MicroimpactRestituti
                                                struct MicroimpactError *error);
 
 /*
- Makes an empty tally with the upper edges of eight bins of speed, m/s, which rise. The error may be null. Re-entrant.
+ Makes an empty tally with the upper edges of eight bins of speed, m/s, which rise. If they are refused, the tally
+ stays as it was. The error may be null. Re-entrant.
  On a Cortex-M3, at most 889 instructions and 80 bytes of stack.
 
  # Safety
@@ -1186,8 +1198,8 @@ MicroimpactStatus microimpact_tally_init(struct MicroimpactTally *tally,
 
 /*
  Counts an impact, by how it was classified: `status` is what that function has returned, and the impact counts if it is
- MICROIMPACT_STATUS_OK. MICROIMPACT_STATUS_INPUT counts as refused, any other status as unsolved; the impact may then be null. Not
- re-entrant: a tally belongs to the main loop, or to one interrupt.
+ MICROIMPACT_STATUS_OK. MICROIMPACT_STATUS_INPUT counts as refused, any other status as unsolved; the impact may then be null. An impact with a speed or
+ a restitution that is none is not counted, and gives MICROIMPACT_STATUS_INPUT. Not re-entrant: a tally belongs to the main loop, or to one interrupt.
  On a Cortex-M3, at most 1764 instructions and 412 bytes of stack.
 
  # Safety

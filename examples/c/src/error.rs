@@ -68,7 +68,9 @@ impl Fault {
             Self::ExceedsRadius => "above the radius of the sphere",
             Self::BelowPrecision => "below the precision of float; at least 1e-6",
             Self::TooFewNodes => "below what the nodes of the method can keep",
-            Self::OtherLaw => "does not go with the other terms of the scene; make it zero or choose another law",
+            Self::OtherLaw => {
+                "does not go with the other terms of the scene; leave it or them out, or choose another law"
+            }
             Self::OutOfOrder => "not above that of the point before; sort the points",
             Self::TwoBodies => "acts on one body where two meet; make it zero",
             Self::Receding => "the bodies do not approach; the normal points to the (first) sphere",
@@ -86,7 +88,7 @@ pub struct Error {
     pub parameter: u32,
     /// What is wrong with it.
     pub fault: Fault,
-    /// Smallest valid value.
+    /// Smallest valid value of the parameter by itself; what other numbers of the scene demand of it, the fault says.
     pub smallest: f64,
     /// Largest valid value.
     pub largest: f64,
@@ -99,13 +101,31 @@ impl Error {
     pub(crate) const NONE: Self = Self { parameter: 0, fault: Fault::None, smallest: 0.0, largest: 0.0, value: 0.0 };
 }
 
+/// The least tolerance in single precision.
+const LEAST_TOLERANCE: f64 = 1e-6;
+
 impl From<InputError> for Error {
     fn from(error: InputError) -> Self {
-        let (smallest, largest) = error.parameter.range();
-        let parameter = Parameter::ALL.iter().position(|parameter| *parameter == error.parameter);
-        let parameter = parameter.unwrap_or(Parameter::ALL.len()) as u32;
+        let (mut smallest, largest) = error.parameter.range();
+        if error.fault == microimpact::Fault::BelowPrecision {
+            smallest = LEAST_TOLERANCE;
+        }
+        let parameter = number(error.parameter);
         Self { parameter, fault: error.fault.into(), smallest, largest, value: error.value.into() }
     }
+}
+
+impl Error {
+    /// An index of a material that is not one of `count`.
+    pub(crate) fn beyond(index: u32, count: usize) -> Self {
+        let (parameter, largest) = (number(Parameter::MaterialIndex), count.saturating_sub(1) as f64);
+        Self { parameter, fault: Fault::NotInTable, smallest: 0.0, largest, value: index.into() }
+    }
+}
+
+/// Number of a parameter, as in the protocol of instruments.
+fn number(parameter: Parameter) -> u32 {
+    Parameter::ALL.iter().position(|other| *other == parameter).unwrap_or(Parameter::ALL.len()) as u32
 }
 
 /// Writes parts of a text and a zero byte to a buffer, cut off where it is too small, and returns the length of the whole text.

@@ -1,7 +1,5 @@
 //! Events of an instrument that measures size and time, and knows the material.
 
-use microimpact::{Fault, InputError, Parameter};
-
 use crate::error::Error;
 use crate::memory;
 use crate::scene::{SceneConfig, SceneImpact};
@@ -40,8 +38,7 @@ pub unsafe extern "C" fn microimpact_event_classify(
             let event = followed(memory::read(event))?;
             let index = event.material as usize;
             if index >= count {
-                let (parameter, fault) = (Parameter::MaterialIndex, Fault::NotInTable);
-                return Err(InputError { parameter, fault, value: event.material as f32 }.into());
+                return Err(Failure::Index { index: event.material, count });
             }
             let mut scene = followed(memory::read(memory::element(materials, index)))?;
             if event.radius != 0.0 {

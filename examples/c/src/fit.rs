@@ -91,7 +91,8 @@ pub struct Fit {
     pub captures: u32,
     /// Number of rebounds so far from the curve that they have no weight.
     pub outliers: u32,
-    /// One if the law fits; zero if the impacts show a trend over speed that it does not have, or contradict the critical speed.
+    /// One if nothing in these impacts contradicts the law; zero if they show a trend over speed that it does not have, or contradict
+    /// the critical speed. Few impacts, or a narrow range of speeds, contradict little.
     pub fits: u32,
 }
 

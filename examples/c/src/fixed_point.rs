@@ -85,7 +85,7 @@ pub unsafe extern "C" fn microimpact_fixed_init(
 }
 
 /// Classifies an impact of a rigid body in integers alone; a number that is refused is the exception, of which the error tells in
-/// floating point. Velocities are exact to 1e-5 units. The error may be null. Re-entrant.
+/// floating point. Velocities are exact to 1e-5 units, and to 1e-4 close to the critical speed. The error may be null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.

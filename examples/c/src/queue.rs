@@ -157,6 +157,6 @@ fn ended(result: Result<(), Failure>) -> Status {
     match result {
         Ok(()) => Status::Ok,
         Err(Failure::Status(status)) => status,
-        Err(Failure::Input(_)) => Status::Input,
+        Err(Failure::Input(_) | Failure::Index { .. }) => Status::Input,
     }
 }

@@ -73,6 +73,8 @@ pub struct SceneConfig {
     /// Tolerance of the square of the restitution of a contact; microimpact_scene_init makes zero 1e-6.
     pub tolerance: f32,
     /// Iterations of the method of fixed cost, 1 to 40, which then takes the place of the one with a tolerance; zero for the latter.
+    /// Contact has to begin and end at zero indentation: with MICROIMPACT_ADHESION_WITHOUT_TENSION or JKR the status is
+    /// MICROIMPACT_STATUS_CHOICE.
     pub iterations: u32,
 }
 
@@ -159,6 +161,10 @@ impl SceneConfig {
         let method = match self.iterations {
             _ if self.model == Model::RigidBody as u32 => SceneMethod::None,
             0 => SceneMethod::Tolerance(Collocation::new(self.tolerance)?),
+            // That method carries laws whose contact begins and ends at zero indentation.
+            _ if matches!(self.adhesion()?, AdhesionConfig::WithoutTension | AdhesionConfig::Jkr { .. }) => {
+                return Err(Failure::Status(Status::Choice));
+            }
             iterations => SceneMethod::FixedCost(FixedCost::<7>::new(iterations)?.with_outputs()),
         };
         Ok((scene, method))

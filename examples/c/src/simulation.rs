@@ -198,7 +198,8 @@ impl Contact {
         let class = impact.class().ok_or(Failure::Status(Status::Unsolved))?;
         Ok(Self {
             impact_class: class.into(),
-            restitution: impact.normal.overall_restitution(),
+            // A force out of the surface may let rounding exceed one.
+            restitution: impact.normal.overall_restitution().min(1.0),
             peak_indentation: impact.normal.peak_indentation().unwrap_or(-1.0),
             tangential: impact.tangential.velocity(),
             spin: impact.tangential.spin(),

@@ -21,7 +21,8 @@ pub enum Status {
     Capacity,
     /// A table, a tally or a scene in integers that was never made.
     Unmade,
-    /// A choice, of a model or a term, that there is not.
+    /// A choice, of a model or a term, that there is not; or a method that this function does not take: a scene of `iterations` where a
+    /// tolerance is needed.
     Choice,
     /// Fewer measurements than a fit needs.
     TooFew,
@@ -39,6 +40,7 @@ pub(crate) unsafe fn finish(result: Result<(), Failure>, error: *mut Error) -> S
     let (status, detail) = match result {
         Ok(()) => (Status::Ok, Error::NONE),
         Err(Failure::Input(input)) => (Status::Input, input.into()),
+        Err(Failure::Index { index, count }) => (Status::Input, Error::beyond(index, count)),
         Err(Failure::Status(status)) => (status, Error::NONE),
     };
     // The error is optional: who does not want it passes null.
@@ -75,6 +77,11 @@ where
 /// Why a function has no results.
 pub(crate) enum Failure {
     Input(InputError),
+    /// An index of a material that is not one of `count`.
+    Index {
+        index: u32,
+        count: usize,
+    },
     Status(Status),
 }
 

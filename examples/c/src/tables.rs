@@ -1,7 +1,7 @@
 //! Tables: capture or rebound, restitution, and sliding or rolling, without a simulation.
 
 use microimpact::table::{self, BoundarySlice, Lookup, TableOutcome, TableRebound};
-use microimpact::{Coulomb, InputError, PlanarMotion, Sphere};
+use microimpact::{Coulomb, InputError, Parameter, PlanarMotion, Sphere};
 
 use crate::error::Error;
 use crate::memory;
@@ -112,6 +112,7 @@ pub unsafe extern "C" fn microimpact_boundary_classify(
         let classified = || -> Result<(), Failure> {
             let BoundaryTable { smallest_radius, margin, cells, count } = followed(memory::read(table))?;
             let motion = followed(memory::read(motion))?.check()?;
+            Parameter::Radius.check(radius)?;
             let cells = followed(memory::slice(cells, count))?;
             let cell = BoundarySlice::cell(smallest_radius, margin, cells, radius)?;
             let found = cell.map_or(TableOutcome::OutsideTable, |cell| cell.classify(radius, &motion));
@@ -237,6 +238,7 @@ pub unsafe extern "C" fn microimpact_restitution_read(
                 return Err(Failure::Status(Status::Unmade));
             }
             let motion = followed(memory::read(motion))?.check()?;
+            Parameter::Radius.check(radius)?;
             followed(memory::write(reading, made.read(radius, &motion)))
         };
         finish(found(), error)

@@ -1,5 +1,6 @@
 //! Counts of the classes of an instrument, and the restitution of its rebounds by speed.
 
+use microimpact::Parameter;
 use microimpact::instrument::{self, ClassSet, Rejection, SpeedBins, Statistics, Verdict};
 
 use crate::error::Error;
@@ -54,11 +55,12 @@ pub struct TallyReport {
     pub mean: [f32; TALLY_RANGES],
     /// Variance of it; negative with fewer than two rebounds.
     pub variance: [f32; TALLY_RANGES],
-    /// Upper edges of the bins of speed, m/s.
+    /// Upper edges of the bins of speed, m/s; a speed equal to an edge counts in the bin above it.
     pub edges: [f32; TALLY_BINS],
 }
 
-/// Makes an empty tally with the upper edges of eight bins of speed, m/s, which rise. The error may be null. Re-entrant.
+/// Makes an empty tally with the upper edges of eight bins of speed, m/s, which rise. If they are refused, the tally
+/// stays as it was. The error may be null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, the edges to eight, and nobody else uses it during the call.
@@ -75,8 +77,8 @@ pub unsafe extern "C" fn microimpact_tally_init(tally: *mut Tally, edges: *const
 }
 
 /// Counts an impact, by how it was classified: `status` is what that function has returned, and the impact counts if it is
-/// MICROIMPACT_STATUS_OK. MICROIMPACT_STATUS_INPUT counts as refused, any other status as unsolved; the impact may then be null. Not
-/// re-entrant: a tally belongs to the main loop, or to one interrupt.
+/// MICROIMPACT_STATUS_OK. MICROIMPACT_STATUS_INPUT counts as refused, any other status as unsolved; the impact may then be null. An impact with a speed or
+/// a restitution that is none is not counted, and gives MICROIMPACT_STATUS_INPUT. Not re-entrant: a tally belongs to the main loop, or to one interrupt.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -97,7 +99,9 @@ pub unsafe extern "C" fn microimpact_tally_record(
                 let class = followed(memory::read((&raw const (*impact).impact_class).cast::<u32>()))?;
                 let restitution = followed(memory::read(&raw const (*impact).restitution))?;
                 let class = microimpact::Class::ALL.get(class as usize).ok_or(Failure::Status(Status::Choice))?;
-                let restitution = Some(restitution).filter(|restitution| restitution.is_finite());
+                Parameter::ApproachSpeed.check(approach)?;
+                let rebounds = matches!(class, microimpact::Class::ReboundSliding | microimpact::Class::ReboundRolling);
+                let restitution = rebounds.then(|| Parameter::Restitution.check(restitution)).transpose()?;
                 made.tally.record(approach, &Verdict { class: *class, restitution });
             } else if status == Status::Input as u32 {
                 made.tally.reject(&REFUSED);
@@ -112,7 +116,7 @@ pub unsafe extern "C" fn microimpact_tally_record(
 
 /// A refusal of any number: the tally counts all of them together.
 const REFUSED: Rejection = Rejection::Input(microimpact::InputError {
-    parameter: microimpact::Parameter::ApproachSpeed,
+    parameter: Parameter::ApproachSpeed,
     fault: microimpact::Fault::NotFinite,
     value: 0.0,
 });

@@ -83,7 +83,7 @@ impl CompliantContact {
         let (class, along) = (impact.class().ok_or(Failure::Status(Status::Unsolved))?, &impact.tangential);
         Ok(Self {
             impact_class: class.into(),
-            restitution: impact.normal.overall_restitution(),
+            restitution: impact.normal.overall_restitution().min(1.0),
             peak_indentation: impact.normal.peak_indentation().unwrap_or(-1.0),
             tangential: along.velocity(),
             spin: along.spin(),

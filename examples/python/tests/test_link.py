@@ -134,6 +134,9 @@ def test_events_of_other_schemas():
     assert message == b"\0\xac\x02\x81\x01" + struct.pack("<d", 5e-6) + b"\x07" + struct.pack("<d", 2.8)
     with pytest.raises(ValueError, match="has 3 values, but there are 1"):
         link.event(OWN, 1, [2.8])
+    for value in (float("nan"), float("inf"), 1e39):
+        with pytest.raises(ValueError, match="must be a finite number"):
+            link.event(OWN, 1, [value, 0, 0])
     with pytest.raises(ValueError, match="must be 0 to 255"):
         link.event(OWN, 1, [1, 2, 3], material=256)
     with pytest.raises(ValueError, match="must be 0 to 4294967295"):

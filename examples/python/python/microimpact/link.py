@@ -15,6 +15,7 @@ byte by byte.
 
 from __future__ import annotations
 
+import math
 import struct
 import zlib
 from collections.abc import Iterable, Sequence
@@ -88,6 +89,8 @@ _REPLIES = (
     "refused",
 )
 _NUMBERS = {1: "<f", 2: "<d"}
+# The largest finite number of each type.
+_LARGEST = {1: 3.4028234663852886e38, 2: math.inf}
 _MOST_CLASSES = 16
 _OWN = 128
 
@@ -176,6 +179,9 @@ def event(
     if not 0 <= material < 256:
         raise ValueError(f"index of the material is {material}, but must be 0 to 255")
     form = _NUMBERS[schema.number]
+    for value in (radius, *values):
+        if not math.isfinite(value) or abs(value) > _LARGEST[schema.number]:
+            raise ValueError(f"a value is {value}, but must be a finite number of the schema's type")
     stamp = _integer(ticks) if schema.reading & STAMPED else b""
     size = struct.pack(form, radius) + bytes([material]) if schema.reading & SIZED else b""
     reading = b"".join(struct.pack(form, value) for value in values)
