@@ -6,7 +6,8 @@
 //! * **Many impacts** determine the restitution law and the work of adhesion ([`RestitutionFit`]), the friction coefficient
 //!   ([`friction`]) or the spin ([`rolling_motion`]), each with its standard error. Outliers do not change the result.
 //! * **Uncertain inputs** give [probabilities of the classes](ClassProbabilities), of the rigid body and of the simulation. With
-//!   standard errors of up to 10 %, the error of a probability is below 0.01.
+//!   standard errors of up to 10 %, the error of a probability is below 0.01, but for a few motions that are close to capture and to
+//!   the limit of slip at once: there it may be 0.03.
 //!
 //! If a measurement does not determine a parameter, the result is a [`CalibrationError`] with the reason.
 

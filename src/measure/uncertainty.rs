@@ -333,7 +333,8 @@ where
 /// For inputs with standard errors of up to 10 % and a critical speed, the probabilities of a rigid body and of a simulation
 /// differ by about 0.001 on the average from those of simulated random inputs, and by less than 0.01 in the scenes of the tests,
 /// where both boundaries between the classes are close; those include scenes in which one input near the bound of its range, as a
-/// restitution near one, alone decides whether the sphere rebounds. Random inputs beyond the range of their
+/// restitution near one, alone decides whether the sphere rebounds. In a few scenes the error may be 0.03: where slip just ends, and the
+/// slowest of the likely motions end in capture. Random inputs beyond the range of their
 /// [parameter](Uncertain::within) take the nearest value of the range. If the inputs without errors have no critical speed, their
 /// outcome counts as certain.
 ///

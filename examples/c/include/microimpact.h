@@ -717,7 +717,7 @@ uint32_t microimpact_abi(void);
 
 /*
  A number made of the sizes of all structures, to be compared with MICROIMPACT_LAYOUT, which the caller's compiler makes of the
- same: they differ where structures are packed, or an option of the compiler changes the size of a type. Re-entrant.
+ same: they differ where an option of the compiler changes the size of a structure. Re-entrant.
  On a Cortex-M3, at most 5 instructions and 64 bytes of stack.
  */
 uint32_t microimpact_layout(void);
@@ -1159,7 +1159,8 @@ MicroimpactStatus microimpact_boundary_classify(const struct MicroimpactBoundary
 
 /*
  Makes a restitution table of the material, the surface and the friction of a scene, whose radius does not count: over two
- octaves of radii from one on (m), and up to `speed_ratio` times the critical speed. The error may be null. Re-entrant.
+ octaves of radii from one on (m), and up to `speed_ratio` times the critical speed. If it fails, the room keeps what it held. The
+ error may be null. Re-entrant.
  On a Cortex-M3, at most 904640964 instructions and 4032 bytes of stack.
 
  # Safety

@@ -192,7 +192,7 @@ MICROIMPACT_LINK_FUNCTION int microimpact_link_read_request(const MicroimpactLin
     request->kind = (int)microimpact_link_integer(&in, 31u);
     request->number = (uint32_t)microimpact_link_integer(&in, 32u);
     if ((kind < (unsigned)MICROIMPACT_LINK_NORMAL) || (kind > (unsigned)MICROIMPACT_LINK_UNCERTAIN)
-        || (request->kind > MICROIMPACT_LINK_CONFIGURE)) {
+        || (request->kind > MICROIMPACT_LINK_CONFIGURE) || ((type != (uint8_t)MICROIMPACT_LINK_F32) && (type != (uint8_t)MICROIMPACT_LINK_F64))) {
         in.good = 0;
     } else if (request->kind == MICROIMPACT_LINK_EVENT) {
         if (((unsigned)schema->reading & (unsigned)MICROIMPACT_LINK_STAMPED) != 0u) {
@@ -220,7 +220,7 @@ MICROIMPACT_LINK_FUNCTION int microimpact_link_read_request(const MicroimpactLin
     return ((in.good != 0) && (in.at == in.length)) ? (int)MICROIMPACT_LINK_MESSAGE_IN : (int)MICROIMPACT_LINK_CONTENT;
 }
 
-/* Makes a frame of the request to classify by a scene from now on; zero if it has an unknown choice, or the frame does not fit. The
+/* Makes a frame of the request to classify by a scene from now on; zero if it or the schema has an unknown choice, or the frame does not fit. The
    tolerance and the iterations of the scene are the instrument's own. */
 MICROIMPACT_LINK_FUNCTION size_t microimpact_link_configure(const MicroimpactLinkSchema *schema, uint32_t number,
                                                             const MicroimpactSceneConfig *scene, uint8_t *frame, size_t capacity)
@@ -230,7 +230,8 @@ MICROIMPACT_LINK_FUNCTION size_t microimpact_link_configure(const MicroimpactLin
     /* A copy, since the fields of a term are found for reading them too. */
     MicroimpactSceneConfig copy = *scene;
     const uint8_t type = schema->number;
-    if ((copy.model > 1u) || (copy.restitution_law > 4u) || (copy.rebound_adhesion > 3u) || (copy.damping > 3u) || (copy.adhesion > 5u)) {
+    if ((copy.model > 1u) || (copy.restitution_law > 4u) || (copy.rebound_adhesion > 3u) || (copy.damping > 3u) || (copy.adhesion > 5u)
+        || ((type != (uint8_t)MICROIMPACT_LINK_F32) && (type != (uint8_t)MICROIMPACT_LINK_F64))) {
         return 0u;
     }
     microimpact_link_put(&out, (uint8_t)MICROIMPACT_LINK_CONFIGURE);

@@ -78,7 +78,7 @@ pub extern "C" fn microimpact_abi() -> u32 {
 }
 
 /// A number made of the sizes of all structures, to be compared with MICROIMPACT_LAYOUT, which the caller's compiler makes of the
-/// same: they differ where structures are packed, or an option of the compiler changes the size of a type. Re-entrant.
+/// same: they differ where an option of the compiler changes the size of a structure. Re-entrant.
 #[unsafe(no_mangle)]
 pub extern "C" fn microimpact_layout() -> u32 {
     LAYOUT

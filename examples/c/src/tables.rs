@@ -147,7 +147,8 @@ const _: () = assert!(size_of::<Made>() == size_of::<RestitutionTable>());
 const _: () = assert!(align_of::<Made>() == align_of::<RestitutionTable>());
 
 /// Makes a restitution table of the material, the surface and the friction of a scene, whose radius does not count: over two
-/// octaves of radii from one on (m), and up to `speed_ratio` times the critical speed. The error may be null. Re-entrant.
+/// octaves of radii from one on (m), and up to `speed_ratio` times the critical speed. If it fails, the room keeps what it held. The
+/// error may be null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.
