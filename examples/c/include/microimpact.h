@@ -747,7 +747,7 @@ size_t microimpact_parameter_unit(uint32_t parameter, char *buffer, size_t capac
  Writes an error in words, from its parameter and its fault, and a zero byte to a buffer, as "approach speed (m/s): below the smallest
  valid value", cut off where it is too small, and returns the length of the whole text, zero if there is no error. MICROIMPACT_LARGEST_TEXT bytes are always enough.
  The numbers are in the error: printf("%s: %g, not %g to %g", text, error.value, error.smallest, error.largest). Re-entrant.
- On a Cortex-M3, at most 1975 instructions and 152 bytes of stack.
+ On a Cortex-M3, at most 2128 instructions and 152 bytes of stack.
 
  # Safety
  The buffer is null or has room for `capacity` bytes.
@@ -760,7 +760,7 @@ size_t microimpact_describe(uint32_t parameter,
 /*
  What becomes of the particle of an event: the scene at the index of its material, of `count`, with the radius of the event. The
  other numbers of the scene, a work of adhesion too, stay as they are. The error may be null. Re-entrant.
- On a Cortex-M3, rigid body, at most 3391 instructions and 1272 bytes of stack.
+ On a Cortex-M3, rigid body, at most 3401 instructions and 1304 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, the materials to `count` of them, and nobody else uses it during the call.
@@ -775,7 +775,7 @@ MicroimpactStatus microimpact_event_classify(const struct MicroimpactSceneConfig
  Fits the law to `count` measured impacts, of which at least 12 are rebounds, in room of the caller for as many. The intervals hold the
  truth in 93 to 97 of 100 sets from 30 rebounds on. The time it takes grows with the square of the number. The error may be null.
  Re-entrant, with other room.
- On a Cortex-M3, 30 impacts, at most 49137410 instructions and 1032 bytes of stack.
+ On a Cortex-M3, 30 impacts, at most 49137181 instructions and 1056 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, the impacts and the room to `count` of them, and nobody else uses it during the
@@ -790,7 +790,7 @@ MicroimpactStatus microimpact_fit_restitution(const struct MicroimpactMeasuredIm
 /*
  Writes the strength zeta_H of hysteretic damping with which a scene without adhesion rebounds with a measured restitution at a speed,
  m/s. Of the scene, radius, density, stiffness and tolerance count. The error may be null. Re-entrant.
- On a Cortex-M3, at most 3293654 instructions and 2040 bytes of stack.
+ On a Cortex-M3, at most 3293633 instructions and 2032 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -804,7 +804,7 @@ MicroimpactStatus microimpact_fit_material_damping(const struct MicroimpactConta
 /*
  Makes a rigid body in integers of a scene and a unit of speed, m/s, near the speeds that occur. This takes floating point; what it
  makes can be copied, stored and made on another machine of the same byte order. The error may be null. Re-entrant.
- On a Cortex-M3, at most 4056 instructions and 288 bytes of stack.
+ On a Cortex-M3, at most 4074 instructions and 296 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -817,7 +817,7 @@ MicroimpactStatus microimpact_fixed_init(const struct MicroimpactRigidScene *sce
 /*
  Classifies an impact of a rigid body in integers alone; a number that is refused is the exception, of which the error tells in
  floating point. Velocities are exact to 1e-5 units, and to 1e-4 close to the critical speed. The error may be null. Re-entrant.
- On a Cortex-M3, at most 3611 instructions and 224 bytes of stack.
+ On a Cortex-M3, at most 3605 instructions and 200 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -833,8 +833,8 @@ MicroimpactStatus microimpact_fixed_classify(const struct MicroimpactFixedBody *
  instructions in single precision on a Cortex-M4F, and a contact millions. With standard errors of up to 10 % the error of a
  probability is below 0.01, and below 0.03 for few motions that are close to capture and to the limit of slip at once; above three tenths of the approach speed or of the radius they are refused. The error may be null.
  Re-entrant.
- On a Cortex-M3, rigid body, at most 232933 instructions and 3512 bytes of stack.
- On a Cortex-M3, contact, at most 181129140 instructions and 5576 bytes of stack.
+ On a Cortex-M3, rigid body, at most 237340 instructions and 3528 bytes of stack.
+ On a Cortex-M3, contact, at most 181129552 instructions and 5592 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -892,7 +892,7 @@ uint32_t microimpact_queue_lost(const struct MicroimpactQueue *queue);
  Initialises a scene with parameters, of which what is left out is zero, and checks every one. The error names the first that
  is outside its range, and may be null. Where this fails, the scene holds zeros, which every function reports. The parameters
  and the scene may be the same memory. Re-entrant.
- On a Cortex-M3, at most 1116 instructions and 272 bytes of stack.
+ On a Cortex-M3, at most 1140 instructions and 304 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -903,7 +903,7 @@ MicroimpactStatus microimpact_rigid_init(const struct MicroimpactRigidScene *par
 
 /*
  Classifies an impact of a rigid body. The error may be null. Re-entrant.
- On a Cortex-M3, at most 3292 instructions and 328 bytes of stack.
+ On a Cortex-M3, at most 3303 instructions and 328 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -918,7 +918,7 @@ MicroimpactStatus microimpact_classify(const struct MicroimpactRigidScene *scene
  chosen terms have. The error names the first that is outside its range, and may be null; an unknown choice is
  MICROIMPACT_STATUS_CHOICE. Where this fails, the scene holds zeros, which every function reports. The parameters and the scene may
  be the same memory. Re-entrant.
- On a Cortex-M3, at most 1627 instructions and 1008 bytes of stack.
+ On a Cortex-M3, at most 1803 instructions and 1200 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -930,9 +930,9 @@ MicroimpactStatus microimpact_scene_init(const struct MicroimpactSceneConfig *pa
 /*
  What becomes of a sphere of a scene. A contact for which the method does not come to an end, or whose error the method of fixed
  cost cannot bound, is MICROIMPACT_STATUS_UNSOLVED. The error may be null. Re-entrant.
- On a Cortex-M3, rigid body, at most 3351 instructions and 1256 bytes of stack.
- On a Cortex-M3, tolerance, at most 623717 instructions and 2080 bytes of stack.
- On a Cortex-M3, 3 iterations, at most 196754 instructions and 1232 bytes of stack.
+ On a Cortex-M3, rigid body, at most 3360 instructions and 1296 bytes of stack.
+ On a Cortex-M3, tolerance, at most 623785 instructions and 2096 bytes of stack.
+ On a Cortex-M3, 3 iterations, at most 196840 instructions and 1272 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -945,8 +945,8 @@ MicroimpactStatus microimpact_scene_classify(const struct MicroimpactSceneConfig
 /*
  Writes the speed below which the surface holds a sphere of a scene, m/s: zero if it never does, a negative number if it always
  does. A contact needs a tolerance, not iterations. The error may be null. Re-entrant.
- On a Cortex-M3, rigid body, at most 1732 instructions and 768 bytes of stack.
- On a Cortex-M3, contact, at most 14941602 instructions and 2264 bytes of stack.
+ On a Cortex-M3, rigid body, at most 1751 instructions and 800 bytes of stack.
+ On a Cortex-M3, contact, at most 14941626 instructions and 2272 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -959,7 +959,7 @@ MicroimpactStatus microimpact_scene_critical_speed(const struct MicroimpactScene
  Initialises a scene with parameters, of which what is left out is zero, fills in the tolerance if it is, and checks every
  one. The error names the first that is outside its range, and may be null. Where this fails, the scene holds zeros, which
  every function reports. The parameters and the scene may be the same memory. Re-entrant.
- On a Cortex-M3, at most 1118 instructions and 536 bytes of stack.
+ On a Cortex-M3, at most 1125 instructions and 536 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -971,7 +971,7 @@ MicroimpactStatus microimpact_contact_init(const struct MicroimpactContactScene 
 /*
  Simulates `count` impacts into a buffer with room for `capacity` results, in the order of the motions, and writes how many
  there are, of those before the first that fails. The error may be null. Re-entrant.
- On a Cortex-M3, at most 623517 instructions and 1640 bytes of stack.
+ On a Cortex-M3, at most 623576 instructions and 1648 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, the motions to `count` of them and the results to room for
@@ -994,7 +994,7 @@ MicroimpactStatus microimpact_simulate(const struct MicroimpactContactScene *sce
 
  It is an error with the fault MICROIMPACT_FAULT_RECEDING if the sphere does not approach the wall. Where this fails, nothing
  is written but the error, which may be null. Re-entrant.
- On a Cortex-M3, at most 9730 instructions and 696 bytes of stack.
+ On a Cortex-M3, at most 9742 instructions and 712 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1010,7 +1010,7 @@ MicroimpactStatus microimpact_wall_incidence(const struct MicroimpactWall *wall,
  microimpact_wall_incidence takes. The sphere keeps it. So a sphere of MICROIMPACT_CLASS_CAPTURED_RESTING rests only if this
  velocity is zero, and else rolls sideways with it. Where this fails, nothing is written but the error, which may be null.
  Re-entrant.
- On a Cortex-M3, at most 9727 instructions and 696 bytes of stack.
+ On a Cortex-M3, at most 9741 instructions and 712 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1031,7 +1031,7 @@ MicroimpactStatus microimpact_wall_sideways(const struct MicroimpactWall *wall,
 
  The motions before and after may be the same memory. Where this fails, nothing is written but the error, which may be null.
  Re-entrant.
- On a Cortex-M3, at most 11131 instructions and 784 bytes of stack.
+ On a Cortex-M3, at most 11141 instructions and 776 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1054,7 +1054,7 @@ MicroimpactStatus microimpact_wall_after(const struct MicroimpactWall *wall,
 
  It is an error with the fault MICROIMPACT_FAULT_RECEDING if the spheres do not approach each other. Where this fails, nothing
  is written but the error, which may be null. Re-entrant.
- On a Cortex-M3, at most 10103 instructions and 872 bytes of stack.
+ On a Cortex-M3, at most 10124 instructions and 888 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1075,7 +1075,7 @@ MicroimpactStatus microimpact_pair_incidence(const struct MicroimpactPair *pair,
 
  The motions after the impact may be in the memory of those of the pair. Where this fails, nothing is written but the error,
  which may be null. Re-entrant.
- On a Cortex-M3, at most 12295 instructions and 992 bytes of stack.
+ On a Cortex-M3, at most 12298 instructions and 992 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, the motions to room for two of them, and nobody else uses them during
@@ -1090,7 +1090,7 @@ MicroimpactStatus microimpact_pair_after(const struct MicroimpactPair *pair,
 /*
  Writes radius, mean density and gyration ratio of a hollow sphere into a scene, with the radius (m), the thickness of its wall (m) and
  the density of the wall (kg/m^3). Everything else of the scene stays as it is. The error may be null. Re-entrant.
- On a Cortex-M3, at most 1860 instructions and 304 bytes of stack.
+ On a Cortex-M3, at most 1872 instructions and 272 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1104,7 +1104,7 @@ MicroimpactStatus microimpact_sphere_hollow(float radius,
 /*
  The same for a coated sphere, with the radius (m), the thickness of the coating (m) and the densities of core and coating (kg/m^3).
  Re-entrant.
- On a Cortex-M3, at most 2033 instructions and 312 bytes of stack.
+ On a Cortex-M3, at most 2047 instructions and 280 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1120,7 +1120,7 @@ MicroimpactStatus microimpact_sphere_coated(float radius,
  Makes a boundary table of the material and the surface of a scene, whose radius and friction do not count, from a radius on
  (m), in cells of the caller, which the table keeps pointing to. Where it fails, the cells hold no table. The error may be
  null. Re-entrant.
- On a Cortex-M3, 12 cells, at most 1037333222 instructions and 2424 bytes of stack.
+ On a Cortex-M3, 12 cells, at most 1037333163 instructions and 2416 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, the cells to room for `count` of them, and nobody else uses them
@@ -1135,7 +1135,7 @@ MicroimpactStatus microimpact_boundary_make(const struct MicroimpactContactScene
 
 /*
  Checks all of a boundary table: a constant once, at start-up. The error may be null. Re-entrant.
- On a Cortex-M3, 12 cells, at most 1568 instructions and 160 bytes of stack.
+ On a Cortex-M3, 12 cells, at most 1579 instructions and 120 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call; so do the cells.
@@ -1146,7 +1146,7 @@ MicroimpactStatus microimpact_boundary_check(const struct MicroimpactBoundaryTab
 /*
  Tells rebound from capture of a sphere of a radius (m). Of the table, the cell around that radius is checked. The error may
  be null. Re-entrant.
- On a Cortex-M3, at most 455 instructions and 184 bytes of stack.
+ On a Cortex-M3, at most 552 instructions and 224 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call; so do the cells.
@@ -1161,7 +1161,7 @@ MicroimpactStatus microimpact_boundary_classify(const struct MicroimpactBoundary
  Makes a restitution table of the material, the surface and the friction of a scene, whose radius does not count: over two
  octaves of radii from one on (m), and up to `speed_ratio` times the critical speed. If it fails, the room keeps what it held. The
  error may be null. Re-entrant.
- On a Cortex-M3, at most 904640964 instructions and 4032 bytes of stack.
+ On a Cortex-M3, at most 904642250 instructions and 3960 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1174,7 +1174,7 @@ MicroimpactStatus microimpact_restitution_make(const struct MicroimpactContactSc
 
 /*
  Reads from a table what becomes of a sphere of a radius (m). The error may be null. Re-entrant.
- On a Cortex-M3, at most 6930 instructions and 248 bytes of stack.
+ On a Cortex-M3, at most 6991 instructions and 232 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1188,7 +1188,7 @@ MicroimpactStatus microimpact_restitution_read(const struct MicroimpactRestituti
 /*
  Makes an empty tally with the upper edges of eight bins of speed, m/s, which rise. If they are refused, the tally
  stays as it was. The error may be null. Re-entrant.
- On a Cortex-M3, at most 889 instructions and 80 bytes of stack.
+ On a Cortex-M3, at most 884 instructions and 108 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, the edges to eight, and nobody else uses it during the call.
@@ -1201,7 +1201,7 @@ MicroimpactStatus microimpact_tally_init(struct MicroimpactTally *tally,
  Counts an impact, by how it was classified: `status` is what that function has returned, and the impact counts if it is
  MICROIMPACT_STATUS_OK. MICROIMPACT_STATUS_INPUT counts as refused, any other status as unsolved; the impact may then be null. An impact with a speed or
  a restitution that is none is not counted, and gives MICROIMPACT_STATUS_INPUT. Not re-entrant: a tally belongs to the main loop, or to one interrupt.
- On a Cortex-M3, at most 1764 instructions and 412 bytes of stack.
+ On a Cortex-M3, at most 1911 instructions and 448 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1224,7 +1224,7 @@ MicroimpactStatus microimpact_tally_read(const struct MicroimpactTally *tally,
 /*
  Initialises a scene as microimpact_contact_init does, with the tolerance of its contact. If another law of contact is asked for, the
  error names the stiffness ratio with the fault MICROIMPACT_FAULT_OTHER_LAW. Re-entrant.
- On a Cortex-M3, at most 2118 instructions and 736 bytes of stack.
+ On a Cortex-M3, at most 2130 instructions and 744 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1237,7 +1237,7 @@ MicroimpactStatus microimpact_compliant_init(const struct MicroimpactCompliantSc
  Simulates impacts with compliance along the surface, as microimpact_simulate does without. microimpact_wall_after and
  microimpact_pair_after take the restitution and the tangential velocity of the results. For microimpact_pair_incidence, initialise
  the contact of the scene with the radius and the density of the reduced sphere. Re-entrant.
- On a Cortex-M3, at most 35306404 instructions and 2136 bytes of stack.
+ On a Cortex-M3, at most 35306475 instructions and 2128 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, the motions to `count` of them and the results to room for
@@ -1257,7 +1257,7 @@ MicroimpactStatus microimpact_simulate_compliant(const struct MicroimpactComplia
  samples are left out evenly over time; first touch, peak, beginning of rolling and end are always there. In less than
  MICROIMPACT_SMALLEST_TRAJECTORY there is no trajectory. Where this fails, there are no samples and no result. The error may
  be null. Re-entrant.
- On a Cortex-M3, at most 1460876 instructions and 10352 bytes of stack.
+ On a Cortex-M3, at most 1460980 instructions and 10408 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, the samples to room for `capacity` of them, and nobody else uses them
