@@ -156,3 +156,8 @@ def test_scenes_that_there_are_not():
         link.contact(1e10, ("strong", 1.0))
     with pytest.raises(ValueError, match="restitution 'power' has 2 numbers, but there are 1"):
         link.rigid_body(("power", 1.0))
+
+
+def test_a_zero_byte_is_in_no_frame():
+    with pytest.raises(link.LinkError, match="not encoded by COBS"):
+        link.unframe(b"\0abc")

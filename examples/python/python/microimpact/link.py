@@ -95,7 +95,7 @@ _MOST_CLASSES = 16
 _OWN = 128
 
 
-Term = tuple[object, ...]
+Term = tuple[str | float, ...]
 """The name of a term and its numbers: ("work", 2.22e-12)."""
 
 
@@ -188,7 +188,7 @@ def event(
     return frame(b"\0" + _integer(_checked(number)) + stamp + size + reading)
 
 
-def rigid_body(restitution: Term, adhesion: Term = ("none",)) -> tuple[object, ...]:
+def rigid_body(restitution: Term, adhesion: Term = ("none",)) -> tuple[int | float, ...]:
     """A rigid body for `configure`: of RESTITUTIONS and REBOUND_ADHESIONS, each with its numbers as in the documentation."""
     law = _term("restitution", RESTITUTIONS, (1, 1, 2, 1, 2), restitution)
     return (0, *law, *_term("adhesion", REBOUND_ADHESIONS, (0, 1, 1, 2), adhesion))
@@ -196,7 +196,7 @@ def rigid_body(restitution: Term, adhesion: Term = ("none",)) -> tuple[object, .
 
 def contact(
     stiffness: float, damping: Term = ("none",), adhesion: Term = ("none",), force: float = 0.0
-) -> tuple[object, ...]:
+) -> tuple[int | float, ...]:
     """A contact for `configure`: of DAMPINGS and ADHESIONS, each with its numbers as in the documentation."""
     choice, *numbers = _term("adhesion", ADHESIONS, (0, 0, 2, 1, 1, 1), adhesion)
     # Where contact ends is a choice of its own.
@@ -204,20 +204,20 @@ def contact(
     return (1, float(stiffness), *_term("damping", DAMPINGS, (0, 1, 1, 1), damping), *law, float(force))
 
 
-def _term(what: str, names: Sequence[str], lengths: Sequence[int], term: Term) -> tuple[object, ...]:
+def _term(what: str, names: Sequence[str], lengths: Sequence[int], term: Term) -> tuple[int | float, ...]:
     name, *numbers = term
     if name not in names:
         raise ValueError(f"{what} is {name!r}, but must be one of {', '.join(names)}")
     choice = names.index(name)
     if len(numbers) != lengths[choice]:
         raise ValueError(f"{what} {name!r} has {lengths[choice]} numbers, but there are {len(numbers)}")
-    return (choice, *map(float, numbers))
+    return (choice, *(float(value) for value in numbers))
 
 
 def configure(
     schema: Schema,
     number: int,
-    model: Sequence[object],
+    model: Sequence[int | float],
     *,
     radius: float,
     density: float,
@@ -228,7 +228,7 @@ def configure(
     if schema.number not in _NUMBERS:
         raise ValueError(f"number type is {schema.number}, but must be 1 (f32) or 2 (f64)")
     form = _NUMBERS[schema.number]
-    values = (float(radius), float(density), float(gyration_ratio), float(friction), *model)
+    values: tuple[int | float, ...] = (float(radius), float(density), float(gyration_ratio), float(friction), *model)
     scene = (struct.pack(form, value) if isinstance(value, float) else _integer(value) for value in values)
     return frame(b"\5" + _integer(_checked(number)) + b"".join(scene))
 
@@ -237,9 +237,9 @@ def unframe(content: bytes) -> bytes:
     """The message in what is between two zero bytes; LinkError if it is damaged."""
     message = bytearray()
     while content:
-        block, content = content[1 : content[0]], content[content[0] :] if len(content) >= content[0] else None
-        if content is None:
+        if not 0 < content[0] <= len(content):
             raise LinkError("a frame is cut off, or not encoded by COBS")
+        block, content = content[1 : content[0]], content[content[0] :]
         message += block
         if content and len(block) < 254:
             message.append(0)
@@ -277,7 +277,8 @@ class _Message:
                 return value
 
     def number(self, form: str) -> float:
-        return struct.unpack(form, self.take(struct.calcsize(form)))[0]
+        value: float = struct.unpack(form, self.take(struct.calcsize(form)))[0]
+        return value
 
     def choice(self, otherwise: str) -> dict[str, object]:
         choice = self.integer()
