@@ -1,4 +1,4 @@
-/* Events, the queue and the tally of an instrument, on a host, under the sanitizers. */
+/* Events, the queue, the tally and the frames of an instrument, on a host, under the sanitizers. */
 
 /* Signals and timers, beside C11. */
 #define _DEFAULT_SOURCE
@@ -9,6 +9,8 @@
 #include <sys/time.h>
 
 #include "microimpact.h"
+#include "microimpact_link.h"
+#include "microimpact_instrument_link.h"
 
 #undef NDEBUG
 #include <assert.h>
@@ -178,6 +180,18 @@ static void counts(void)
     assert(microimpact_tally_read(&tally, NULL) == MICROIMPACT_STATUS_POINTER);
 }
 
+/* A scene is written in a type of numbers that there is, or not at all. */
+static void types_of_numbers(void)
+{
+    const MicroimpactSceneConfig scene = scene_of(0.0f);
+    uint8_t frame[MICROIMPACT_LINK_FRAME];
+    for (uint8_t number = 0; number < 5; number++) {
+        const MicroimpactLinkSchema schema = {number, MICROIMPACT_LINK_PLANAR, MICROIMPACT_LINK_FRICTION};
+        const size_t length = microimpact_link_configure(&schema, 1, &scene, frame, sizeof frame);
+        assert((length > 0) == (number == MICROIMPACT_LINK_F32 || number == MICROIMPACT_LINK_F64));
+    }
+}
+
 int main(void)
 {
     first_in_first_out();
@@ -185,5 +199,6 @@ int main(void)
     misuse_of_the_queue();
     sized_events();
     counts();
+    types_of_numbers();
     return 0;
 }

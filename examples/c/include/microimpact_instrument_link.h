@@ -192,7 +192,7 @@ MICROIMPACT_LINK_FUNCTION int microimpact_link_read_request(const MicroimpactLin
     request->kind = (int)microimpact_link_integer(&in, 31u);
     request->number = (uint32_t)microimpact_link_integer(&in, 32u);
     if ((kind < (unsigned)MICROIMPACT_LINK_NORMAL) || (kind > (unsigned)MICROIMPACT_LINK_UNCERTAIN)
-        || (request->kind > MICROIMPACT_LINK_CONFIGURE) || ((type != (uint8_t)MICROIMPACT_LINK_F32) && (type != (uint8_t)MICROIMPACT_LINK_F64))) {
+        || (request->kind > MICROIMPACT_LINK_CONFIGURE) || (microimpact_link_is_number(type) == 0)) {
         in.good = 0;
     } else if (request->kind == MICROIMPACT_LINK_EVENT) {
         if (((unsigned)schema->reading & (unsigned)MICROIMPACT_LINK_STAMPED) != 0u) {
@@ -231,7 +231,7 @@ MICROIMPACT_LINK_FUNCTION size_t microimpact_link_configure(const MicroimpactLin
     MicroimpactSceneConfig copy = *scene;
     const uint8_t type = schema->number;
     if ((copy.model > 1u) || (copy.restitution_law > 4u) || (copy.rebound_adhesion > 3u) || (copy.damping > 3u) || (copy.adhesion > 5u)
-        || ((type != (uint8_t)MICROIMPACT_LINK_F32) && (type != (uint8_t)MICROIMPACT_LINK_F64))) {
+        || (microimpact_link_is_number(type) == 0)) {
         return 0u;
     }
     microimpact_link_put(&out, (uint8_t)MICROIMPACT_LINK_CONFIGURE);

@@ -316,6 +316,12 @@ MICROIMPACT_LINK_FUNCTION unsigned microimpact_link_width(uint8_t type)
     return width;
 }
 
+/* Whether a type of numbers is one that there is. */
+MICROIMPACT_LINK_FUNCTION int microimpact_link_is_number(uint8_t type)
+{
+    return ((type == (uint8_t)MICROIMPACT_LINK_F32) || (type == (uint8_t)MICROIMPACT_LINK_F64)) ? 1 : 0;
+}
+
 MICROIMPACT_LINK_FUNCTION double microimpact_link_number(MicroimpactLinkCursor *in, uint8_t type)
 {
     uint64_t bits = 0u;
@@ -406,7 +412,7 @@ MICROIMPACT_LINK_FUNCTION size_t microimpact_link_event(const MicroimpactLinkSch
     values[2] = reading->peripheral;
     values[3] = reading->radius;
     if ((kind < (unsigned)MICROIMPACT_LINK_NORMAL) || (kind > (unsigned)MICROIMPACT_LINK_UNCERTAIN) || (schema->reading >= 64u)
-        || ((type != (uint8_t)MICROIMPACT_LINK_F32) && (type != (uint8_t)MICROIMPACT_LINK_F64))) {
+        || (microimpact_link_is_number(type) == 0)) {
         return 0u;
     }
     microimpact_link_put(&out, (uint8_t)MICROIMPACT_LINK_EVENT);

@@ -308,10 +308,13 @@ pub struct Comparison {
     pub worse: Vec<String>,
 }
 
-/// More than 5 %, and more than is tolerated in any case.
+/// Part of a stored figure by which another may exceed it.
+pub const LARGEST_EXCESS: f64 = 0.05;
+
+/// More than that part, and more than is tolerated in any case.
 fn is_worse(quantity: Quantity, before: f64, now: f64) -> bool {
     let more = now - before;
-    more > quantity.tolerated() && more > 0.05 * before
+    more > quantity.tolerated() && more > LARGEST_EXCESS * before
 }
 
 #[cfg(test)]

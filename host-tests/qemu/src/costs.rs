@@ -4,11 +4,10 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
+use boards::figures::LARGEST_EXCESS;
+
 const BEGIN: &str = "<!-- written by cargo qemu --overwrite c -->";
 const END: &str = "<!-- end -->";
-
-/// Most by which a figure may exceed the stored one of the same compiler.
-const LARGEST_EXCESS: f64 = 0.05;
 
 /// A function, its instructions and its stack in bytes.
 struct Cost<'a> {

@@ -2,8 +2,8 @@
 //!
 //! It integrates B6 to B10 in indentation x and speed y = x', with forces of x^(1/2) and x^(3/2). The units are those of
 //! the other methods, which leaves the errors of a fixed step as they are. Where contact ends, linear interpolation estimates the
-//! time, and where sliding ends, a search finds it; the step is repeated up to it. As the forces are not smooth where x = 0, the error falls with
-//! the power 3/2 of the step with adhesion and 5/2 without, not 4.
+//! time, and where sliding ends, a search finds it; the step is repeated up to it. As the forces are not smooth where x = 0, the
+//! error falls with the power 3/2 of the step with adhesion and 5/2 without, not 4.
 
 use core::cell::Cell;
 
