@@ -252,7 +252,11 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
             (state, carry) = (next, rest);
             times.now = times.now + duration;
             let s = law.coordinate(depth)?;
-            too_long = too_long || (O::DEMANDS && step * observer.fastest_decay(law, s) > T::constant(LARGEST_DECAY));
+            // Within a step that turns the sphere back, it is deeper than at either end, and a stage of the step deeper still.
+            let deepest = depth.max(x + half * duration * y);
+            too_long = too_long
+                || (O::DEMANDS
+                    && step * observer.fastest_decay(law, law.coordinate(deepest)?) > T::constant(LARGEST_DECAY));
             left = total(s, speed);
             let here = || left + (before.1 - left) * (outside - depth) / (before.0 - depth);
             if speed < zero && before.0 > outside && depth <= outside {
