@@ -280,6 +280,28 @@ fn a_spin_that_decays_faster_than_the_steps_is_no_result() {
     assert!(answers[..4].iter().all(|solved| *solved) && answers[12..].contains(&false), "{answers:?}");
 }
 
+/// A force turns the sphere back within the first step: the moment is strong only where the sphere is deepest, not where the step ends.
+#[test]
+fn a_spin_that_decays_while_a_step_turns_the_sphere_back_is_no_result() {
+    let sphere = Sphere::new(2.96e-5, 238.0, 0.0353).unwrap();
+    let scene = Contact::hertz(sphere, Stiffness::new(1e8).unwrap()).with_damping(1.0).unwrap();
+    let scene = scene.with_ring(0.0316, 1.0).unwrap().with_external_force(1e-6).unwrap();
+    let scene = scene.with_friction(0.0316).unwrap();
+    let motion = NormalMotion::new(0.001).unwrap().with_tangential(2.85).unwrap().with_spin(&sphere, -8e10).unwrap();
+    let mut answers = Vec::new();
+    for lambda in [1e-14, 1e-2] {
+        let scene = scene.with_peeling(lambda).unwrap();
+        let exact = scene.solve(&motion, &Collocation::<12, f64>::new(1e-10).unwrap()).unwrap().tangential.spin();
+        let found = scene.solve(&motion, &RungeKuttaGill::new(53)).unwrap();
+        if found.run.status == Status::Solved {
+            let error = (found.tangential.spin() - exact).abs() / 8e10;
+            assert!(error < 0.1, "{lambda:e}: {error:e}");
+        }
+        answers.push(found.run.status == Status::Solved);
+    }
+    assert_eq!(answers, [true, false]);
+}
+
 /// Friction that ends a fast slip within a hundredth of a step: sliding backward must not be left over, which a rolling sphere never loses.
 #[test]
 fn a_slip_that_ends_within_a_step_leaves_a_rolling_sphere() {
