@@ -379,6 +379,8 @@ pub enum Fault {
     /// The table has no such entry.
     #[cfg(feature = "instrument")]
     NotInTable,
+    /// The standard error of the value is above three tenths of it.
+    TooUncertain,
 }
 
 /// An invalid input: the parameter, the value found, and how the value misses its range.
@@ -453,6 +455,7 @@ impl fmt::Display for InputError {
             ),
             #[cfg(feature = "instrument")]
             Fault::NotInTable => f.write_str("be the index of an entry of the table; the first entry has the index 0"),
+            Fault::TooUncertain => f.write_str("have a standard error of at most three tenths of it"),
             Fault::TwoBodies => f.write_str("be zero where two spheres meet; it acts on one of them"),
             Fault::OutOfOrder if parameter == Parameter::ReboundSpeed => {
                 f.write_str("not be below that of the point before; R v never falls with the speed v")

@@ -2,7 +2,7 @@
 
 use super::{ClassSet, Classifier, PlanarReading, Reading, Rejection, Verdict};
 use crate::measure::{ClassProbabilities, Classifiable, Estimate, Uncertain};
-use crate::{Approach, Class, Fault, InputError, NormalMotion, Parameter, PlanarMotion, Real};
+use crate::{Approach, Class, InputError, NormalMotion, Parameter, PlanarMotion, Real};
 
 /// A reading with standard errors: the motion of a particle in a plane, and its radius. The errors are independent.
 ///
@@ -37,19 +37,6 @@ pub struct UncertainReading<T> {
     pub radius: Estimate<T>,
 }
 
-/// Largest standard error of an approach speed or a radius over its value. With larger ones an appreciable part of the values would be
-/// negative, for which there is no class: with this one it is 4e-4.
-const LARGEST_RELATIVE_ERROR: f64 = 0.3;
-
-/// Refuses a quantity of which too much may be negative.
-fn positive<T: Real>(estimate: &Estimate<T>) -> Result<(), InputError> {
-    if estimate.standard_error > T::constant(LARGEST_RELATIVE_ERROR) * estimate.value {
-        let value = estimate.standard_error.to_f64() as f32;
-        return Err(InputError { parameter: Parameter::StandardError, fault: Fault::TooLarge, value });
-    }
-    Ok(())
-}
-
 impl<T: Real> Reading for UncertainReading<T> {
     type Motion = UncertainMotion<T>;
 
@@ -66,8 +53,6 @@ impl<T: Real> Reading for UncertainReading<T> {
             input(&self.peripheral, Parameter::PeripheralVelocity)?,
             input(&self.radius, Parameter::Radius)?,
         ];
-        positive(&self.approach)?;
-        positive(&self.radius)?;
         Ok(UncertainMotion { motion, inputs })
     }
 }

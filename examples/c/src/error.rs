@@ -34,6 +34,8 @@ pub enum Fault {
     Receding,
     /// An index beyond the end of a table.
     NotInTable,
+    /// A standard error above three tenths of the value.
+    TooUncertain,
     /// Any other fault.
     Other,
 }
@@ -52,6 +54,7 @@ impl From<microimpact::Fault> for Fault {
             microimpact::Fault::TwoBodies => Self::TwoBodies,
             microimpact::Fault::Receding => Self::Receding,
             microimpact::Fault::NotInTable => Self::NotInTable,
+            microimpact::Fault::TooUncertain => Self::TooUncertain,
             _ => Self::Other,
         }
     }
@@ -75,6 +78,7 @@ impl Fault {
             Self::TwoBodies => "acts on one body where two meet; make it zero",
             Self::Receding => "the bodies do not approach; the normal points to the (first) sphere",
             Self::NotInTable => "beyond the end of the table; the first entry has the index 0",
+            Self::TooUncertain => "known too badly; its standard error is at most three tenths of it",
             Self::Other => "not valid",
         }
     }
@@ -197,7 +201,7 @@ pub unsafe extern "C" fn microimpact_describe(
     unsafe { write_text(parts.into_iter(), buffer, capacity) }
 }
 
-const FAULTS: [Fault; 12] = [
+const FAULTS: [Fault; 13] = [
     Fault::None,
     Fault::NotFinite,
     Fault::TooSmall,
@@ -210,6 +214,7 @@ const FAULTS: [Fault; 12] = [
     Fault::TwoBodies,
     Fault::Receding,
     Fault::NotInTable,
+    Fault::TooUncertain,
 ];
 
 /// Room that is enough for every text of microimpact_describe.

@@ -127,7 +127,7 @@ fn number(value: f64) -> String {
 }
 
 /// Every fault in words.
-const FAULTS: [(Fault, &str); 11] = [
+const FAULTS: [(Fault, &str); 12] = [
     (Fault::NotFinite, "not a number, or infinite"),
     (Fault::TooSmall, "below the range"),
     (Fault::TooLarge, "above the range"),
@@ -139,6 +139,7 @@ const FAULTS: [(Fault, &str); 11] = [
     (Fault::TwoBodies, "a quantity of one body where two meet"),
     (Fault::Receding, "bodies that move apart"),
     (Fault::NotInTable, "an index beyond the end of a table"),
+    (Fault::TooUncertain, "a standard error above three tenths of the value"),
 ];
 
 #[test]
