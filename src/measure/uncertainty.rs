@@ -110,7 +110,7 @@ const FAR: f64 = 6.0;
 const WIDEST: f64 = 50.0;
 
 /// Largest standard error of a quantity that is never negative, over its value. Probabilities are expansions about the values: with errors
-/// up to this one they are within 0.03, with 0.5 of the friction or the work of adhesion within 0.08, with 1 no better than a guess.
+/// up to this one they are within 0.04, with 0.5 of the friction or the work of adhesion within 0.08, with 1 no better than a guess.
 const LARGEST_RELATIVE_ERROR: f64 = 0.3;
 
 impl<T: Real> Uncertain<T> {
@@ -345,7 +345,7 @@ where
 /// differ by about 0.001 on the average from those of simulated random inputs, and by less than 0.01 in the scenes of the tests,
 /// where both boundaries between the classes are close; those include scenes in which one input near the bound of its range, as a
 /// restitution near one, alone decides whether the sphere rebounds. In a few scenes the error may be 0.03: where slip just ends, and the
-/// slowest of the likely motions end in capture; with standard errors of up to 30 % it is less than 0.03 in the scenes of the tests.
+/// slowest of the likely motions end in capture; with standard errors of up to 30 % it is less than 0.04 in the scenes of the tests.
 /// [Larger errors](Uncertain::within) of quantities that are never negative are refused. Random inputs beyond the range of their
 /// [parameter](Uncertain::within) take the nearest value of the range. If the inputs without errors have no critical speed, their
 /// outcome counts as certain.

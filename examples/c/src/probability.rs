@@ -53,7 +53,7 @@ pub struct UncertainClass {
 /// Probabilities of the classes of an uncertain motion, and the class if one reaches the confidence, 0.5 to 1. The scene is that of
 /// microimpact_scene_init, whose radius does not count; a contact needs a tolerance, not iterations. A rigid body takes 12 thousand
 /// instructions in single precision on a Cortex-M4F, and a contact millions. With standard errors of up to 10 % the error of a
-/// probability is below 0.01, and below 0.03 for few motions that are close to capture and to the limit of slip at once, or
+/// probability is below 0.01, and below 0.04 for few motions that are close to capture and to the limit of slip at once, or
 /// whose standard errors reach 30 %. Errors above three tenths of the approach speed or of the radius are refused. The error may be null.
 /// Re-entrant.
 ///

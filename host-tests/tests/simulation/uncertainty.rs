@@ -238,7 +238,7 @@ fn large_errors() -> Result<(), InputError> {
             scene.errors = scene.errors.map(|error| 3.0 * error);
             let expected = scene.fractions(&mut random, 100_000, |inputs| kind.class(inputs));
             let found = probabilities(kind.predicted::<f64>(&scene)?);
-            assert!(difference(found, expected) < 3.0 * ACCURACY, "{kind:?} {seed} {scene:?}: {found:?} {expected:?}");
+            assert!(difference(found, expected) < 4.0 * ACCURACY, "{kind:?} {seed} {scene:?}: {found:?} {expected:?}");
         }
     }
     Ok(())

@@ -163,7 +163,7 @@ impl<T: AdaptiveNodes> Method<T> for Adaptive<T> {
             && !law.may_have_barrier()
             && !O::DEMANDS
             && observer.kink().is_none();
-        let mut attempts = Attempts { tolerance, allowed: if whole_phases { ATTEMPTS } else { 0 } };
+        let mut attempts = Attempts { tolerance, allowed: if whole_phases { ATTEMPTS } else { 0 }, evaluations: 0 };
         // Nodes of a phase and of its outputs, and the range of tolerances for which they are tried. It begins where most
         // mildly damped scenes reach the tolerance, with times and without, and ends where fewer nodes always do.
         macro_rules! try_phases {
@@ -186,7 +186,9 @@ impl<T: AdaptiveNodes> Method<T> for Adaptive<T> {
             try_phases!(13, 24, timed 6e-10, untimed 3e-11, to 5e-8);
             try_phases!(14, 26, timed 2e-10, untimed 8e-12, to 2e-9);
         }
-        by_intervals!(tolerance, solve(law, energy, observer))
+        let mut path = by_intervals!(tolerance, solve(law, energy, observer));
+        path.statistics.evaluations += attempts.evaluations;
+        path
     }
 }
 
@@ -230,6 +232,7 @@ fn phases<T, L, O, const N: usize, const M: usize>(
     law: &L,
     energy: T,
     tolerance: T,
+    evaluations: &mut u32,
     observer: &mut O,
 ) -> Result<NormalPath<T>, Failed>
 where
@@ -241,13 +244,12 @@ where
     if !phase.is_represented(STRONGEST) {
         return Err(Failed::ByFar);
     }
-    let mut iterations = 0;
     let mut iterate = |phase: &mut Phase<T, N>, after: &mut dyn FnMut(&mut Phase<T, N>, T)| {
         let (enough, mut before) = (T::constant(CONVERGED) * tolerance * tolerance, T::ZERO);
         phase.renew();
         for _ in 0..MOST_PHASE_ITERATIONS {
             let (gained, change) = phase.iterate::<true>();
-            iterations += 1;
+            *evaluations += N as u32;
             after(phase, gained);
             // The iterations converge superlinearly.
             if change <= enough || change * change <= enough * before {
@@ -307,7 +309,7 @@ where
         show(law, &phase, rebound, true, tolerance, observer);
     }
     let end = if left > T::ZERO { End::Separation } else { End::Capture };
-    let statistics = Statistics { intervals: 2, refused: 0, iterations, nodes: N as u32, error };
+    let statistics = Statistics { intervals: 2, refused: 0, evaluations: *evaluations, error };
     Ok(NormalPath { end, energy: left, peak, turning: T::ZERO, error_bound: bound / energy, statistics })
 }
 
@@ -351,6 +353,8 @@ enum Failed {
 struct Attempts<T> {
     tolerance: T,
     allowed: u32,
+    /// Those of all attempts.
+    evaluations: u32,
 }
 
 impl<T: Real> Attempts<T> {
@@ -368,7 +372,7 @@ impl<T: Real> Attempts<T> {
         if self.allowed == 0 {
             return None;
         }
-        let solved = phases::<T, L, O, N, M>(law, energy, self.tolerance, observer);
+        let solved = phases::<T, L, O, N, M>(law, energy, self.tolerance, &mut self.evaluations, observer);
         self.allowed = if solved.as_ref().err() == Some(&Failed::ByLittle) { self.allowed - 1 } else { 0 };
         solved.ok()
     }

@@ -409,8 +409,9 @@ impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {
         T: Nodes<N>,
     {
         let polynomial = if from_rest { (T::ZERO, step) } else { (step, T::ZERO) };
-        let mut iterations = 0;
-        let mut interval: Interval<T, N> = pass(self.law, &self.at, polynomial, course, &self.control, &mut iterations);
+        let mut evaluations = 0;
+        let mut interval: Interval<T, N> =
+            pass(self.law, &self.at, polynomial, course, &self.control, &mut evaluations);
         if !course.reversed {
             let driven = (self.law.potential(self.at.s) - self.law.potential(interval.end.s)).max(T::ZERO);
             let left = interval.end.speed_squared.max(T::ZERO) / (self.at.speed_squared + driven + driven);

@@ -102,8 +102,8 @@ impl<T: Real> Method<T> for RungeKuttaGill {
         };
         let mut path = fine.path;
         for other in [coarsest, coarse] {
-            let iterations = other.path.statistics.iterations;
-            path.statistics.iterations = path.statistics.iterations.saturating_add(iterations);
+            let evaluations = other.path.statistics.evaluations;
+            path.statistics.evaluations = path.statistics.evaluations.saturating_add(evaluations);
         }
         path
     }
@@ -141,6 +141,9 @@ const ROUNDINGS: f64 = 64.0;
 
 /// Indentation and speed, and the observer's state.
 type State<T, O> = ([T; 2], O);
+
+/// Evaluations of the forces in a step.
+const STAGES: u32 = 4;
 
 /// A motion with a fixed step.
 struct Run<'a, T, L> {
@@ -191,9 +194,10 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
         let outside = law.indentation(place);
         let mut state: State<T, O::State> = ([first, (energy + energy).sqrt()], observer.state());
         let mut times = Times::new();
-        let statistics = Statistics { nodes: 4, ..Statistics::NONE };
+        let statistics = Statistics::NONE;
         let mut path =
             NormalPath { end: End::Budget, energy, peak: zero, turning: zero, error_bound: zero, statistics };
+        let mut searches = 0;
         let total = |s: T, speed: T| half * speed * speed + law.potential(s);
         let (mut at_peak, mut left, mut margin) = (energy, energy, zero);
         let (mut at_entry, mut at_barrier) = (None, None);
@@ -229,7 +233,9 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
             }
             let rolls = is_bounded(&next) && observer.slip(&next.1).is_some_and(|slip| slip <= zero);
             if rolls {
-                duration = end_of_slip(law, observer, &state, &carry, (duration, &next));
+                let (end, steps) = end_of_slip(law, observer, &state, &carry, (duration, &next));
+                duration = end;
+                searches += steps;
                 (next, rest) = advanced(law, observer, &state, &carry, duration);
             }
             if separates || rolls {
@@ -320,13 +326,14 @@ impl<'a, T: Real, L: ContactLaw<T>> Run<'a, T, L> {
             }
         }
         path.energy = left;
-        path.statistics.iterations = path.statistics.intervals + path.statistics.refused;
+        let steps = path.statistics.intervals.saturating_add(path.statistics.refused).saturating_add(searches);
+        path.statistics.evaluations = steps.saturating_mul(STAGES);
         observer.ended(&state.1, &times);
         Some(Followed { path, peak_time: times.peak, at_peak, at_entry: entry, at_barrier, left })
     }
 }
 
-/// Time after which a sphere rolls that slides before a step and would slide backward after it. What a strong friction does within
+/// Time after which a sphere rolls that slides before a step and would slide backward after it, and the steps of the search for it. What a strong friction does within
 /// a step is far from linear in time, and a slip that were left would never end, since the sphere then counts as rolling.
 #[inline(never)]
 fn end_of_slip<T: Real, L: ContactLaw<T>, O: Observer<T>>(
@@ -335,13 +342,18 @@ fn end_of_slip<T: Real, L: ContactLaw<T>, O: Observer<T>>(
     from: &State<T, O::State>,
     carry: &State<T, O::State>,
     (latest, last): (T, &State<T, O::State>),
-) -> T {
+) -> (T, u32) {
     let slip = |state: &State<T, O::State>| observer.slip(&state.1).unwrap_or(T::ZERO);
     if slip(from) <= T::ZERO {
-        return T::ZERO;
+        return (T::ZERO, 0);
     }
-    let after = |time| Ok::<_, NotConverged>(slip(&advanced(law, observer, from, carry, time).0));
-    root((T::ZERO, slip(from)), (latest, slip(last)), T::EPSILON, after).unwrap_or(latest)
+    let mut steps = 0;
+    let after = |time| {
+        steps += 1;
+        Ok::<_, NotConverged>(slip(&advanced(law, observer, from, carry, time).0))
+    };
+    let time = root((T::ZERO, slip(from)), (latest, slip(last)), T::EPSILON, after).unwrap_or(latest);
+    (time, steps)
 }
 
 /// Whether all quantities of a state, and their squares, are finite: steps that are too long for a damping or a moment make them grow

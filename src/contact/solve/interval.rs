@@ -180,8 +180,8 @@ const UNDAMPED_STEPS: u32 = 8;
 /// Relative step at which they end.
 const UNDAMPED_ACCURACY: f64 = 0.02;
 
-/// Losses so far over the loss at a node, in the first value of Newton's method: between those at early and late nodes.
-const NEWTON_START: f64 = 0.3;
+/// Least square of the first speed of Newton's method, over that without losses.
+const LEAST_FIRST_SQUARE: f64 = 0.01;
 
 /// Factor on the estimated error where times are asked for and Newton's method was needed: there errors of times are no longer
 /// squares.
@@ -387,7 +387,7 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     (first, second): (T, T),
     course: Course,
     control: &Control<T>,
-    iterations: &mut u32,
+    evaluations: &mut u32,
 ) -> Interval<T, N> {
     let (two, half) = (T::constant(2.0), T::constant(0.5));
     let (mut s, mut free, mut loss, mut length) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
@@ -422,7 +422,7 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
         newton = true;
         accepted = solve_strongly_damped(&free, &loss, &mut state, control);
     }
-    *iterations += state.iterations;
+    *evaluations += state.iterations * N as u32;
     let lost = dot(&T::WEIGHTS, &state.power);
     let mut rate = [T::ZERO; N];
     for j in 0..N {
@@ -458,7 +458,7 @@ pub(crate) fn leave<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     energy: T,
     course: Course,
     control: &Control<T>,
-    iterations: &mut u32,
+    evaluations: &mut u32,
 ) -> Interval<T, N> {
     let (two, half) = (T::constant(2.0), T::constant(0.5));
     let (mut s, mut free, mut loss) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
@@ -478,7 +478,7 @@ pub(crate) fn leave<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     let mut accepted = possible
         && contraction < T::constant(LEAVING_LIMIT)
         && state.converge(&free, &loss, &T::TURNING_INTEGRATION, control);
-    *iterations += state.iterations;
+    *evaluations += state.iterations * N as u32;
     let lost = half * dot(&T::TURNING_WEIGHTS, &state.power);
     let (rate, y) = from_turning_point(law, &s, &state, depth.abs(), &mut accepted);
     let error = state.error(free[N - 1], &rate, control);
@@ -495,7 +495,7 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     guess: T,
     course: Course,
     control: &Control<T>,
-    iterations: &mut u32,
+    evaluations: &mut u32,
 ) -> Interval<T, N> {
     let (two, half) = (T::constant(2.0), T::constant(0.5));
     let inwards = guess > from.s;
@@ -590,7 +590,7 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
             }
         }
     }
-    *iterations += state.iterations;
+    *evaluations += state.iterations * N as u32;
     let (rate, y) = from_turning_point(law, &s, &state, depth.abs(), &mut accepted);
     let last = state.speed[N - 1];
     let error = state.error(last * last, &rate, control);
@@ -655,16 +655,15 @@ fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
     control: &Control<T>,
 ) -> bool {
     let speed = &mut state.speed;
+    // From node to node: y^2 + 2 h y = rest, as if the losses since the node before were at the speed of this one.
+    let mut lost = T::ZERO;
     for j in 0..N {
-        let root = free[j].max(T::SMALLEST).sqrt();
-        // As if the loss so far had acted at this node's speed.
-        // Where the losses are gains, as if that at this node acted from the start.
-        let half = T::constant(0.5);
-        speed[j] = if loss[j] > T::ZERO {
-            root * root / (root + T::constant(NEWTON_START) * loss[j])
-        } else {
-            root - half * T::Z[j] * loss[j]
-        };
+        let h = T::constant(0.5) * T::WEIGHTS[j] * loss[j];
+        let rest = (free[j] - lost).max(T::constant(LEAST_FIRST_SQUARE) * free[j]);
+        let root = (h * h + rest).max(T::SMALLEST).sqrt();
+        // The form that does not cancel.
+        speed[j] = if h > T::ZERO { rest / (root + h) } else { root - h };
+        lost = lost + (h + h) * speed[j];
     }
     let enough = control.converged.max(T::constant(NEWTON_ROUNDING) * T::EPSILON);
     let mut converged = false;

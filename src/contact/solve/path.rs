@@ -73,9 +73,8 @@ pub(crate) fn energy_bound<T: Real>(tolerance: T, kinetic: T, largest: T) -> T {
 pub(crate) struct Statistics<T> {
     pub(crate) intervals: u32,
     pub(crate) refused: u32,
-    pub(crate) iterations: u32,
-    /// Evaluations in each iteration.
-    pub(crate) nodes: u32,
+    /// Evaluations of a speed or of the forces.
+    pub(crate) evaluations: u32,
     /// Largest estimated error of an interval.
     pub(crate) error: T,
 }
@@ -106,12 +105,12 @@ impl<T: Real> NormalPath<T> {
 }
 
 impl<T: Real> Statistics<T> {
-    pub(crate) const NONE: Self = Self { intervals: 0, refused: 0, iterations: 0, nodes: 0, error: T::ZERO };
+    pub(crate) const NONE: Self = Self { intervals: 0, refused: 0, evaluations: 0, error: T::ZERO };
 
     pub(crate) fn add(&mut self, other: &Self) {
         self.intervals += other.intervals;
         self.refused += other.refused;
-        self.iterations += other.iterations;
+        self.evaluations += other.evaluations;
         self.error = self.error.max(other.error);
     }
 }
@@ -130,7 +129,7 @@ const PULL_FRACTION: f64 = 0.5;
 const PULL_SHRINK: f64 = 0.4;
 
 /// Largest loss of the first interval, over the speed: beyond it damping stops the sphere at once.
-const FIRST_DRAG: f64 = 4.0;
+const FIRST_DRAG: f64 = 2.0;
 
 /// Factor on the first length where damping is stronger.
 const FIRST_DRAG_SHRINK: f64 = 0.7;
@@ -144,8 +143,11 @@ const PEAK_GROWTH: f64 = 1.5;
 /// Fraction of the energy that counts as reached there: rounding must not push the place further.
 const PEAK_ENERGY: f64 = 0.999;
 
-/// Longest interval, over the distance in which damping alone stops the sphere.
+/// Longest interval of a sphere that is accelerated, over the distance in which damping alone stops it.
 const BRAKING_FRACTION: f64 = 0.55;
+
+/// Estimates of the way on which damping stops the sphere: the second takes the damping half-way.
+const BRAKING_ESTIMATES: u32 = 2;
 
 /// Longest interval, over the distance to the undamped turning point, where the speed has a root.
 pub(super) const UNDAMPED_FRACTION: f64 = 0.7;
@@ -220,8 +222,8 @@ const LENGTH_GROWTH: f64 = 1.2;
 /// Steps in which it shrinks.
 const LENGTH_SHRINK: f64 = 0.85;
 
-/// Steps at most: factors from 0.34 to 2.7.
-const LENGTH_STEPS: u32 = 6;
+/// Steps at most: factors from 0.13 to 8.
+const LENGTH_STEPS: u32 = 12;
 
 /// A motion in progress.
 pub(crate) struct Follower<'a, T, L, O> {
@@ -272,7 +274,6 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     where
         T: Nodes<N>,
     {
-        self.statistics.nodes = N as u32;
         let (energy, statistics) = (self.at.energy, self.statistics);
         let zero = T::ZERO;
         let mut path =
@@ -450,18 +451,27 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         length
     }
 
-    /// No interval goes beyond the undamped turning point, nor more than half way to where drag alone stops the sphere.
+    /// No interval goes beyond most of the way on which the forces and the damping stop the sphere.
+    ///
+    /// A constant force a and a constant damping L stop a speed y on the way y/L - a/L^2 ln(1 + L y/a). With x = y^2/(2 a), the way of the
+    /// force alone, x y/(y + L x) is 1 to 1.12 of it.
     fn braked_length(&self, length: T, undamped_turning_point: T) -> T {
-        let (speed, loss) = (self.at.speed_squared.sqrt(), self.law.loss(self.at.s, false));
-        let mut length = length;
+        let (at, half) = (self.at.s, T::constant(0.5));
+        let loss = |s: T| self.law.loss(s, false);
+        let way = undamped_turning_point - at;
+        let speed = self.at.speed_squared.sqrt();
+        // A sphere that adhesion accelerates is not stopped yet.
+        if way > T::ZERO && self.law.slope(at) > T::ZERO {
+            let mut longest = T::ZERO;
+            for _ in 0..BRAKING_ESTIMATES {
+                let braking = loss(at + half * longest) * way;
+                longest = T::constant(UNDAMPED_FRACTION) * (way * speed).saturating_div(speed + braking);
+            }
+            return length.min(longest);
+        }
         let reach = T::constant(BRAKING_FRACTION) * speed;
-        if loss * length > reach {
-            length = reach / loss;
-        }
-        if undamped_turning_point > self.at.s {
-            length = length.min(T::constant(UNDAMPED_FRACTION) * (undamped_turning_point - self.at.s));
-        }
-        length
+        let longest = if loss(at) * length > reach { reach / loss(at) } else { length };
+        if way > T::ZERO { longest.min(T::constant(UNDAMPED_FRACTION) * way) } else { longest }
     }
 
     /// From the peak to separation (`Err`) or to the turning point of a captured sphere (`Ok`, zero if not followed).
@@ -619,9 +629,9 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             depth = stiffness / (reach * reach);
         }
         let leave_by = |follower: &mut Self, depth: T| {
-            let (energy, iterations) = (follower.at.energy, &mut follower.statistics.iterations);
+            let (energy, evaluations) = (follower.at.energy, &mut follower.statistics.evaluations);
             let mut interval: Interval<T, N> =
-                leave(follower.law, from, signed(depth), energy, course, &follower.control, iterations);
+                leave(follower.law, from, signed(depth), energy, course, &follower.control, evaluations);
             follower.check(&mut interval);
             interval
         };
@@ -703,8 +713,8 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     where
         T: Nodes<N>,
     {
-        let (polynomial, iterations) = ((length, T::ZERO), &mut self.statistics.iterations);
-        let mut interval = pass(self.law, &self.at, polynomial, course, &self.control, iterations);
+        let (polynomial, evaluations) = ((length, T::ZERO), &mut self.statistics.evaluations);
+        let mut interval = pass(self.law, &self.at, polynomial, course, &self.control, evaluations);
         self.check(&mut interval);
         interval
     }
@@ -715,8 +725,8 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     where
         T: Nodes<N>,
     {
-        let iterations = &mut self.statistics.iterations;
-        let mut interval = arrive(self.law, &self.at, guess, course, &self.control, iterations);
+        let evaluations = &mut self.statistics.evaluations;
+        let mut interval = arrive(self.law, &self.at, guess, course, &self.control, evaluations);
         self.check(&mut interval);
         interval
     }
@@ -793,7 +803,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         }
     }
 
-    /// By how much the next interval may be longer, from 0.3 to 3: (allowed error/error)^(1/2N).
+    /// By how much the next interval may be longer, from 0.1 to 8: (allowed error/error)^(1/2N).
     pub(crate) fn length_factor<const N: usize>(&self, nodes: usize, interval: &Interval<T, N>) -> T {
         let (error, allowed) = (interval.error, self.control.error);
         if error >= T::ONE {

@@ -201,7 +201,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
                 course = if course.rebound { Course::APPROACH } else { Course::REBOUND };
                 (ahead, behind) = (behind, self.at.s);
             }
-            self.statistics = Statistics { intervals: 0, refused: 0, iterations: 0, nodes: N as u32, error: T::ZERO };
+            self.statistics = Statistics::NONE;
             let swing = self.swing::<N>(&well, ahead, course, &mut settling.creeps);
             path.statistics.add(&self.statistics);
             turned = swing == Ok(true);

@@ -77,7 +77,7 @@ impl<T: Real> RunReport<T> {
             status: Status::of(path),
             steps: statistics.intervals,
             refused: statistics.refused,
-            evaluations: statistics.iterations.saturating_mul(statistics.nodes),
+            evaluations: statistics.evaluations,
             error_bound: path.error_bound,
             estimated_error: statistics.error,
         }

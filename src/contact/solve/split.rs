@@ -94,22 +94,22 @@ impl<'a, T: Real, L: ContactLaw<T>> Turning<'a, T, L> {
     }
 
     /// The part from the turning point to z.
-    fn near<const N: usize>(&self, z: T, iterations: &mut u32) -> Interval<T, N>
+    fn near<const N: usize>(&self, z: T, evaluations: &mut u32) -> Interval<T, N>
     where
         T: Nodes<N>,
     {
-        let part = leave(self.law, self.peak, self.depth * z * z, self.energy, self.course, self.control, iterations);
+        let part = leave(self.law, self.peak, self.depth * z * z, self.energy, self.course, self.control, evaluations);
         Interval { forward: !self.course.reversed, ..part }
     }
 
     /// The part from z, where the sphere is in the `middle`, to 1.
-    fn far<const N: usize>(&self, middle: &Point<T>, z: T, iterations: &mut u32) -> Interval<T, N>
+    fn far<const N: usize>(&self, middle: &Point<T>, z: T, evaluations: &mut u32) -> Interval<T, N>
     where
         T: Nodes<N>,
     {
         let rest = T::ONE - z;
         let polynomial = (-(T::constant(2.0) * self.depth * z * rest), -(self.depth * rest * rest));
-        let part = pass(self.law, middle, polynomial, self.course, self.control, iterations);
+        let part = pass(self.law, middle, polynomial, self.course, self.control, evaluations);
         if self.course.reversed { Interval { forward: false, end: *middle, ..part } } else { part }
     }
 }
@@ -132,19 +132,19 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
         T: Nodes<N>,
     {
         let (from, control, law) = (self.at, self.unlimited(), self.law);
-        let mut iterations = 0;
+        let mut evaluations = 0;
         let [first, second]: [Interval<T, N>; 2] = match turning_point {
             None => {
                 let first: Interval<T, N> =
-                    pass(law, &from, (place - from.s, T::ZERO), course, &control, &mut iterations);
+                    pass(law, &from, (place - from.s, T::ZERO), course, &control, &mut evaluations);
                 let rest = (whole.end.s - place, T::ZERO);
-                [first, pass(law, &first.end, rest, course, &control, &mut iterations)]
+                [first, pass(law, &first.end, rest, course, &control, &mut evaluations)]
             }
             Some(peak) => {
                 let turning = Turning::of(law, &from, whole, course, peak, &control);
                 let z = ((peak - place) / turning.depth).sqrt();
-                let near: Interval<T, N> = turning.near(z, &mut iterations);
-                let far: Interval<T, N> = turning.far(&near.end, z, &mut iterations);
+                let near: Interval<T, N> = turning.near(z, &mut evaluations);
+                let far: Interval<T, N> = turning.far(&near.end, z, &mut evaluations);
                 if turning.course.reversed {
                     [Interval { end: near.end, ..far }, Interval { end: whole.end, ..near }]
                 } else {
@@ -152,7 +152,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
                 }
             }
         };
-        self.statistics.iterations += iterations;
+        self.statistics.evaluations += evaluations;
         let to_turning_point = turning_point.filter(|peak| from.s != *peak);
         self.show(&first, course, if to_turning_point.is_some() { None } else { turning_point });
         self.at = first.end;
@@ -187,16 +187,16 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
         T: Nodes<N>,
     {
         let (law, from, to) = (self.law, self.at, whole.end.s);
-        let iterations = &mut self.statistics.iterations;
+        let evaluations = &mut self.statistics.evaluations;
         let (_, first, late) = find_end_of_slip(law, self.observer, z, self.control.error, |z| {
-            let interval: Interval<T, N> = pass(law, &from, ((to - from.s) * z, T::ZERO), course, control, iterations);
+            let interval: Interval<T, N> = pass(law, &from, ((to - from.s) * z, T::ZERO), course, control, evaluations);
             FirstPart { rate: interval.rate.last().copied().unwrap_or(T::ZERO) / z, interval }
         });
         let mut middle = first.end;
         if course.rebound && middle.speed_squared < T::ZERO {
             middle.energy = whole.end.energy;
         }
-        let mut after = || pass(law, &middle, (to - middle.s, T::ZERO), course, control, iterations);
+        let mut after = || pass(law, &middle, (to - middle.s, T::ZERO), course, control, evaluations);
         self.observer.observe_rolling(law, whole, &first, late, &mut after, course.rebound);
     }
 
@@ -210,9 +210,9 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
         if if arrives { T::ONE - z } else { z } >= nearness {
             return self.divide(whole, &turning, z);
         }
-        let iterations = &mut self.statistics.iterations;
-        let near: Interval<T, N> = turning.near(nearness, iterations);
-        let far: Interval<T, N> = turning.far(&near.end, nearness, iterations);
+        let evaluations = &mut self.statistics.evaluations;
+        let near: Interval<T, N> = turning.near(nearness, evaluations);
+        let far: Interval<T, N> = turning.far(&near.end, nearness, evaluations);
         let near = if arrives { Interval { end: whole.end, ..near } } else { near };
         let short = Turning { depth: turning.depth * nearness * nearness, ..turning };
         if !arrives {
@@ -237,13 +237,13 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
         T: Nodes<N>,
     {
         let (law, rebound, arrives) = (self.law, turning.course.rebound, turning.course.reversed);
-        let iterations = &mut self.statistics.iterations;
+        let evaluations = &mut self.statistics.evaluations;
         let distance = |z: T| if arrives { T::ONE - z } else { z };
         let (z, first, late) = find_end_of_slip(law, self.observer, z, self.control.error, |z| {
             let z = distance(z);
-            let near: Interval<T, N> = turning.near(z, iterations);
+            let near: Interval<T, N> = turning.near(z, evaluations);
             let rate = near.rate.last().copied().unwrap_or(T::ZERO) / z;
-            FirstPart { interval: if arrives { turning.far(&near.end, z, iterations) } else { near }, rate }
+            FirstPart { interval: if arrives { turning.far(&near.end, z, evaluations) } else { near }, rate }
         });
         let mut middle = first.end;
         if rebound && middle.speed_squared < T::ZERO {
@@ -251,9 +251,9 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
         }
         let mut after = || {
             if arrives {
-                Interval { end: whole.end, ..turning.near(distance(z), iterations) }
+                Interval { end: whole.end, ..turning.near(distance(z), evaluations) }
             } else {
-                turning.far(&middle, z, iterations)
+                turning.far(&middle, z, evaluations)
             }
         };
         self.observer.observe_rolling(law, whole, &first, late, &mut after, rebound);

@@ -80,7 +80,7 @@ impl<T: Real> Found<T> {
         // Of what diverges not even the bound is a number.
         let error = if bound < energy { bound.saturating_div(energy) } else { T::ONE };
         let peak = if arrived { self.peak } else { T::ZERO };
-        let statistics = Statistics { intervals: 2, refused: 0, iterations: 2 * iterations, nodes: N as u32, error };
+        let statistics = Statistics { intervals: 2, refused: 0, evaluations: 2 * iterations * N as u32, error };
         NormalPath { end, energy: self.left, peak, turning: T::ZERO, error_bound: error, statistics }
     }
 }
