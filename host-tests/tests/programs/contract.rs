@@ -261,34 +261,3 @@ fn results_are_inputs_of_other_commands() {
     // Critical speeds may be added to any of these.
     assert!(Written::read(&written("critical", &[], &analysed), b',').number(0, "critical_speed_m_s") < 2.8);
 }
-
-/// A template is a table that its command computes, in either convention.
-#[test]
-fn templates_run() {
-    for (command, arguments) in [
-        ("classify", &["--model", "rigid-body"][..]),
-        ("classify", &["--model", "simulation"]),
-        ("classify", &["--model", "both"]),
-        ("trajectory", &[]),
-        ("critical", &[]),
-        ("analyse", &[]),
-        ("fit", &[]),
-        ("population", &[]),
-        ("population", &["--model", "rigid-body"]),
-    ] {
-        for decimal in ["point", "comma"] {
-            let template = microimpact("template", &[&[command, "--decimal", decimal], arguments].concat(), b"");
-            assert_eq!(template.status, 0, "{}", template.complaint());
-            assert_eq!(template.stdout.contains(&b';'), decimal == "comma");
-            let output = microimpact(command, &[&["-", "--format", "csv"], arguments].concat(), &template.stdout);
-            assert_eq!(
-                output.status,
-                0,
-                "{command}: {}{}",
-                output.complaint(),
-                String::from_utf8_lossy(&output.stdout)
-            );
-            assert!(!output.complaint().contains("not read"), "{}", output.complaint());
-        }
-    }
-}
