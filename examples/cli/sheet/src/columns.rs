@@ -1,7 +1,9 @@
 //! Which columns of a table a command reads.
 
 use std::fmt::Write;
+use std::slice::from_ref;
 
+use csv::ByteRecord;
 use rustc_hash::FxHashMap;
 
 use crate::catalogue::Column;
@@ -255,6 +257,15 @@ pub(crate) fn check(headings: &[Heading], inputs: &[Input]) -> Result<(), String
     }
     let written: Vec<_> = headings.iter().map(|heading| heading.text.as_str()).collect();
     Err(format!("the table lacks required columns: {}; the header is: {}", absent.join(", "), written.join(", ")))
+}
+
+/// Whether cells are a header: they name all required columns, with or without a unit, which a row below them may give.
+pub(crate) fn is_header(cells: &ByteRecord, inputs: &[Input]) -> bool {
+    let headings = cells.iter().map(|cell| Heading::of(&String::from_utf8_lossy(cell), inputs));
+    // A unit that is refused is an error of the header.
+    let Ok(headings) = headings.collect::<Result<Vec<_>, _>>() else { return true };
+    let is_named = |input: &Input| headings.iter().any(|heading| heading.may_be_read(from_ref(input)));
+    inputs.iter().filter(|input| input.default.is_none()).all(is_named)
 }
 
 /// The names of columns.

@@ -227,7 +227,7 @@ impl Written {
 }
 
 /// The plain character for one in a unit; `None` for one that is left out.
-fn plain(character: char) -> Option<char> {
+pub(crate) fn plain(character: char) -> Option<char> {
     match character {
         'µ' | 'μ' => Some('u'),
         '²' => Some('2'),
