@@ -32,24 +32,26 @@ struct Candidate {
     dialect: Dialect,
     /// The line, and those that were read after it.
     lines: Vec<u8>,
+    /// How many columns it names.
+    named: usize,
 }
 
-/// Reads a text up to its header; returns what was read from the header on too. The header is the first line whose cells are one;
-/// if there is none it is the first line that is no comment.
+/// Reads a text up to its header; returns what was read from the header on too. `named` says how many columns some cells name, and
+/// whether they are all that a table must have. The header is the first line that names all, or else the one that names most.
 ///
 /// # Errors
 /// Reading fails, or no header follows.
 pub(crate) fn read(
     text: &mut impl BufRead,
-    is_header: impl Fn(&ByteRecord) -> bool,
+    named: impl Fn(&ByteRecord) -> (usize, bool),
 ) -> Result<(Dialect, Vec<u8>), String> {
     let (mut preamble, mut separator, mut titles) = (Vec::new(), None, 0);
-    let mut first: Option<Candidate> = None;
+    let mut best: Option<Candidate> = None;
     for _ in 0..MOST_LINES {
         let mut line = Vec::new();
         text.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line).map_err(|error| error.to_string())?;
         if line.is_empty() || titles > MOST_TITLES {
-            if let Some(Candidate { dialect, mut lines }) = first {
+            if let Some(Candidate { dialect, mut lines, .. }) = best {
                 lines.extend(line);
                 return Ok((dialect, lines));
             }
@@ -63,20 +65,23 @@ pub(crate) fn read(
             }
             let (delimiter, carriage_return) = (separator.unwrap_or(delimiter(&line)), line.ends_with(b"\r\n"));
             let dialect = |preamble| Dialect { delimiter, carriage_return, preamble, titles };
-            if is_header(&cells(&line, delimiter)) {
+            let (named, are_all) = named(&cells(&line, delimiter));
+            if are_all {
                 return Ok((dialect(preamble), line));
             }
-            first.get_or_insert_with(|| Candidate { dialect: dialect(preamble.clone()), lines: Vec::new() });
+            if best.as_ref().is_none_or(|best| named > best.named) {
+                best = Some(Candidate { dialect: dialect(preamble.clone()), lines: Vec::new(), named });
+            }
             titles += 1;
         }
-        if let Some(first) = &mut first {
-            first.lines.extend(&line);
+        if let Some(best) = &mut best {
+            best.lines.extend(&line);
         }
         if !is_blank(&line) {
             preamble.extend(line);
         }
     }
-    if let Some(Candidate { dialect, lines }) = first {
+    if let Some(Candidate { dialect, lines, .. }) = best {
         return Ok((dialect, lines));
     }
     Err(format!("no header in the first {MOST_LINES} lines; a row must name the columns"))

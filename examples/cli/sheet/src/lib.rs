@@ -77,7 +77,7 @@ impl<'a> Sheet<'a> {
     fn of(source: Source<'a>, inputs: &[Input], decimal: Option<Decimal>) -> Result<Self, String> {
         let guard = Guard::default();
         let mut lines = BufReader::new(source.text);
-        let (dialect, header_line) = dialect::read(&mut lines, |cells| columns::is_header(cells, inputs))?;
+        let (dialect, header_line) = dialect::read(&mut lines, |cells| columns::named(cells, inputs))?;
         let bytes: Box<dyn Read + 'a> = Box::new(guard.over(source::in_utf8(header_line, lines)));
         let mut rows = csv::ReaderBuilder::new();
         let mut rows = rows.delimiter(dialect.delimiter).flexible(true).comment(Some(COMMENT)).from_reader(bytes);

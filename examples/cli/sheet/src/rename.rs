@@ -27,7 +27,7 @@ impl<'a> Start<'a> {
     pub(crate) fn of(source: impl Read + 'a) -> Result<Self, String> {
         let source = Source::of(source)?;
         let mut rest = BufReader::new(source.text);
-        let (dialect, mut line) = dialect::read(&mut rest, |_| true)?;
+        let (dialect, mut line) = dialect::read(&mut rest, |_| (0, true))?;
         for _ in 0..MOST_LINES {
             if line.iter().filter(|byte| **byte == b'"').count() % 2 == 0 {
                 break;
