@@ -198,9 +198,13 @@ fn cells_of_a_workbook_that_are_no_numbers() {
     assert_eq!(written.rows.len(), reasons.len());
 }
 
-/// A comment over several columns is one, a value over several rows is not known of all of them.
+/// A comment or a title over several columns is one, a value over several rows is not known of all of them.
 #[test]
 fn merged_cells_of_a_workbook() {
+    let titled = concat!(env!("CARGO_MANIFEST_DIR"), "/data/spreadsheets/titled.xlsx");
+    let output = run(&[titled, "--format", "csv", "--model", "simulation"], b"");
+    assert_eq!(output.status, 0, "{}", output.complaint());
+    assert!(output.complaint().contains("a line above the header is not read"), "{}", output.complaint());
     let output = run(&[concat!(env!("CARGO_MANIFEST_DIR"), "/data/spreadsheets/merged.xlsx")], b"");
     assert_eq!((output.status, output.stdout.len()), (2, 0));
     assert!(output.complaint().contains("the cells C3:C4 of sheet \"Sheet\" are merged"), "{}", output.complaint());
