@@ -122,8 +122,7 @@ fn lower(text: &str) -> String {
 
 /// The same of a name whose unit is written as in a text: `Radius / µm`, `density kg/m³`.
 fn spelled(text: &str) -> String {
-    let plain: String = lower(text).chars().filter_map(plain).collect();
-    plain.split(['/', ' ', '_']).filter(|word| !word.is_empty()).collect::<Vec<_>>().join("_")
+    plain(&lower(text)).split(['/', ' ', '_']).filter(|word| !word.is_empty()).collect::<Vec<_>>().join("_")
 }
 
 /// The unit that a heading states in brackets or at its end, whatever its words; `None` if it states none of this quantity.
