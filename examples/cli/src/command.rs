@@ -92,11 +92,11 @@ pub const TABLE_MANUAL: &str = "\
 CSV files may use commas, semicolons or tabs, and decimal points or decimal commas: one mark in the whole file. A number such as \
 2.600 is refused unless other cells, commas that separate cells, or --decimal settle whether its mark is decimal; thousands \
 separators are not read. Lines that begin with # are comments; write a name that begins with # in quotes. A line sep=; before the header, empty rows and \
-rows of dashes are skipped. The first \
+rows of dashes are skipped, and so are up to 50 lines of titles above the header. The first \
 sheet of an xlsx workbook that is not hidden and not empty is read in the same way. UTF-16 is read.
 
-A column has its unit at the end of its name (radius_um, density_g_cm3), in brackets (Radius [um]), or in a row of units below the \
-header. `microimpact columns` lists all columns with their units, ranges and defaults.
+A column has its unit at the end of its name (radius_um, Density g/cm3, Radius / um), in brackets (Radius [um]), or in a row of \
+units below the header. `microimpact columns` lists all columns with their units, ranges and defaults.
 
 The result has the decimal mark and the separator of the file. The command copies all columns. If an input column has the name of \
 a computed column, its copy is named input_NAME. Standard error lists the columns that the command uses, the defaults of those that \

@@ -11,7 +11,7 @@ pub fn run(arguments: &[&str], input: &[u8]) -> Output {
 
 /// A table that was written, by column name and row.
 pub struct Written {
-    names: Vec<String>,
+    pub names: Vec<String>,
     pub rows: Vec<csv::StringRecord>,
 }
 

@@ -198,9 +198,13 @@ fn cells_of_a_workbook_that_are_no_numbers() {
     assert_eq!(written.rows.len(), reasons.len());
 }
 
-/// A comment over several columns is one, a value over several rows is not known of all of them.
+/// A comment or a title over several columns is one, a value over several rows is not known of all of them.
 #[test]
 fn merged_cells_of_a_workbook() {
+    let titled = concat!(env!("CARGO_MANIFEST_DIR"), "/data/spreadsheets/titled.xlsx");
+    let output = run(&[titled, "--format", "csv", "--model", "simulation"], b"");
+    assert_eq!(output.status, 0, "{}", output.complaint());
+    assert!(output.complaint().contains("a line above the header is not read"), "{}", output.complaint());
     let output = run(&[concat!(env!("CARGO_MANIFEST_DIR"), "/data/spreadsheets/merged.xlsx")], b"");
     assert_eq!((output.status, output.stdout.len()), (2, 0));
     assert!(output.complaint().contains("the cells C3:C4 of sheet \"Sheet\" are merged"), "{}", output.complaint());
@@ -234,6 +238,54 @@ fn comments_and_rules_are_no_rows() {
     assert_eq!((output.status, written.text(2, "rebound_speed_m_s")), (1, ""));
 }
 
+/// Titles above the header are no header; the result keeps them, so that it is read in the same way.
+#[test]
+fn titles_above_the_header_are_skipped() {
+    let header = "radius_um,density_kg_m3,restitution,speed_normal_m_s\n5,2600,1,2\n";
+    let titles = "Rig 3: laser Doppler, both components\n# noted later\nspeed,of,spheres\n";
+    let output = classified(format!("{titles}\n{header}").as_bytes(), "rigid-body");
+    assert_eq!(output.status, 0, "{}", output.complaint());
+    assert!(output.complaint().contains("2 lines above the header are not read"), "{}", output.complaint());
+    let text = String::from_utf8(output.stdout).unwrap();
+    let table = text.strip_prefix(titles).unwrap_or_else(|| panic!("{text}"));
+    assert_eq!(Written::read(table.as_bytes(), b',').text(0, "rebound_speed_m_s"), "2");
+    let again = String::from_utf8(classified(text.as_bytes(), "rigid-body").stdout).unwrap();
+    assert!(again.starts_with(titles) && again.lines().count() == 5, "{again}");
+    // A row of units may be what completes the header.
+    let with_units = "My spheres\nradius,density,restitution,speed normal\num,g/cm3,,m/s\n5,2.6,1,2\n";
+    assert_eq!(classified(with_units.as_bytes(), "rigid-body").status, 0);
+    // Without a header that has all columns, the message quotes the line that has most of them.
+    let misspelt = header.replace("density", "densty");
+    let words = "(did you mean it by `densty_kg_m3`?); the header is: radius_um, densty_kg_m3";
+    for titles in ["", "Rig 3\n", titles] {
+        let output = classified(format!("{titles}{misspelt}").as_bytes(), "rigid-body");
+        assert!(output.status == 2 && output.complaint().contains(words), "{}", output.complaint());
+    }
+}
+
+/// What people and spreadsheets write for units and numbers, where it has one meaning; and where it has none, what to do.
+#[test]
+fn headings_and_numbers_of_spreadsheets() {
+    let table = |spin: &str, speed: &str| {
+        format!("Radius / µm;Density g/cm³;restitution;speed normal m/s;spin_rad_s\n5,06;2,6;1;{speed};{spin}\n")
+    };
+    let output = classified(table("\u{2212}100", "2,8").as_bytes(), "rigid-body");
+    let plain = "radius_um;density_g_cm3;restitution;speed_normal_m_s;spin_rad_s\n5,06;2,6;1;2,8;-100\n";
+    assert_eq!(computed(&output, b';'), computed(&classified(plain.as_bytes(), "rigid-body"), b';'));
+    assert!(output.complaint().contains("Radius / µm (radius_m in um)"), "{}", output.complaint());
+    for (speed, words) in [
+        ("1.234,5", "\"\"1.234,5\"\" is not a number; write it without thousands separators and spaces"),
+        ("2 600", "\"\"2 600\"\" is not a number; write it without thousands separators and spaces"),
+        ("2,8 m/s", "is not a number; enter the number alone, and give its unit in the header"),
+        ("2,8?", "\"\"2,8?\"\" is not a number\""),
+        ("n/a", "\"\"n/a\"\" is not a number\""),
+    ] {
+        let output = classified(table("0", speed).as_bytes(), "rigid-body");
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert!(output.status == 1 && text.contains(words), "{text}");
+    }
+}
+
 /// A result means the same to every command that reads it.
 #[test]
 fn results_are_inputs_of_other_commands() {
@@ -260,35 +312,4 @@ fn results_are_inputs_of_other_commands() {
     assert!((e(&written("classify", &[], table.as_bytes())) / e(&simulated) - 1.0).abs() < 1e-9);
     // Critical speeds may be added to any of these.
     assert!(Written::read(&written("critical", &[], &analysed), b',').number(0, "critical_speed_m_s") < 2.8);
-}
-
-/// A template is a table that its command computes, in either convention.
-#[test]
-fn templates_run() {
-    for (command, arguments) in [
-        ("classify", &["--model", "rigid-body"][..]),
-        ("classify", &["--model", "simulation"]),
-        ("classify", &["--model", "both"]),
-        ("trajectory", &[]),
-        ("critical", &[]),
-        ("analyse", &[]),
-        ("fit", &[]),
-        ("population", &[]),
-        ("population", &["--model", "rigid-body"]),
-    ] {
-        for decimal in ["point", "comma"] {
-            let template = microimpact("template", &[&[command, "--decimal", decimal], arguments].concat(), b"");
-            assert_eq!(template.status, 0, "{}", template.complaint());
-            assert_eq!(template.stdout.contains(&b';'), decimal == "comma");
-            let output = microimpact(command, &[&["-", "--format", "csv"], arguments].concat(), &template.stdout);
-            assert_eq!(
-                output.status,
-                0,
-                "{command}: {}{}",
-                output.complaint(),
-                String::from_utf8_lossy(&output.stdout)
-            );
-            assert!(!output.complaint().contains("not read"), "{}", output.complaint());
-        }
-    }
 }

@@ -22,6 +22,7 @@ mod report;
 mod report_cost;
 mod space;
 mod tables;
+mod templates;
 mod uncertain;
 mod without;
 

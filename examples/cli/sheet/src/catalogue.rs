@@ -207,6 +207,10 @@ columns! {
     "diameter_geometric_deviation" "1" Range::Between(1.0, INFINITE), "1.2", "geometric standard deviation of the diameters";
     "diameter_mean_m" "m" POSITIVE, "8.6e-6", "mean of a normal distribution of diameters";
     "diameter_deviation_m" "m" POSITIVE, "1e-6", "standard deviation of the diameters";
+    "radius_median_m" "m" POSITIVE, "4.3e-6", "median of a log-normal distribution of radii";
+    "radius_geometric_deviation" "1" Range::Between(1.0, INFINITE), "1.2", "geometric standard deviation of the radii, which is that of the diameters";
+    "radius_mean_m" "m" POSITIVE, "4.3e-6", "mean of a normal distribution of radii";
+    "radius_deviation_m" "m" POSITIVE, "5e-7", "standard deviation of the radii";
     "speed_m_s" "m/s" POSITIVE, "1.9", "speed along the path of all spheres";
     "speed_median_m_s" "m/s" POSITIVE, "1.9", "median of a log-normal distribution of speeds along the path";
     "speed_geometric_deviation" "1" Range::Between(1.0, INFINITE), "1.3", "geometric standard deviation of the speeds";

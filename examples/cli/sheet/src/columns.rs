@@ -1,7 +1,9 @@
 //! Which columns of a table a command reads.
 
 use std::fmt::Write;
+use std::slice::from_ref;
 
+use csv::ByteRecord;
 use rustc_hash::FxHashMap;
 
 use crate::catalogue::Column;
@@ -255,6 +257,17 @@ pub(crate) fn check(headings: &[Heading], inputs: &[Input]) -> Result<(), String
     }
     let written: Vec<_> = headings.iter().map(|heading| heading.text.as_str()).collect();
     Err(format!("the table lacks required columns: {}; the header is: {}", absent.join(", "), written.join(", ")))
+}
+
+/// How many inputs some cells name, with or without a unit, which a row below them may give; and whether they name all that are
+/// required.
+pub(crate) fn named(cells: &ByteRecord, inputs: &[Input]) -> (usize, bool) {
+    let headings = cells.iter().map(|cell| Heading::of(&String::from_utf8_lossy(cell), inputs));
+    // A unit that is refused is an error of the header.
+    let Ok(headings) = headings.collect::<Result<Vec<_>, _>>() else { return (inputs.len(), true) };
+    let is_named = |input: &&Input| headings.iter().any(|heading| heading.may_be_read(from_ref(input)));
+    let are_all = inputs.iter().filter(|input| input.default.is_none()).all(|input| is_named(&input));
+    (inputs.iter().filter(is_named).count(), are_all)
 }
 
 /// The names of columns.

@@ -1,15 +1,13 @@
 //! Columns with one value for all rows of a table.
 
 use std::io::{Read, Write};
-use std::slice::from_ref;
 
 use csv::ByteRecord;
 
-use crate::catalogue::COLUMNS;
 use crate::header::{Heading, is_unit_row};
-use crate::rename::Start;
+use crate::rename::{Start, all_inputs};
 use crate::row::text;
-use crate::{COMMENT, Input, is_decoration};
+use crate::{COMMENT, is_decoration};
 
 /// Copies a table and adds columns after its own: each pair is a heading, and the text that all rows have below it. A row of units, and
 /// a row without data, stay as they are.
@@ -19,7 +17,7 @@ use crate::{COMMENT, Input, is_decoration};
 pub fn complete(source: impl Read, columns: &[(String, String)], mut sink: impl Write) -> Result<(), String> {
     let start = Start::of(source)?;
     let given: Vec<_> = (0..start.header.len()).map(|index| text(&start.header, index).into_owned()).collect();
-    let inputs: Vec<_> = COLUMNS.iter().map(|column| Input::further(from_ref(&column.name))).collect();
+    let inputs = all_inputs();
     // A heading whose unit is not known names no column.
     let known = |heading: &String| Heading::of(heading, &inputs).or_else(|_| Heading::of("", &inputs));
     let headings = given.iter().map(known).collect::<Result<Vec<_>, _>>()?;
@@ -51,7 +49,7 @@ fn completed(row: &ByteRecord, width: usize, columns: &[(String, String)]) -> By
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Decimal, Sheet};
+    use crate::{Decimal, Input, Sheet};
 
     #[test]
     fn every_row_has_the_added_cells() {

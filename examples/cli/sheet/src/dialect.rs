@@ -2,8 +2,13 @@
 
 use std::io::{BufRead, Read};
 
+use csv::ByteRecord;
+
 /// Most lines before a header.
 const MOST_LINES: usize = 1000;
+
+/// Lines without the columns that a command needs that may be titles above the header.
+const MOST_TITLES: usize = 50;
 
 /// Longest line before the first row, bytes.
 const LONGEST_LINE: u64 = 1 << 20;
@@ -16,36 +21,79 @@ const DELIMITERS: [u8; 3] = [b'\t', b';', b','];
 pub(crate) struct Dialect {
     pub(crate) delimiter: u8,
     pub(crate) carriage_return: bool,
-    /// Lines before the header, `sep=;` and comments, which the result repeats.
+    /// Lines before the header, `sep=;`, comments and titles, which the result repeats.
     pub(crate) preamble: Vec<u8>,
+    /// How many of these are titles.
+    pub(crate) titles: usize,
 }
 
-/// Reads a text up to its header; returns the header line too.
+/// A line that may be the header.
+struct Candidate {
+    dialect: Dialect,
+    /// The line, and those that were read after it.
+    lines: Vec<u8>,
+    /// How many columns it names.
+    named: usize,
+}
+
+/// Reads a text up to its header; returns what was read from the header on too. `named` says how many columns some cells name, and
+/// whether they are all that a table must have. The header is the first line that names all, or else the one that names most.
 ///
 /// # Errors
 /// Reading fails, or no header follows.
-pub(crate) fn read(text: &mut impl BufRead) -> Result<(Dialect, Vec<u8>), String> {
-    let (mut preamble, mut separator) = (Vec::new(), None);
+pub(crate) fn read(
+    text: &mut impl BufRead,
+    named: impl Fn(&ByteRecord) -> (usize, bool),
+) -> Result<(Dialect, Vec<u8>), String> {
+    let (mut preamble, mut separator, mut titles) = (Vec::new(), None, 0);
+    let mut best: Option<Candidate> = None;
     for _ in 0..MOST_LINES {
         let mut line = Vec::new();
         text.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line).map_err(|error| error.to_string())?;
-        if line.is_empty() {
+        if line.is_empty() || titles > MOST_TITLES {
+            if let Some(Candidate { dialect, mut lines, .. }) = best {
+                lines.extend(line);
+                return Ok((dialect, lines));
+            }
             return Err("the table is empty; its first row must name the columns".into());
         }
         if let Some(delimiter) = stated_separator(&line) {
             separator = Some(delimiter);
-            preamble.extend(line);
-        } else if is_comment(&line) {
-            preamble.extend(line);
-        } else if !is_blank(&line) {
+        } else if !is_comment(&line) && !is_blank(&line) {
             if line.contains(&0) {
                 return Err("this is no text: it holds bytes of zero; save the table as CSV or xlsx".into());
             }
-            let carriage_return = line.ends_with(b"\r\n");
-            return Ok((Dialect { delimiter: separator.unwrap_or(delimiter(&line)), carriage_return, preamble }, line));
+            let (delimiter, carriage_return) = (separator.unwrap_or(delimiter(&line)), line.ends_with(b"\r\n"));
+            let dialect = |preamble| Dialect { delimiter, carriage_return, preamble, titles };
+            let (named, are_all) = named(&cells(&line, delimiter));
+            if are_all {
+                return Ok((dialect(preamble), line));
+            }
+            if best.as_ref().is_none_or(|best| named > best.named) {
+                best = Some(Candidate { dialect: dialect(preamble.clone()), lines: Vec::new(), named });
+            }
+            titles += 1;
+        }
+        if let Some(best) = &mut best {
+            best.lines.extend(&line);
+        }
+        if !is_blank(&line) {
+            preamble.extend(line);
         }
     }
+    if let Some(Candidate { dialect, lines, .. }) = best {
+        return Ok((dialect, lines));
+    }
     Err(format!("no header in the first {MOST_LINES} lines; a row must name the columns"))
+}
+
+/// The cells of a line.
+fn cells(line: &[u8], delimiter: u8) -> ByteRecord {
+    let mut cells = ByteRecord::new();
+    let mut reader = csv::ReaderBuilder::new().delimiter(delimiter).has_headers(false).from_reader(line);
+    // Bytes in memory are read without an error.
+    let _ = reader.read_byte_record(&mut cells);
+    cells
 }
 
 /// The separator that a line such as `sep=;` states.

@@ -69,12 +69,17 @@ impl Frame {
     }
 
     /// Which columns are used, which are absent and what is used instead, and which are not read, in one to three lines;
-    /// before them which sheet of a workbook is read, if it has several.
+    /// before them which sheet of a workbook is read, if it has several, and how many titles stand above the header.
     /// `computed` are the names of columns that will be added.
     #[must_use]
     pub fn columns_in_words(&self, computed: &[String]) -> String {
         let sheet = self.sheet.as_ref().map_or_else(String::new, |sheet| format!("{sheet}\n  "));
-        sheet + &columns::in_words(&self.headings, &self.inputs, computed)
+        let titles = match self.dialect.titles {
+            0 => String::new(),
+            1 => "a line above the header is not read\n  ".to_owned(),
+            titles => format!("{titles} lines above the header are not read\n  "),
+        };
+        sheet + &titles + &columns::in_words(&self.headings, &self.inputs, computed)
     }
 
     /// A cell, for a message about its decimal mark.

@@ -1,7 +1,7 @@
 //! Which column of a header is which, and in which unit.
 
 use crate::catalogue::Column;
-use crate::units::{Unit, is_unit, unit_by_suffix, unit_in, units_of};
+use crate::units::{Unit, is_unit, plain, unit_by_suffix, unit_in, units_of};
 use crate::{Input, LABEL};
 
 /// A cell of a header.
@@ -40,11 +40,18 @@ impl Heading {
                 heading.name = name.to_owned();
                 heading.unit = unit;
             }
-        } else if let Some(name) = columns().find(|column| *column == base) {
-            heading.name = name.to_owned();
-        } else if let Some((name, unit)) = columns().find_map(|name| Some((name, by_suffix(name, &base)?))) {
-            heading.name = name.to_owned();
-            heading.unit = (!unit.is_si()).then_some(unit);
+            return Ok(heading);
+        }
+        for base in [base, spelled(words)] {
+            if let Some(name) = columns().find(|column| *column == base) {
+                heading.name = name.to_owned();
+                break;
+            }
+            if let Some((name, unit)) = columns().find_map(|name| Some((name, by_suffix(name, &base)?))) {
+                heading.name = name.to_owned();
+                heading.unit = (!unit.is_si()).then_some(unit);
+                break;
+            }
         }
         Ok(heading)
     }
@@ -89,7 +96,7 @@ impl Heading {
     }
 
     /// Whether it is a column of these inputs, or its name without a unit.
-    fn may_be_read(&self, inputs: &[Input]) -> bool {
+    pub(crate) fn may_be_read(&self, inputs: &[Input]) -> bool {
         let mut columns = inputs.iter().flat_map(|input| input.columns()).copied();
         columns.any(|name| name == self.name || Column::named(name).is_some_and(|column| column.base() == self.given))
     }
@@ -111,6 +118,11 @@ impl Heading {
 /// A text as names of columns are written: in lower case, with underscores for spaces.
 fn lower(text: &str) -> String {
     text.trim().to_lowercase().replace(['µ', 'μ'], "u").replace([' ', '-'], "_")
+}
+
+/// The same of a name whose unit is written as in a text: `Radius / µm`, `density kg/m³`.
+fn spelled(text: &str) -> String {
+    plain(&lower(text)).split(['/', ' ', '_']).filter(|word| !word.is_empty()).collect::<Vec<_>>().join("_")
 }
 
 /// The unit that a heading states in brackets or at its end, whatever its words; `None` if it states none of this quantity.

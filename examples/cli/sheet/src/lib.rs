@@ -36,7 +36,7 @@ pub use frame::Frame;
 use header::{Heading, is_unit_row};
 pub use rename::{headings, rename, restore};
 pub use row::Row;
-use row::text;
+use row::{text, text_of_number};
 use source::{Guard, Source};
 pub use value::{Scalar, Value};
 pub use writer::{RowWriter, Rows, Shape, write_records};
@@ -77,7 +77,7 @@ impl<'a> Sheet<'a> {
     fn of(source: Source<'a>, inputs: &[Input], decimal: Option<Decimal>) -> Result<Self, String> {
         let guard = Guard::default();
         let mut lines = BufReader::new(source.text);
-        let (dialect, header_line) = dialect::read(&mut lines)?;
+        let (dialect, header_line) = dialect::read(&mut lines, |cells| columns::named(cells, inputs))?;
         let bytes: Box<dyn Read + 'a> = Box::new(guard.over(source::in_utf8(header_line, lines)));
         let mut rows = csv::ReaderBuilder::new();
         let mut rows = rows.delimiter(dialect.delimiter).flexible(true).comment(Some(COMMENT)).from_reader(bytes);
@@ -202,7 +202,7 @@ fn judge(
     for (row, cells) in rows.iter().enumerate() {
         for (index, heading) in &read {
             let column = if heading.unit.is_some() { &heading.text } else { &heading.name };
-            judge.add(&decimal::Cell { row: row + 1, column, text: &text(cells, *index) });
+            judge.add(&decimal::Cell { row: row + 1, column, text: &text_of_number(cells, *index) });
         }
     }
     judge.convention(comma_separated)

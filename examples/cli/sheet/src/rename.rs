@@ -1,11 +1,12 @@
 //! Which columns a table has, and other names for them.
 
-use std::io::{BufRead, BufReader, Read, Write, copy};
+use std::io::{BufRead, BufReader, Cursor, Read, Write, copy};
 use std::slice::from_ref;
 
 use csv::{ByteRecord, Terminator};
 
 use crate::catalogue::COLUMNS;
+use crate::columns;
 use crate::dialect::{self, Dialect};
 use crate::header::Heading;
 use crate::source::Source;
@@ -14,6 +15,11 @@ use crate::{COMMENT, Input};
 
 /// Most lines of a header, whose quoted cells may hold line ends.
 const MOST_LINES: usize = 100;
+
+/// All columns of the catalogue, none of them required.
+pub(crate) fn all_inputs() -> Vec<Input> {
+    COLUMNS.iter().map(|column| Input::further(from_ref(&column.name))).collect()
+}
 
 /// A table up to its header, and what follows.
 pub(crate) struct Start<'a> {
@@ -26,13 +32,20 @@ pub(crate) struct Start<'a> {
 impl<'a> Start<'a> {
     pub(crate) fn of(source: impl Read + 'a) -> Result<Self, String> {
         let source = Source::of(source)?;
-        let mut rest = BufReader::new(source.text);
-        let (dialect, mut line) = dialect::read(&mut rest)?;
+        let mut text = BufReader::new(source.text);
+        let inputs = all_inputs();
+        // Which of them the table needs is not known; a title does not name several.
+        let (dialect, start) = dialect::read(&mut text, |cells| {
+            let (named, _) = columns::named(cells, &inputs);
+            (named, named > 1)
+        })?;
+        let (mut line, rest): (_, Box<dyn Read + 'a>) = (Vec::new(), Box::new(Cursor::new(start).chain(text)));
+        let mut rest = BufReader::new(rest);
         for _ in 0..MOST_LINES {
+            rest.read_until(b'\n', &mut line).map_err(|error| error.to_string())?;
             if line.iter().filter(|byte| **byte == b'"').count() % 2 == 0 {
                 break;
             }
-            rest.read_until(b'\n', &mut line).map_err(|error| error.to_string())?;
         }
         let reader = csv::ReaderBuilder::new().delimiter(dialect.delimiter).has_headers(false).from_reader(&line[..]);
         let header = reader.into_byte_records().next().unwrap_or_else(|| Ok(ByteRecord::new()));
@@ -78,7 +91,7 @@ fn text(cell: &[u8]) -> String {
 
 /// The column of the catalogue that a heading names; `None` if it names none.
 fn column(heading: &str) -> Option<String> {
-    let inputs: Vec<_> = COLUMNS.iter().map(|column| Input::further(from_ref(&column.name))).collect();
+    let inputs = all_inputs();
     let name = Heading::of(heading, &inputs).ok()?.name;
     COLUMNS.iter().any(|column| column.name == name).then_some(name)
 }
@@ -163,9 +176,12 @@ mod tests {
 
     #[test]
     fn headings_name_columns_of_the_catalogue() {
-        let found = headings("Radius [um];density_g_cm3;name;remark\n".as_bytes()).unwrap();
+        let found = headings("Rig; 3\nRadius [um];density_g_cm3;name;remark\n1;2;a;b\n".as_bytes()).unwrap();
         let columns: Vec<_> = found.iter().map(|(_, column)| column.as_deref()).collect();
         assert_eq!(columns, [Some("radius_m"), Some("density_kg_m3"), Some("name"), None]);
         assert_eq!(found[0].0, "Radius [um]");
+        // Where no line has several, it is the first.
+        let found = headings("size,speed\n1,2\n3,4\n".as_bytes()).unwrap();
+        assert_eq!(found, [("size".to_owned(), None), ("speed".to_owned(), None)]);
     }
 }

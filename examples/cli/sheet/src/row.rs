@@ -7,6 +7,7 @@ use csv::ByteRecord;
 use crate::columns::{Header, LABEL};
 use crate::frame::Frame;
 use crate::header::Heading;
+use crate::units::is_unit;
 use crate::value::{Scalar, Value};
 
 /// One row of a table.
@@ -26,15 +27,41 @@ pub(crate) fn text(cells: &ByteRecord, index: usize) -> Cow<'_, str> {
     }
 }
 
+/// The same of a cell that is read as a number: with a minus sign of ASCII.
+pub(crate) fn text_of_number(cells: &ByteRecord, index: usize) -> Cow<'_, str> {
+    let text = text(cells, index);
+    if text.is_ascii() { text } else { Cow::Owned(text.replace('\u{2212}', "-")) }
+}
+
 /// Why a cell is refused that is not a number, and what to do.
 fn why_no_number(text: &str) -> &'static str {
     if text.starts_with('=') {
         "is a formula without a value; calculate the workbook and save it again, or enter the number"
     } else if is_date_or_time(text) {
         "is a date or time; enter the number, and format the cell as a number"
+    } else if has_groups_of_digits(text) {
+        "is not a number; write it without thousands separators and spaces"
+    } else if has_unit(text) {
+        "is not a number; enter the number alone, and give its unit in the header"
     } else {
         "is not a number"
     }
+}
+
+/// Whether a text is a number but for spaces and marks between its digits, as 1.234,5 or 2 600.
+fn has_groups_of_digits(text: &str) -> bool {
+    let is_separator = |character: char| character.is_whitespace() || matches!(character, '.' | ',' | '\'' | '’' | '_');
+    let digits = text.trim_start_matches(['+', '-']);
+    digits.starts_with(|first: char| first.is_ascii_digit())
+        && digits.chars().all(|character| character.is_ascii_digit() || is_separator(character))
+}
+
+/// Whether a text is a number with a unit behind it.
+fn has_unit(text: &str) -> bool {
+    let end = text.rfind(|character: char| character.is_ascii_digit()).map_or(0, |last| last + 1);
+    let unit_at = text.find(char::is_whitespace).unwrap_or(end);
+    let (number, unit) = text.split_at(unit_at);
+    number.replace(',', ".").parse::<f64>().is_ok() && is_unit(unit)
 }
 
 /// Whether a text is a date or a time, as 2026-09-02, 2/9/2026 or 2:09.
@@ -120,7 +147,7 @@ impl<'a> Row<'a> {
         let Some(index) = self.frame.place(column) else {
             return Ok(None);
         };
-        let text = text(self.cells, index);
+        let text = text_of_number(self.cells, index);
         if text.is_empty() {
             return Ok(None);
         }

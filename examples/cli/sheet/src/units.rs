@@ -191,7 +191,7 @@ struct Written {
 
 impl Written {
     fn of(text: &str) -> Self {
-        let plain: String = text.trim().chars().filter_map(plain).collect();
+        let plain = plain(text.trim());
         let (mut above, mut below) = (Vec::new(), Vec::new());
         let mut divided = false;
         for part in plain.split_inclusive(['/', ' ', '*', '_']) {
@@ -226,8 +226,13 @@ impl Written {
     }
 }
 
+/// A text with a unit in plain characters.
+pub(crate) fn plain(text: &str) -> String {
+    text.replace('°', "deg").chars().filter_map(plain_character).collect()
+}
+
 /// The plain character for one in a unit; `None` for one that is left out.
-fn plain(character: char) -> Option<char> {
+fn plain_character(character: char) -> Option<char> {
     match character {
         'µ' | 'μ' => Some('u'),
         '²' => Some('2'),
@@ -267,6 +272,8 @@ mod tests {
             ("N/m", "mN/m", "mN/m"),
             ("J/m2", "mJ m^-2", "mJ/m2"),
             ("N m", "N m", "N m"),
+            ("deg", "°", "deg"),
+            ("rad/s", "°/s", "deg/s"),
         ] {
             assert_eq!(unit_in(units_of(si), text).map(|unit| unit.symbol), Some(symbol), "{text}");
         }

@@ -72,11 +72,13 @@ fn bounds(cells: &Range<Data>, formulas: &Range<String>) -> Option<Dimensions> {
     }
 }
 
-/// Whether merged cells are those of a comment: of one row, which begins with #.
+/// Whether merged cells are those of a comment or a title: of one row, which begins with # or has no other cell.
 fn is_in_comment(merged: &Dimensions, cells: &Range<Data>, table: Dimensions) -> bool {
-    let mut row = (table.start.1..=table.end.1).filter_map(|column| cells.get_value((merged.start.0, column)));
-    let first = row.find(|cell| **cell != Data::Empty);
-    merged.start.0 == merged.end.0 && first.is_some_and(|cell| text(cell).trim_start().starts_with('#'))
+    let row = (table.start.1..=table.end.1).filter_map(|column| cells.get_value((merged.start.0, column)));
+    let mut filled = row.map(text).filter(|text| !text.trim().is_empty());
+    let first = filled.next();
+    let is_alone = filled.next().is_none();
+    merged.start.0 == merged.end.0 && first.is_none_or(|text| is_alone || text.trim_start().starts_with('#'))
 }
 
 /// The address of a cell as spreadsheets write it, B3 for the third row of the second column.

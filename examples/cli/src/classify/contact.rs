@@ -5,7 +5,7 @@ use microimpact::contact::{
     Status,
 };
 use microimpact::measure::ClassProbabilities;
-use microimpact::rigid::{Departure, EnergyLedger};
+use microimpact::rigid::Departure;
 use microimpact::space::Departing;
 use microimpact::{Approach, Class, Hertz, Oblique, Outcome, PlanarMotion, SurfaceMotion};
 use sheet::{Header, Input, Row, Value};
@@ -45,7 +45,6 @@ pub struct Simulated<T> {
     works: ContactWorks<T>,
     /// The motion along the surface, of a captured sphere as far as it was followed.
     slip: SlipHistory<T>,
-    energy: Option<EnergyLedger<T>>,
     groups: Option<Groups<T>>,
     pub law: LawName,
     speed_over_yield: Option<T>,
@@ -164,13 +163,26 @@ impl<T: Number> Simulated<T> {
         self.arrival.motion_after(self.tangential.motion)
     }
 
+    /// The energy that a rebound loses over that before; `None` of other impacts.
+    fn energy_lost(&self) -> Option<T> {
+        let Self { arrival, normal, tangential, .. } = self;
+        let (sphere, motion) = (arrival.sphere, arrival.motion);
+        let energy = |normal: T, along: T, peripheral: T| {
+            let squares = normal * normal + along * along + sphere.gyration_ratio() * peripheral * peripheral;
+            T::constant(0.5) * sphere.mass() * squares
+        };
+        let before = energy(motion.normal().speed(), motion.tangential(), motion.peripheral());
+        let after = energy(normal.rebound_speed(), tangential.velocity, tangential.spin * sphere.radius());
+        (self.outcome == Outcome::Rebound)
+            .then(|| (before - after).max(T::ZERO) / arrival.energy_before().unwrap_or(before))
+    }
+
     /// The line of the summary.
     fn line(&self, header: &Header<'_>, name: String) -> Vec<String> {
-        let Self { outcome, class, normal, times, slip, energy, law, arrival, .. } = self;
+        let Self { outcome, class, normal, times, slip, law, arrival, .. } = self;
         let nano = |value: Option<T>| value.map_or("-".into(), |value| format!("{:.2}", value * T::constant(1e9)));
         let (restitution, followed) = (self.restitution(), self.followed());
-        let before = |ledger: &EnergyLedger<T>| arrival.energy_before().unwrap_or(ledger.before);
-        let lost = energy.filter(|_| followed).map(|ledger| T::constant(100.0) * ledger.lost() / before(&ledger));
+        let lost = self.energy_lost().filter(|_| followed).map(|lost| T::constant(100.0) * lost);
         let optional = |value: Option<String>| value.unwrap_or("-".into());
         let in_plane = vec![
             name,
@@ -264,7 +276,7 @@ impl<T: Number> SimulationModel<T> {
         let yield_speed = yield_pressure.map(|pressure| Hertz::yield_speed(&sphere, row_law.stiffness, pressure));
         let yield_speed = yield_speed.transpose().map_err(|error| row.reason(error))?;
         let groups = row_law.groups(sphere, &before).map_err(|error| row.reason(error))?;
-        let (normal, tangential, ((times, impulses, works), (slip, energy))) = match row.number(STIFFNESS_RATIO)? {
+        let (normal, tangential, ((times, impulses, works), slip)) = match row.number(STIFFNESS_RATIO)? {
             Some(ratio) => self.solve_compliant(row, &scene, &before, ratio)?,
             None => self.solve(row, &scene, &before)?,
         };
@@ -281,7 +293,6 @@ impl<T: Number> SimulationModel<T> {
             impulses,
             works,
             slip,
-            energy,
             groups,
             law: row_law.name,
             speed_over_yield: yield_speed.map(|speed| before.normal().speed() / speed),
@@ -291,11 +302,16 @@ impl<T: Number> SimulationModel<T> {
     }
 
     fn solve(&self, row: &Row<'_>, scene: &AnyScene<T>, before: &PlanarMotion<T>) -> Result<Solved<T>, String> {
-        // Without a moment this is the same motion; so the solver is compiled for one scene only.
-        let scene = scene.with_peeling(row.or_zero("peeling_n_m")?).map_err(|error| row.reason(error))?;
-        let (impact, outputs) = (self.simulator.simulate)(&scene, before).map_err(|error| row.reason(error))?;
+        let peeling: T = row.or_zero("peeling_n_m")?;
+        let with_peeling = scene.with_peeling(peeling).map_err(|error| row.reason(error))?;
+        // Without a moment this is the same motion.
+        let solved = match &self.simulator.simulate_without_peeling {
+            Some(simulate) if peeling == T::ZERO => simulate(scene, before),
+            _ => (self.simulator.simulate)(&with_peeling, before),
+        };
+        let (impact, outputs) = solved.map_err(|error| row.reason(error))?;
         if impact.run.status != Status::Solved {
-            return Err(self.simulator.refusal(impact.run.status, &scene, before));
+            return Err(self.simulator.refusal(impact.run.status, &with_peeling, before));
         }
         let along = impact.tangential;
         let (motion, velocity, spin) = (along.motion(), along.velocity(), along.spin());

@@ -3,11 +3,10 @@
 use clap::{Args, ValueEnum};
 use microimpact::contact::{
     Adaptive, AnyLaw, Collocation, Compliance, CompliantVelocities, Contact, ContactImpulses, ContactTimes,
-    ContactWorks, Energy, FixedCost, Impulses, Method, Nodes, Peeling, PhaseSamples, RungeKuttaGill, SimulatedImpact,
-    Slip, SlipHistory, Status, TangentialVelocities, Times, Works,
+    ContactWorks, FixedCost, Impulses, Method, Nodes, Output, Peeling, PhaseSamples, RungeKuttaGill, SimulatedImpact,
+    Slip, SlipHistory, Status, Surface, TangentialVelocities, Times, Works,
 };
-use microimpact::rigid::EnergyLedger;
-use microimpact::{InputError, Parameter, PlanarMotion};
+use microimpact::{Coulomb, InputError, Parameter, PlanarMotion};
 use sheet::reason;
 
 use crate::command::{Number, SimulationOptions};
@@ -55,33 +54,25 @@ const STEPS: u32 = 2000;
 /// A scene of any law of contact, with any friction and peeling moment.
 pub type AnyContact<T> = Contact<T, AnyLaw<T>, Peeling<T>>;
 
-/// A scene of any law of contact that is compliant along the surface.
-pub type CompliantContact<T> = Contact<T, AnyLaw<T>, Compliance<T>>;
-
 /// An impact with velocities `V` along the surface, and its outputs.
 pub type Solution<T, V = TangentialVelocities<T>> = (SimulatedImpact<T, V>, Outputs<T>);
 
 /// What a simulation tells of an impact.
-pub type Outputs<T> =
-    ((ContactTimes<T>, ContactImpulses<T>, ContactWorks<T>), (SlipHistory<T>, Option<EnergyLedger<T>>));
+pub type Outputs<T> = ((ContactTimes<T>, ContactImpulses<T>, ContactWorks<T>), SlipHistory<T>);
 
-/// Simulates an impact by a method.
-type Simulate<T> = Box<dyn Fn(&AnyContact<T>, &PlanarMotion<T>) -> Result<Solution<T>, InputError> + Send + Sync>;
-
-/// Simulates an impact with compliance along the surface.
-type SimulateCompliant<T> = Box<
-    dyn Fn(&CompliantContact<T>, &PlanarMotion<T>) -> Result<Solution<T, CompliantVelocities<T>>, InputError>
-        + Send
-        + Sync,
->;
+/// Simulates an impact in a scene with `S` along the surface, which gives the velocities `V`.
+type Simulate<T, S = Peeling<T>, V = TangentialVelocities<T>> =
+    Box<dyn Fn(&Contact<T, AnyLaw<T>, S>, &PlanarMotion<T>) -> Result<Solution<T, V>, InputError> + Send + Sync>;
 
 /// A method of the simulation, in numbers of type `T`.
 pub struct Simulator<T> {
     /// Its name.
     pub method: String,
     pub simulate: Simulate<T>,
+    /// The same without a peeling moment, which takes time even where it is zero, if the method is compiled for it.
+    pub simulate_without_peeling: Option<Simulate<T, Coulomb<T>>>,
     /// The same with compliance along the surface, where the method is offered for it.
-    pub simulate_compliant: Option<SimulateCompliant<T>>,
+    pub simulate_compliant: Option<Simulate<T, Compliance<T>, CompliantVelocities<T>>>,
     /// The method for probabilities, where this one has a tolerance.
     pub control: Option<Adaptive<T>>,
     /// Whether it follows a captured sphere to its first turning point.
@@ -162,9 +153,13 @@ impl MethodOptions {
             MethodName::FixedCost if iterations < most => Some(fixed_cost(fixed_cost_nodes, most)?),
             _ => None,
         };
-        let simulate_compliant = match name {
-            MethodName::Adaptive => Some(compliant_by(self.simulation.method().map_err(too_small)?)),
-            _ => None,
+        // Each scene is compiled for this method alone, which is the one that long tables are computed by.
+        let (simulate_without_peeling, simulate_compliant) = match name {
+            MethodName::Adaptive => {
+                let method = self.simulation.method().map_err(too_small)?;
+                (Some(by(method)), Some(by(method)))
+            }
+            _ => (None, None),
         };
         let control = match name {
             MethodName::Adaptive | MethodName::Collocation => Some(self.simulation.method().map_err(reason)?),
@@ -174,6 +169,7 @@ impl MethodOptions {
             method: name_of(&name),
             simulate,
             control,
+            simulate_without_peeling,
             simulate_compliant,
             with_most_iterations,
             follows_captures: matches!(name, MethodName::Adaptive | MethodName::Collocation),
@@ -186,13 +182,12 @@ impl MethodOptions {
 }
 
 /// Simulates by a method.
-fn by<T: Number>(method: impl Method<T> + Send + Sync + 'static) -> Simulate<T> {
-    Box::new(move |scene, before| scene.solve_for(before, &method, ((Times, Impulses, Works), (Slip, Energy))))
-}
-
-/// Simulates by a method, with compliance along the surface.
-fn compliant_by<T: Number>(method: impl Method<T> + Send + Sync + 'static) -> SimulateCompliant<T> {
-    Box::new(move |scene, before| scene.solve_for(before, &method, ((Times, Impulses, Works), (Slip, Energy))))
+fn by<T: Number, S, V>(method: impl Method<T> + Send + Sync + 'static) -> Simulate<T, S, V>
+where
+    S: Surface<T, PlanarMotion<T>, After = V>,
+    Slip: Output<T, S::Start, Result = SlipHistory<T>>,
+{
+    Box::new(move |scene, before| scene.solve_for(before, &method, ((Times, Impulses, Works), Slip)))
 }
 
 /// What to say of a tolerance that a method refuses, with the options that help instead of the types of the library.

@@ -22,7 +22,7 @@ pub const INPUTS: [Input; 10] = [
     Input::further(&["overall_restitution_error"]),
     Input::optional(&["diameter_m", "radius_m", "mass_kg"], "not known; works are in J/kg"),
     Input::further(&["diameter_error_m"]),
-    Input::further(&["density_kg_m3"]),
+    Input::optional(&["density_kg_m3"], "not known; works are in J/kg").without(&["mass_kg"]),
 ];
 
 /// Standard error of a velocity where the row gives a rebound speed and no error, m/s.

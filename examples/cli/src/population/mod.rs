@@ -73,12 +73,12 @@ Example: glass spheres of 8.6 um with a geometric standard deviation of 1.2 on s
 `cargo microimpact columns population` lists the columns that it reads and writes.";
 
 const MANUAL: &str = "\
-Each row of the table is a population, whose quantities are independent of each other. Diameter, speed, angle and adhesion each have \
-one value, a log-normal distribution by median and geometric deviation, or a normal one by mean and deviation. Normal distributions \
-of diameter, speed and adhesion begin at a thousandth of their mean, those of angles at 0; angles end at 89.9 degrees; what lies \
+Each row of the table is a population, whose quantities are independent of each other. Diameter or radius, speed, angle and adhesion \
+each have one value, a log-normal distribution by median and geometric deviation, or a normal one by mean and deviation. Normal \
+distributions of diameter, speed and adhesion begin at a thousandth of their mean, those of angles at 0; angles end at 89.9 degrees; what lies \
 beyond is left out. Distributions are cut off at six standard deviations. Spheres do not spin before the impact. The work of \
-adhesion of a rigid body is the same for all diameters. --samples takes measured values: diameter_m=FILE, speed_m_s=FILE, \
-angle_deg=FILE, or the column of adhesion.
+adhesion of a rigid body is the same for all diameters. --samples takes measured values: diameter_m=FILE or radius_m=FILE, \
+speed_m_s=FILE, angle_deg=FILE, or the column of adhesion.
 
 Result: probabilities of the classes by number and by mass; a capture that rests counts as rolling. The capture efficiency is the part \
 of the spheres, or of their mass, in a range of diameters that is captured; the ranges go from quantile 0.001 to 0.999 of the \

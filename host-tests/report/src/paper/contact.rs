@@ -3,12 +3,13 @@
 use microimpact::contact::{Recording, RingScene, RungeKuttaGill, Status};
 use microimpact::{InputError, NormalMotion, RigidBody, SpeedRestitution};
 
-use super::{LAW_SPEED, Outcome, RADIUS, SPEED, WORK, column, contact, figure, glass, method, spaced};
+use super::{LAW_SPEED, MEAN_RADIUS, Outcome, RADIUS, SPEED, WORK, column, contact, figure, glass, method, spaced};
 use crate::content::Part;
 use crate::plot::{self, Axis, Line, Mark};
 
-/// Radii of the two curves of figure 6, m: the paper names the diameters.
-const RADII: [f64; 2] = [2.5e-6, 6.5e-6];
+/// Radii of the curves of figure 6, m: those of the two curves of the paper, which names the diameters, and between them that of
+/// the mean sphere, whose restitution is in its text.
+const RADII: [f64; 3] = [2.5e-6, MEAN_RADIUS, 6.5e-6];
 /// Samples of a motion in time.
 const SAMPLES: usize = 1024;
 /// Largest displacement of figure 8, m.
@@ -24,17 +25,19 @@ pub(super) fn parts() -> Outcome<[Part; 4]> {
 fn figure_6() -> Outcome<Part> {
     let method = method()?;
     let rigid = RigidBody::new(glass(RADIUS)?, SpeedRestitution::new(LAW_SPEED)?).with_work_of_adhesion(WORK)?;
-    let [small, large] = [contact(RADII[0])?, contact(RADII[1])?];
+    let [small, mean, large] = [contact(RADII[0])?, contact(RADII[1])?, contact(RADII[2])?];
     let row = |speed| {
         let motion = NormalMotion::new(speed)?;
         let simulated = |scene: &RingScene<f64>| Ok(scene.solve_normal(&motion, &method)?.overall_restitution());
-        Ok([speed, simulated(&small)?, simulated(&large)?, rigid.impact(&motion).normal.overall_restitution()])
+        let rigid = rigid.impact(&motion).normal.overall_restitution();
+        Ok([speed, simulated(&small)?, simulated(&mean)?, simulated(&large)?, rigid])
     };
     let rows = spaced(0.5, 100.0, 401).map(row).collect::<Result<Vec<_>, InputError>>()?;
     let lines = [
         Line::new("simulation, 5 µm", Mark::Dashed, column(&rows, 1)),
-        Line::new("simulation, 13 µm", Mark::Dashed, column(&rows, 2)),
-        Line::new("rigid body, 10.12 µm", Mark::Solid, column(&rows, 3)),
+        Line::new("simulation, 8.6 µm", Mark::Dashed, column(&rows, 2)),
+        Line::new("simulation, 13 µm", Mark::Dashed, column(&rows, 3)),
+        Line::new("rigid body, 10.12 µm", Mark::Solid, column(&rows, 4)),
         Line::new("paper", Mark::Points, vec![(SPEED, 0.62), (SPEED, 0.746), (5.0, 0.0)]),
     ];
     let x = Axis::logarithmic("approach speed", "v", "m/s");
@@ -44,9 +47,15 @@ fn figure_6() -> Outcome<Part> {
         plot::chart(&x, &y, &lines)?,
         "figure-6",
         "Figure 6: restitution of silver-coated glass on steel, with the critical speed of each curve. Points, from the \
-         paper's text: 0.62 for its mean sphere (8.6 µm), 0.746 in Table 1, and the capture of the sphere of 5 µm at \
-         about 5 m/s; its measured points are not given as numbers.",
-        ["approach speed, m/s", "e, simulation, 5 um", "e, simulation, 13 um", "e, rigid body, 10.12 um"],
+         paper's text: 0.62 at 8.6 µm, its mean sphere, by which zeta_A is chosen; 0.746 at 10.12 µm, in Table 1; and the \
+         capture at 5 µm and about 5 m/s. The paper gives none of its measured points as numbers.",
+        [
+            "approach speed, m/s",
+            "e, simulation, 5 um",
+            "e, simulation, 8.6 um",
+            "e, simulation, 13 um",
+            "e, rigid body, 10.12 um",
+        ],
         rows,
     ))
 }

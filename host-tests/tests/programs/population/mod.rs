@@ -119,6 +119,55 @@ fn all_laws_and_distributions() {
     assert_eq!(capture(3), 0.0);
 }
 
+/// A radius is half of the diameter, in each way to give a size.
+#[test]
+fn a_size_is_a_diameter_or_a_radius() {
+    let others = ["speed_m_s=2.7", "density_kg_m3=2600", "restitution_speed_m_s=130", "work_of_adhesion_j=2.22e-12"];
+    let run = |size: &[&str], samples: &[&str]| {
+        let given =
+            [&["--model", "rigid-body", "--format", "csv", "--bins", "2", "--given"], &others[..], size].concat();
+        run(&[&given[..], samples].concat(), "")
+    };
+    for [diameter, radius] in [
+        [&["diameter_um=8.6"][..], &["radius_um=4.3"]],
+        [
+            &["diameter_median_m=8.6e-6", "diameter_geometric_deviation=1.2"],
+            &["radius_median_m=4.3e-6", "radius_geometric_deviation=1.2"],
+        ],
+        [
+            &["diameter_mean_m=8.6e-6", "diameter_deviation_m=1e-6"],
+            &["radius_mean_m=4.3e-6", "radius_deviation_m=5e-7"],
+        ],
+    ] {
+        let (diameter, radius) = (run(diameter, &[]), run(radius, &[]));
+        assert_eq!((diameter.status, radius.status), (0, 0), "{}{}", diameter.complaint(), radius.complaint());
+        assert!(diameter.stdout == radius.stdout && !radius.complaint().contains("not read"), "{}", radius.complaint());
+    }
+    let [diameters, radii] =
+        [("diameter_m", [6e-6, 8e-6, 1.2e-5]), ("radius_m", [3e-6, 4e-6, 6e-6])].map(|(column, values)| {
+            let path = file(&format!("{column}.csv"));
+            std::fs::write(&path, format!("{column}\n{}\n{}\n{}\n", values[0], values[1], values[2])).unwrap();
+            (format!("{column}={}", path.display()), path)
+        });
+    let of_samples = [&diameters, &radii].map(|(samples, _)| run(&[], &["--samples", samples]));
+    assert_eq!(of_samples.each_ref().map(|output| output.status), [0, 0], "{}", of_samples[1].complaint());
+    assert_eq!(of_samples[0].stdout, of_samples[1].stdout);
+    for (size, samples, words) in [
+        (&["radius_m=4e-6", "diameter_m=8e-6"][..], &[][..], "diameter_m: given twice, by diameter_m and radius_m"),
+        (&["radius_m=4e-6"], &["--samples", &diameters.0], "given twice, by radius_m and --samples diameter_m"),
+        (&["radius_median_m=4e-6", "diameter_geometric_deviation=1.2"], &[], "radius_geometric_deviation: missing"),
+        (&["radius_m=4e-6", "diameter_deviation_m=1e-7"], &[], "diameter_deviation_m: it goes with another way"),
+        (&["radius_m=-4e-6"], &[], "radius_m: -0.000004 is refused: it must be positive"),
+    ] {
+        let output = run(size, samples);
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(output.status == 1 && text.contains(words), "{size:?}: {text}");
+    }
+    for (_, path) in [diameters, radii] {
+        std::fs::remove_file(path).unwrap();
+    }
+}
+
 /// Samples are the distribution: the answer is the mean over single spheres.
 #[test]
 fn samples_of_a_file() {
