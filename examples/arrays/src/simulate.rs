@@ -1,11 +1,10 @@
 //! Rows by the contact simulation.
 
+use methods::{OUTPUTS, Outputs, Simulator, Solution};
 use microimpact::contact::{
-    AnyLaw, Classified, CompliantVelocities, Contact, ContactImpulses, ContactTimes, ContactWorks, Energy,
-    ErrorControl, Impulses, Method, NormalContact, SimulatedImpact, Slip, SlipHistory, Status, TangentialVelocities,
-    Times, Works,
+    AnyLaw, AnyScene, Classified, CompliantVelocities, Contact, ErrorControl, Method, NormalContact, SimulatedImpact,
+    Status, TangentialVelocities,
 };
-use microimpact::rigid::EnergyLedger;
 use microimpact::space::Departing;
 use microimpact::{Class, ContactClass, CriticalSpeed, InputError, Outcome, Parameter, SurfaceMotion};
 use rayon::prelude::*;
@@ -13,13 +12,6 @@ use rayon::prelude::*;
 use crate::impacts::{Record, gather};
 use crate::motions::Arrival;
 use crate::{Contacts, Impacts, Motions, Quantity, RowStatus, Surface};
-
-/// What a simulation tells of a contact that it follows.
-type Followed =
-    ((ContactTimes<f64>, ContactImpulses<f64>, ContactWorks<f64>), (SlipHistory<f64>, Option<EnergyLedger<f64>>));
-
-/// Asks for it.
-const FOLLOWED: ((Times, Impulses, Works), (Slip, Energy)) = ((Times, Impulses, Works), (Slip, Energy));
 
 /// Computes the same with each law by its own type: a solver that asks for the law at every step takes more than half as much time
 /// again.
@@ -51,6 +43,57 @@ impl Contacts<'_> {
         gather(count, quantities, |row| self.row(motions, row, method, follow))
     }
 
+    /// Simulates the impacts of `count` rows on all threads, by a method that is chosen at run time. With compliance along the surface,
+    /// a row is unsupported unless the method is `Adaptive`.
+    ///
+    /// ```
+    /// use impact_arrays::{Column, Contacts, Motions, Quantity, RowStatus};
+    /// use methods::{MethodChoice, Refusal};
+    ///
+    /// let radii = [1e-6, 2e-6];
+    /// let (radius, density, stiffness) = (Column::Each(&radii), Column::All(2600.0), Column::All(7.5e10));
+    /// let contacts = Contacts { radius, density, stiffness, ..Contacts::default() };
+    /// let all = Column::All;
+    /// let motions = Motions::Planar { speed_normal: all(2.8), speed_tangential: all(0.0), spin: all(0.0) };
+    /// let simulator = MethodChoice::FixedCost { nodes: 7, iterations: 3 }.simulator()?;
+    /// let impacts = contacts.simulate_by(&simulator, &motions, radii.len(), &[Quantity::ContactTime]);
+    /// assert_eq!(impacts.status, [RowStatus::Solved; 2]);
+    /// # Ok::<(), Refusal>(())
+    /// ```
+    pub fn simulate_by(
+        &self,
+        simulator: &Simulator<f64>,
+        motions: &Motions<'_>,
+        count: usize,
+        quantities: &[Quantity],
+    ) -> Impacts {
+        gather(count, quantities, |row| {
+            let (arrival, scene) = self.start(motions, row)?;
+            let before = &arrival.motion;
+            let moment = match self.surface {
+                Surface::Coulomb { .. } => 0.0,
+                Surface::Peeling { moment, .. } => checked_moment(&arrival, moment.at(row))?,
+                Surface::Compliant { stiffness_ratio, .. } => {
+                    let scene = scene.with_compliance(stiffness_ratio.at(row))?;
+                    return match simulator.simulate_compliant(&scene, before) {
+                        Some(solution) => Ok(compliant_record(&arrival, &solution?)),
+                        None => Ok(Record::without(RowStatus::Unsupported)),
+                    };
+                }
+            };
+            let (impact, outputs) = simulator.simulate(&scene.with_peeling(moment)?, before)?;
+            Ok(record(&arrival, &impact, Some(&outputs)))
+        })
+    }
+
+    /// The arrival of a row and its scene, with friction but without a peeling moment or compliance.
+    fn start(&self, motions: &Motions<'_>, row: usize) -> Result<(Arrival, AnyScene<f64>), InputError> {
+        let arrival = motions.arrival(self.sphere(row)?, row)?;
+        arrival.check_on_one_body(self.external_force.at(row))?;
+        let scene = self.scene_of(arrival.sphere, |column| column.at(row))?;
+        Ok((arrival, scene))
+    }
+
     /// The result of a row.
     pub(crate) fn row(
         &self,
@@ -59,9 +102,7 @@ impl Contacts<'_> {
         method: &impl Method<f64>,
         follow: bool,
     ) -> Result<Record, InputError> {
-        let arrival = motions.arrival(self.sphere(row)?, row)?;
-        arrival.check_on_one_body(self.external_force.at(row))?;
-        let scene = self.scene_of(arrival.sphere, |column| column.at(row))?;
+        let (arrival, scene) = self.start(motions, row)?;
         let before = &arrival.motion;
         match self.surface {
             Surface::Coulomb { friction } if !follow => {
@@ -72,26 +113,17 @@ impl Contacts<'_> {
                 })
             }
             Surface::Coulomb { .. } => {
-                let (impact, followed) = scene.solve_for(before, method, FOLLOWED)?;
+                let (impact, followed) = scene.solve_for(before, method, OUTPUTS)?;
                 Ok(record(&arrival, &impact, Some(&followed)))
             }
             Surface::Peeling { moment, .. } => {
-                let moment = moment.at(row);
-                arrival.check_about_one_axis(Parameter::PeelingMoment, moment)?;
-                let (impact, followed) = scene.with_peeling(moment)?.solve_for(before, method, FOLLOWED)?;
+                let moment = checked_moment(&arrival, moment.at(row))?;
+                let (impact, followed) = scene.with_peeling(moment)?.solve_for(before, method, OUTPUTS)?;
                 Ok(record(&arrival, &impact, Some(&followed)))
             }
             Surface::Compliant { stiffness_ratio, .. } => {
                 let scene = scene.with_compliance(stiffness_ratio.at(row))?;
-                let (impact, followed) = scene.solve_for(before, method, FOLLOWED)?;
-                let mut record = record(&arrival, &impact, Some(&followed));
-                if is_decided(&impact.normal) {
-                    record.put(Quantity::ImpulseRatioOut, impact.tangential.impulse_ratio());
-                    record.put(Quantity::Phases, f64::from(impact.tangential.phases()));
-                    // It slips and sticks several times.
-                    record.put(Quantity::TimeRoll, f64::NAN);
-                }
-                Ok(record)
+                Ok(compliant_record(&arrival, &scene.solve_for(before, method, OUTPUTS)?))
             }
         }
     }
@@ -104,6 +136,24 @@ impl Contacts<'_> {
     ) -> Vec<Result<CriticalSpeed<f64>, InputError>> {
         (0..count).into_par_iter().map(|row| self.scene(row)?.critical_speed(method)).collect()
     }
+}
+
+/// A peeling moment, which is known where the sphere spins about one axis.
+fn checked_moment(arrival: &Arrival, moment: f64) -> Result<f64, InputError> {
+    arrival.check_about_one_axis(Parameter::PeelingMoment, moment)?;
+    Ok(moment)
+}
+
+/// The result of an impact with compliance along the surface.
+fn compliant_record(arrival: &Arrival, (impact, followed): &Solution<f64, CompliantVelocities<f64>>) -> Record {
+    let mut record = record(arrival, impact, Some(followed));
+    if is_decided(&impact.normal) {
+        record.put(Quantity::ImpulseRatioOut, impact.tangential.impulse_ratio());
+        record.put(Quantity::Phases, f64::from(impact.tangential.phases()));
+        // It slips and sticks several times.
+        record.put(Quantity::TimeRoll, f64::NAN);
+    }
+    record
 }
 
 fn is_decided(normal: &NormalContact<f64>) -> bool {
@@ -131,7 +181,7 @@ impl Along for CompliantVelocities<f64> {
 pub(crate) fn record<V: Along>(
     arrival: &Arrival,
     impact: &SimulatedImpact<f64, V>,
-    followed: Option<&Followed>,
+    followed: Option<&Outputs<f64>>,
 ) -> Record
 where
     SimulatedImpact<f64, V>: Departing<f64>,
@@ -174,7 +224,7 @@ fn put_followed(
     outcome: Outcome,
     motion: SurfaceMotion,
     normal: &NormalContact<f64>,
-    ((times, impulses, works), (slip, ledger)): &Followed,
+    ((times, impulses, works), (slip, ledger)): &Outputs<f64>,
 ) {
     record.put_some(Quantity::TurningIndentation, normal.turning_indentation());
     record.put_some(Quantity::ContactTime, times.contact);

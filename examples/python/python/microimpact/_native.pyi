@@ -6,9 +6,16 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from . import methods
+
 __version__: str
 PARAMETERS: list[str]
 QUANTITIES: list[str]
+COLLOCATION_NODES: tuple[int, int, int]
+FIXED_COST_NODES: tuple[int, int, int]
+ITERATIONS: tuple[int, int, int]
+STEPS: tuple[int, int, int]
+TOLERANCE: float
 
 _Float = npt.NDArray[np.float64]
 _Numbers = Mapping[str, float | _Float]
@@ -20,7 +27,9 @@ _Shape = tuple[str, float, float] | _Float
 _Shapes = tuple[_Shape, _Shape, _Shape, _Shape | None]
 _Questions = tuple[int, Sequence[float], Sequence[float], float]
 
-def simulate(words: _Words, numbers: _Numbers, count: int, tolerance: float, outputs: Sequence[str]) -> _Results: ...
+def simulate(
+    words: _Words, numbers: _Numbers, count: int, method: methods.Method, outputs: Sequence[str]
+) -> _Results: ...
 def critical_speeds(words: _Words, numbers: _Numbers, count: int, tolerance: float) -> tuple[_Statuses, _Float]: ...
 def classify(numbers: _Numbers, count: int, outputs: Sequence[str]) -> _Results: ...
 def critical_speeds_of_bodies(numbers: _Numbers, count: int) -> tuple[_Statuses, _Float]: ...

@@ -1,0 +1,214 @@
+//! Methods of the contact simulation that are chosen at run time: by their names and whole numbers, which are types in the library.
+//!
+//! ```
+//! use methods::{MethodChoice, Refusal};
+//! use microimpact::contact::{AnyLaw, Contact};
+//! use microimpact::{NormalMotion, Sphere, Stiffness};
+//!
+//! let scene = Contact::new(Sphere::solid(1e-6, 1000.0)?, AnyLaw::hertz(Stiffness::new(1e10)?));
+//! let scene = scene.with_friction(0.1)?.with_peeling(0.0)?;
+//! let simulator = MethodChoice::Collocation { nodes: 9, tolerance: 1e-9 }.simulator()?;
+//! let (impact, _) = simulator.simulate(&scene, &NormalMotion::new(1.0)?.with_tangential(1.0)?)?;
+//! assert!((impact.normal.overall_restitution() - 1.0_f64).abs() < 1e-9);
+//!
+//! let refused = MethodChoice::Collocation { nodes: 4, tolerance: 1e-9 }.simulator();
+//! assert!(matches!(refused, Err(Refusal::Nodes { nodes: 4, .. })));
+//! # Ok::<(), Refusal>(())
+//! ```
+
+use std::ops::RangeInclusive;
+
+use microimpact::contact::{
+    Adaptive, AdaptiveNodes, AnyLaw, Collocation, Compliance, CompliantVelocities, Contact, ContactImpulses,
+    ContactTimes, ContactWorks, Energy, FixedCost, Impulses, Method, Nodes, Peeling, PhaseSamples, RungeKuttaGill,
+    SimulatedImpact, Slip, SlipHistory, TangentialVelocities, Times, Works,
+};
+use microimpact::rigid::EnergyLedger;
+use microimpact::{InputError, PlanarMotion};
+
+/// A scene of any law of contact, with any friction and peeling moment.
+pub type AnyContact<T> = Contact<T, AnyLaw<T>, Peeling<T>>;
+
+/// A scene of any law of contact that is compliant along the surface.
+pub type CompliantContact<T> = Contact<T, AnyLaw<T>, Compliance<T>>;
+
+/// What a simulation tells of an impact besides how it ends.
+pub type Outputs<T> =
+    ((ContactTimes<T>, ContactImpulses<T>, ContactWorks<T>), (SlipHistory<T>, Option<EnergyLedger<T>>));
+
+/// Asks for it.
+pub const OUTPUTS: ((Times, Impulses, Works), (Slip, Energy)) = ((Times, Impulses, Works), (Slip, Energy));
+
+/// An impact with velocities `V` along the surface, and its outputs.
+pub type Solution<T, V = TangentialVelocities<T>> = (SimulatedImpact<T, V>, Outputs<T>);
+
+type Simulate<T, S, V> = Box<dyn Fn(&S, &PlanarMotion<T>) -> Result<Solution<T, V>, InputError> + Send + Sync>;
+
+/// What a method has where nothing else is said.
+pub mod default {
+    /// Nodes of `Collocation`.
+    pub const COLLOCATION_NODES: u32 = 9;
+
+    /// Nodes of `FixedCost`.
+    pub const FIXED_COST_NODES: u32 = 7;
+
+    /// Iterations of `FixedCost` in each phase.
+    pub const ITERATIONS: u32 = 3;
+
+    /// Steps of `RungeKuttaGill` in an undamped impact.
+    pub const STEPS: u32 = 2000;
+
+    /// Tolerance in double precision.
+    pub const TOLERANCE: f64 = 1e-9;
+}
+
+/// Steps of `RungeKuttaGill` that are offered: from those that still follow the motion to those of a run of a second.
+pub const STEPS: RangeInclusive<u32> = 16..=1_000_000;
+
+/// A method of the simulation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MethodChoice<T> {
+    /// Chooses nodes and intervals that keep the tolerance.
+    Adaptive {
+        /// Bound of the error of e^2 and of all outputs.
+        tolerance: T,
+    },
+    /// As many intervals as the tolerance needs, with a fixed number of nodes in each.
+    Collocation {
+        /// Nodes of an interval.
+        nodes: u32,
+        /// Bound of the error of e^2 and of all outputs.
+        tolerance: T,
+    },
+    /// For firmware: a fixed number of nodes and iterations.
+    FixedCost {
+        /// Nodes of a phase.
+        nodes: u32,
+        /// Iterations in each phase.
+        iterations: u32,
+    },
+    /// The paper's own: fixed steps in time.
+    RungeKuttaGill {
+        /// Steps in an undamped impact.
+        steps: u32,
+    },
+}
+
+/// Why there is no such method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Refusal {
+    /// A number of nodes that is not offered.
+    Nodes {
+        /// The number.
+        nodes: u32,
+        /// Those that are offered.
+        offered: &'static [u32],
+    },
+    /// A number outside its range.
+    Input(InputError),
+}
+
+impl From<InputError> for Refusal {
+    fn from(error: InputError) -> Self {
+        Self::Input(error)
+    }
+}
+
+/// Simulates impacts by a method, in numbers of type `T`.
+pub struct Simulator<T> {
+    simulate: Simulate<T, AnyContact<T>, TangentialVelocities<T>>,
+    simulate_compliant: Option<Simulate<T, CompliantContact<T>, CompliantVelocities<T>>>,
+}
+
+impl<T: OfferedNodes> Simulator<T> {
+    fn by(method: impl Method<T> + Send + Sync + 'static) -> Self {
+        let simulate: Simulate<T, AnyContact<T>, _> =
+            Box::new(move |scene, before| scene.solve_for(before, &method, OUTPUTS));
+        Self { simulate, simulate_compliant: None }
+    }
+
+    fn with_compliance(mut self, method: impl Method<T> + Send + Sync + 'static) -> Self {
+        self.simulate_compliant = Some(Box::new(move |scene, before| scene.solve_for(before, &method, OUTPUTS)));
+        self
+    }
+
+    /// Simulates an impact.
+    ///
+    /// # Errors
+    /// As [`Contact::solve_for`].
+    pub fn simulate(&self, scene: &AnyContact<T>, before: &PlanarMotion<T>) -> Result<Solution<T>, InputError> {
+        (self.simulate)(scene, before)
+    }
+
+    /// Simulates an impact with compliance along the surface; `None` by a method that is not offered for it: only `Adaptive` is.
+    pub fn simulate_compliant(
+        &self,
+        scene: &CompliantContact<T>,
+        before: &PlanarMotion<T>,
+    ) -> Option<Result<Solution<T, CompliantVelocities<T>>, InputError>> {
+        self.simulate_compliant.as_ref().map(|simulate| simulate(scene, before))
+    }
+}
+
+impl<T: OfferedNodes> MethodChoice<T> {
+    /// The simulation by this method.
+    ///
+    /// # Errors
+    /// A number outside its range.
+    pub fn simulator(self) -> Result<Simulator<T>, Refusal> {
+        match self {
+            Self::Adaptive { tolerance } => {
+                let method = Adaptive::new(tolerance)?;
+                Ok(Simulator::by(method).with_compliance(method))
+            }
+            Self::Collocation { nodes, tolerance } => collocation(nodes, tolerance),
+            Self::FixedCost { nodes, iterations } => fixed_cost(nodes, iterations),
+            Self::RungeKuttaGill { steps } => Ok(Simulator::by(RungeKuttaGill::new(steps))),
+        }
+    }
+}
+
+/// The numbers of nodes that are offered, each of which is a type of its own; `with` the nodes for outputs.
+macro_rules! offer {
+    (collocation: $($nodes:literal)*; fixed_cost: $($phase:literal with $outputs:literal),*) => {
+        /// A number type with the tables for the numbers of nodes that are offered.
+        pub trait OfferedNodes:
+            AdaptiveNodes $(+ Nodes<$nodes>)* $(+ PhaseSamples<$phase, $outputs>)* + Send + Sync + 'static
+        {
+        }
+
+        impl<T> OfferedNodes for T where
+            T: AdaptiveNodes $(+ Nodes<$nodes>)* $(+ PhaseSamples<$phase, $outputs>)* + Send + Sync + 'static
+        {
+        }
+
+        /// Nodes that `Collocation` is offered with.
+        pub const COLLOCATION_NODES: &[u32] = &[$($nodes),*];
+
+        /// Nodes that `FixedCost` is offered with.
+        pub const FIXED_COST_NODES: &[u32] = &[$($phase),*];
+
+        fn collocation<T: OfferedNodes>(
+            nodes: u32,
+            tolerance: T,
+        ) -> Result<Simulator<T>, Refusal> {
+            match nodes {
+                $($nodes => Ok(Simulator::by(Collocation::<$nodes, T>::new(tolerance)?)),)*
+                _ => Err(Refusal::Nodes { nodes, offered: COLLOCATION_NODES }),
+            }
+        }
+
+        fn fixed_cost<T: OfferedNodes>(
+            nodes: u32,
+            iterations: u32,
+        ) -> Result<Simulator<T>, Refusal> {
+            match nodes {
+                $($phase => Ok(Simulator::by(FixedCost::<$phase>::new(iterations)?.with_outputs::<$outputs>())),)*
+                _ => Err(Refusal::Nodes { nodes, offered: FIXED_COST_NODES }),
+            }
+        }
+    };
+}
+
+// The end of slip needs four nodes more than the phase, times near the critical speed about twice as many.
+offer!(collocation: 5 6 7 8 9 10 11 12 13 14; fixed_cost: 5 with 10, 6 with 12, 7 with 13, 8 with 15, 9 with 16);
