@@ -1,14 +1,15 @@
 //! Fits of measured impacts.
 
 use impact_fit::{
-    Candidate, Law, Measured, MeasuredSphere, Observation, ObservationError, ScatterModel, Statement, Verdict, compete,
+    Candidate, Law, Measured, MeasuredSphere, Observation, ObservationError, ScatterModel, Statement, Stop, Verdict,
+    compete_until,
 };
 use numpy::PyReadonlyArray1;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::threads::on_all_cores;
+use crate::threads::until_interrupted;
 
 /// A law by its name.
 fn law(name: &str) -> PyResult<Law> {
@@ -88,7 +89,11 @@ pub(crate) fn fit<'py>(
     };
     let observations = (0..columns[0].len()).map(observation).collect::<PyResult<Vec<_>>>()?;
     let scatter = if natural_scatter { ScatterModel::Free } else { ScatterModel::Errors };
-    let verdict = on_all_cores(python, || compete(&observations, &laws, scatter))?;
+    let stop = Stop::default();
+    let fit = || compete_until(&stop, &observations, &laws, scatter);
+    let Some(verdict) = until_interrupted(python, fit, || stop.ask())? else {
+        return Err(PyKeyboardInterrupt::new_err(()));
+    };
     let answer = PyDict::new(python);
     match verdict {
         Verdict::NotEnough(reason) => answer.set_item("reason", reason)?,

@@ -1,6 +1,11 @@
 """Populations against draws, fits against the law that made the data."""
 
 import math
+import os
+import signal
+import subprocess
+import sys
+import time
 
 import numpy as np
 import pytest
@@ -182,3 +187,30 @@ def test_a_captured_sphere_needs_no_rebound():
         mi.fit(speed, overall_restitution=np.where(captured, np.nan, e), captured=captured, laws=["speed-restitution"])
     )
     assert captured.any() and told[0].quantities == told[1].quantities and told[0].fits
+
+
+LONG_FIT = """
+import numpy as np
+import microimpact as mi
+
+random = np.random.default_rng(1)
+speed = random.uniform(1.0, 20.0, 3000)
+contact = mi.Ring(stiffness=7.5e10, adhesion=250, zeta_a=6.25, zeta_h=10.5)
+rebound = mi.Scene(radius=5e-6, density=2600, contact=contact).simulate(speed).rebound_speed
+print("fitting", flush=True)
+mi.fit(speed, rebound_speed=np.clip(rebound + 0.01 * speed * random.standard_normal(3000), 0.0, speed))
+print("done")
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no SIGINT for one process on this system")
+def test_an_interrupt_ends_a_fit():
+    command = [sys.executable, "-c", LONG_FIT]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "fitting\n"
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        begin = time.perf_counter()
+        output, complaint = process.communicate(timeout=60)
+        assert time.perf_counter() - begin < 1.0
+    assert "KeyboardInterrupt" in complaint and "done" not in output
