@@ -2,15 +2,17 @@
 
 use methods::{OUTPUTS, Outputs, Simulator, Solution};
 use microimpact::contact::{
-    AnyLaw, AnyScene, Classified, CompliantVelocities, Contact, ErrorControl, Method, NormalContact, SimulatedImpact,
-    Status, TangentialVelocities,
+    AnyLaw, AnyScene, Classified, CompliantVelocities, Contact, ContactImpulses, ContactTimes, ContactWorks,
+    ErrorControl, Impulses, Method, NormalContact, SimulatedImpact, SlipHistory, Status, TangentialVelocities, Times,
 };
+use microimpact::rigid::EnergyLedger;
 use microimpact::space::Departing;
 use microimpact::{Class, ContactClass, CriticalSpeed, InputError, Outcome, Parameter, SurfaceMotion};
 use rayon::prelude::*;
 
 use crate::impacts::{Record, gather};
 use crate::motions::Arrival;
+use crate::quantity::Asked;
 use crate::{Contacts, Impacts, Motions, Quantity, RowStatus, Surface};
 
 /// Computes the same with each law by its own type: a solver that asks for the law at every step takes more than half as much time
@@ -39,8 +41,8 @@ impl Contacts<'_> {
         method: &(impl Method<f64> + Sync),
         quantities: &[Quantity],
     ) -> Impacts {
-        let follow = quantities.iter().any(|quantity| quantity.is_followed());
-        gather(count, quantities, |row| self.row(motions, row, method, follow))
+        let asked = Asked::by(quantities);
+        gather(count, quantities, |row| self.row(motions, row, method, asked))
     }
 
     /// Simulates the impacts of `count` rows on all threads, by a method that is chosen at run time. With compliance along the surface,
@@ -82,7 +84,7 @@ impl Contacts<'_> {
                 }
             };
             let (impact, outputs) = simulator.simulate(&scene.with_peeling(moment)?, before)?;
-            Ok(record(&arrival, &impact, Some(&outputs)))
+            Ok(record(&arrival, &impact, Some(outputs.into())))
         })
     }
 
@@ -100,26 +102,30 @@ impl Contacts<'_> {
         motions: &Motions<'_>,
         row: usize,
         method: &impl Method<f64>,
-        follow: bool,
+        asked: Asked,
     ) -> Result<Record, InputError> {
         let (arrival, scene) = self.start(motions, row)?;
         let before = &arrival.motion;
         match self.surface {
-            Surface::Coulomb { friction } if !follow => {
+            Surface::Coulomb { friction } if asked == Asked::End => {
                 let (sphere, friction) = (*scene.sphere(), friction.at(row));
                 by_law!(*scene.law(), law => {
                     let scene = Contact::new(sphere, law).with_friction(friction)?;
                     Ok(record(&arrival, &scene.solve(before, method)?, None))
                 })
             }
+            Surface::Coulomb { .. } if asked == Asked::Times => {
+                let (impact, outputs) = scene.solve_for(before, method, (Times, Impulses))?;
+                Ok(record(&arrival, &impact, Some(outputs.into())))
+            }
             Surface::Coulomb { .. } => {
-                let (impact, followed) = scene.solve_for(before, method, OUTPUTS)?;
-                Ok(record(&arrival, &impact, Some(&followed)))
+                let (impact, outputs) = scene.solve_for(before, method, OUTPUTS)?;
+                Ok(record(&arrival, &impact, Some(outputs.into())))
             }
             Surface::Peeling { moment, .. } => {
                 let moment = checked_moment(&arrival, moment.at(row))?;
-                let (impact, followed) = scene.with_peeling(moment)?.solve_for(before, method, OUTPUTS)?;
-                Ok(record(&arrival, &impact, Some(&followed)))
+                let (impact, outputs) = scene.with_peeling(moment)?.solve_for(before, method, OUTPUTS)?;
+                Ok(record(&arrival, &impact, Some(outputs.into())))
             }
             Surface::Compliant { stiffness_ratio, .. } => {
                 let scene = scene.with_compliance(stiffness_ratio.at(row))?;
@@ -145,8 +151,8 @@ fn checked_moment(arrival: &Arrival, moment: f64) -> Result<f64, InputError> {
 }
 
 /// The result of an impact with compliance along the surface.
-fn compliant_record(arrival: &Arrival, (impact, followed): &Solution<f64, CompliantVelocities<f64>>) -> Record {
-    let mut record = record(arrival, impact, Some(followed));
+fn compliant_record(arrival: &Arrival, (impact, outputs): &Solution<f64, CompliantVelocities<f64>>) -> Record {
+    let mut record = record(arrival, impact, Some((*outputs).into()));
     if is_decided(&impact.normal) {
         record.put(Quantity::ImpulseRatioOut, impact.tangential.impulse_ratio());
         record.put(Quantity::Phases, f64::from(impact.tangential.phases()));
@@ -177,11 +183,30 @@ impl Along for CompliantVelocities<f64> {
     }
 }
 
+/// What a simulation tells of a contact that it follows.
+pub(crate) struct Followed {
+    times: ContactTimes<f64>,
+    impulses: ContactImpulses<f64>,
+    rest: Option<(ContactWorks<f64>, SlipHistory<f64>, Option<EnergyLedger<f64>>)>,
+}
+
+impl From<Outputs<f64>> for Followed {
+    fn from(((times, impulses, works), (slip, ledger)): Outputs<f64>) -> Self {
+        Self { times, impulses, rest: Some((works, slip, ledger)) }
+    }
+}
+
+impl From<(ContactTimes<f64>, ContactImpulses<f64>)> for Followed {
+    fn from((times, impulses): (ContactTimes<f64>, ContactImpulses<f64>)) -> Self {
+        Self { times, impulses, rest: None }
+    }
+}
+
 /// The result of an impact.
 pub(crate) fn record<V: Along>(
     arrival: &Arrival,
     impact: &SimulatedImpact<f64, V>,
-    followed: Option<&Outputs<f64>>,
+    followed: Option<Followed>,
 ) -> Record
 where
     SimulatedImpact<f64, V>: Departing<f64>,
@@ -198,7 +223,7 @@ where
     let motion = arrival.motion_after(along.motion);
     let mut record = Record::of(Class::of(outcome, motion));
     record.put_some(Quantity::MaxIndentation, normal.peak_indentation());
-    if let Some(((times, ..), _)) = followed {
+    if let Some(Followed { times, .. }) = &followed {
         record.put_some(Quantity::TimePeak, times.peak);
     }
     if outcome == Outcome::Undecided {
@@ -224,14 +249,20 @@ fn put_followed(
     outcome: Outcome,
     motion: SurfaceMotion,
     normal: &NormalContact<f64>,
-    ((times, impulses, works), (slip, ledger)): &Outputs<f64>,
+    Followed { times, impulses, rest }: Followed,
 ) {
-    record.put_some(Quantity::TurningIndentation, normal.turning_indentation());
+    let ends = outcome == Outcome::Rebound || normal.turning_indentation().is_some();
     record.put_some(Quantity::ContactTime, times.contact);
-    record.put_some(Quantity::TimeRoll, slip.rolls_from.filter(|_| motion != SurfaceMotion::Sliding));
-    if outcome == Outcome::Rebound || normal.turning_indentation().is_some() {
+    if ends {
         record.put(Quantity::ImpulseHertz, impulses.elastic);
         record.put(Quantity::ImpulseAdhesionRebound, impulses.adhesion_rebound);
+    }
+    let Some((works, slip, ledger)) = rest else {
+        return;
+    };
+    record.put_some(Quantity::TurningIndentation, normal.turning_indentation());
+    record.put_some(Quantity::TimeRoll, slip.rolls_from.filter(|_| motion != SurfaceMotion::Sliding));
+    if ends {
         record.put(Quantity::WorkMaterial, works.material);
         record.put(Quantity::WorkAdhesion, works.adhesion);
         record.put(Quantity::Rotation, slip.rotation);
