@@ -25,7 +25,7 @@ _Statuses = tuple[npt.NDArray[np.int8], npt.NDArray[np.int16], _Failure]
 _Results = tuple[_Statuses, npt.NDArray[np.int8], dict[str, _Float]]
 _Shape = tuple[str, float, float] | _Float
 _Shapes = tuple[_Shape, _Shape, _Shape, _Shape | None]
-_Questions = tuple[int, Sequence[float], Sequence[float], float]
+_Asked = tuple[int, Sequence[float], Sequence[float], int, float]
 
 def simulate(
     words: _Words, numbers: _Numbers, count: int, method: methods.Method, outputs: Sequence[str]
@@ -43,9 +43,9 @@ def fit(
     natural_scatter: bool,
 ) -> dict[str, Any]: ...
 def population_of_contacts(
-    words: _Words, numbers: _Numbers, shapes: _Shapes, questions: _Questions, tolerance: float
+    words: _Words, numbers: _Numbers, shapes: _Shapes, asked: _Asked, tolerance: float
 ) -> dict[str, Any]: ...
-def population_of_bodies(numbers: _Numbers, shapes: _Shapes, questions: _Questions) -> dict[str, Any]: ...
+def population_of_bodies(numbers: _Numbers, shapes: _Shapes, asked: _Asked) -> dict[str, Any]: ...
 
 class BoundaryTable:
     def __new__(

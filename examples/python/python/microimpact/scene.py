@@ -14,7 +14,7 @@ from .impacts import AT_WALL, OF_TWO, PLANAR, Impacts, computed, critical_speeds
 from .laws import Contact
 from .methods import Adaptive, Method, checked, rows_at_a_time
 from .motions import AT_REST, UPRIGHT, Numbers, at_wall, in_plane, of_two
-from .population import TOLERANCE, Population
+from .population import PARTICLES, TOLERANCE, Population
 from .tables import BoundaryTable, RestitutionTable
 from .trajectory import Trajectory
 
@@ -247,14 +247,15 @@ class Scene(ByValue):
         bins: int = 8,
         edges: Sequence[float] = (),
         speeds: Sequence[float] = (),
+        particles: int = PARTICLES,
         tolerance: float = TOLERANCE,
     ) -> Population:
         """What a population of spheres does. Quantities are independent: numbers, `LogNormal`, `Normal` or `Samples`.
 
         `diameter` in m; `speed` along the path in m/s; `angle_deg` between the path and the normal, in degrees; `adhesion` takes
         the place of the number of adhesion that the law has. Capture efficiency is that in `bins` ranges of diameters, or between
-        the `edges` (m), NaN in a range without spheres; the bounce fraction that at each of the `speeds` (m/s). Angles end at 89.9
-        degrees. Spheres do not spin before the impact.
+        the `edges` (m), NaN in a range without spheres; the bounce fraction that at each of the `speeds` (m/s), with the
+        interval for as many `particles`. Angles end at 89.9 degrees. Spheres do not spin before the impact.
 
         Each result has an estimate of its error, which `tolerance`, 1e-9 to 1e-3, makes smaller; that of the default is about 1e-4 or
         less. With the default, a table by size takes less than a second where three of the quantities are distributed, and about
@@ -271,4 +272,4 @@ class Scene(ByValue):
                 self.contact.words(), self._material(), shapes, questions, self.tolerance
             )
 
-        return Population.of(compute, diameter, speed, angle_deg, adhesion, bins, edges, speeds, tolerance)
+        return Population.of(compute, diameter, speed, angle_deg, adhesion, bins, edges, speeds, particles, tolerance)
