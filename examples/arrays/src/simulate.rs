@@ -45,8 +45,9 @@ impl Contacts<'_> {
         gather(count, quantities, |row| self.row(motions, row, method, asked))
     }
 
-    /// Simulates the impacts of `count` rows on all threads, by a method that is chosen at run time. With compliance along the surface,
-    /// a row is unsupported unless the method is `Adaptive`.
+    /// Simulates the impacts of `count` rows on all threads, by a method that is chosen at run time and may be slow. With compliance
+    /// along the surface, a row is unsupported unless the method is `Adaptive`. Once `stop` is true, all rows that are left end
+    /// without convergence.
     ///
     /// ```
     /// use impact_arrays::{Column, Contacts, Motions, Quantity, RowStatus};
@@ -58,7 +59,7 @@ impl Contacts<'_> {
     /// let all = Column::All;
     /// let motions = Motions::Planar { speed_normal: all(2.8), speed_tangential: all(0.0), spin: all(0.0) };
     /// let simulator = MethodChoice::FixedCost { nodes: 7, iterations: 3 }.simulator()?;
-    /// let impacts = contacts.simulate_by(&simulator, &motions, radii.len(), &[Quantity::ContactTime]);
+    /// let impacts = contacts.simulate_by(&simulator, &motions, radii.len(), &[Quantity::ContactTime], || false);
     /// assert_eq!(impacts.status, [RowStatus::Solved; 2]);
     /// # Ok::<(), Refusal>(())
     /// ```
@@ -68,8 +69,12 @@ impl Contacts<'_> {
         motions: &Motions<'_>,
         count: usize,
         quantities: &[Quantity],
+        stop: impl Fn() -> bool + Sync,
     ) -> Impacts {
         gather(count, quantities, |row| {
+            if stop() {
+                return Ok(Record::without(RowStatus::NotConverged));
+            }
             let (arrival, scene) = self.start(motions, row)?;
             let before = &arrival.motion;
             let moment = match self.surface {

@@ -270,7 +270,7 @@ fn chosen_methods_agree_with_their_types() -> Result<(), Refusal> {
         let contacts = Contacts { law, ..spheres(&radius) };
         let quantities = [Quantity::OverallRestitution, Quantity::SpinOut, Quantity::ContactTime];
         let simulator = choice.simulator()?;
-        let impacts = contacts.simulate_by(&simulator, &planar(&speed, 3.0), ROWS, &quantities);
+        let impacts = contacts.simulate_by(&simulator, &planar(&speed, 3.0), ROWS, &quantities, || false);
         let mut rebounds = 0;
         for row in (0..ROWS).step_by(7) {
             let sphere = Sphere::solid(radius[row], 2600.0)?;
@@ -293,7 +293,9 @@ fn chosen_methods_agree_with_their_types() -> Result<(), Refusal> {
         let jkr = Contacts { law: Law::Jkr { work: Column::All(0.4), end: JkrEnd::PullOff }, ..contacts };
         let represented = matches!(choice, MethodChoice::Adaptive { .. } | MethodChoice::Collocation { .. });
         let expected = if represented { RowStatus::Solved } else { RowStatus::Unsupported };
-        assert_eq!(jkr.simulate_by(&simulator, &planar(&speed, 3.0), ROWS, &[]).status, [expected; ROWS]);
+        assert_eq!(jkr.simulate_by(&simulator, &planar(&speed, 3.0), ROWS, &[], || false).status, [expected; ROWS]);
+        let stopped = contacts.simulate_by(&simulator, &planar(&speed, 3.0), ROWS, &quantities, || true);
+        assert_eq!(stopped.status, [RowStatus::NotConverged; ROWS]);
 
         let surface = Surface::Compliant { friction: Column::All(0.1), stiffness_ratio: Column::All(0.8) };
         let compliant = Contacts { surface, law: Law::Hertz, ..contacts };
@@ -301,7 +303,7 @@ fn chosen_methods_agree_with_their_types() -> Result<(), Refusal> {
             MethodChoice::Adaptive { .. } => RowStatus::Solved,
             _ => RowStatus::Unsupported,
         };
-        assert_eq!(compliant.simulate_by(&simulator, &planar(&speed, 3.0), 1, &[]).status, [expected]);
+        assert_eq!(compliant.simulate_by(&simulator, &planar(&speed, 3.0), 1, &[], || false).status, [expected]);
         Ok(())
     }
     compare(MethodChoice::Adaptive { tolerance: 1e-6 }, &Adaptive::new(1e-6)?)?;

@@ -1,7 +1,10 @@
 //! Fits of measured impacts.
 
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
 use impact_fit::{
-    Candidate, Law, Measured, MeasuredSphere, Observation, ObservationError, ScatterModel, Statement, Stop, Verdict,
+    Candidate, Law, Measured, MeasuredSphere, Observation, ObservationError, ScatterModel, Statement, Verdict,
     compete_until,
 };
 use numpy::PyReadonlyArray1;
@@ -89,9 +92,8 @@ pub(crate) fn fit<'py>(
     };
     let observations = (0..columns[0].len()).map(observation).collect::<PyResult<Vec<_>>>()?;
     let scatter = if natural_scatter { ScatterModel::Free } else { ScatterModel::Errors };
-    let stop = Stop::default();
-    let fit = || compete_until(&stop, &observations, &laws, scatter);
-    let Some(verdict) = until_interrupted(python, fit, || stop.ask())? else {
+    let fit = |stop: &Arc<AtomicBool>| compete_until(&stop.clone().into(), &observations, &laws, scatter);
+    let Some(verdict) = until_interrupted(python, fit)? else {
         return Err(PyKeyboardInterrupt::new_err(()));
     };
     let answer = PyDict::new(python);

@@ -1,5 +1,7 @@
 //! Methods of the simulation by the attributes of Python's classes.
 
+use std::sync::atomic::Ordering;
+
 use impact_arrays::{Contacts, Impacts, Motions, Quantity};
 use methods::{COLLOCATION_NODES, FIXED_COST_NODES, MethodChoice, Refusal, STEPS, default};
 use microimpact::Parameter;
@@ -8,7 +10,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::refusal::refused;
-use crate::threads::on_all_cores;
+use crate::threads::{on_all_cores, until_interrupted};
 
 /// A method of Python's module `methods`, which has checked whole numbers. Each is told by its attributes.
 #[derive(FromPyObject)]
@@ -44,7 +46,9 @@ impl Method {
             return on_all_cores(python, || contacts.simulate(motions, count, &method, outputs));
         }
         let simulator = self.choice().simulator().map_err(of_method)?;
-        on_all_cores(python, || contacts.simulate_by(&simulator, motions, count, outputs))
+        until_interrupted(python, |stop| {
+            contacts.simulate_by(&simulator, motions, count, outputs, || stop.load(Ordering::Relaxed))
+        })
     }
 
     /// Why an impact has no result where the method does not converge, and where it cannot represent the law.

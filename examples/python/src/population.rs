@@ -1,6 +1,6 @@
 //! Statistics of populations.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 
 use impact_arrays::{Adhesion, Column, Law};
 use microimpact::contact::{Adaptive, Contact};
@@ -167,12 +167,7 @@ fn answer<'py>(
     questions: &Questions,
     compute: impl FnOnce(&Stop<'_>) -> Result<Results, PopulationError> + Send,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let stop = AtomicBool::new(false);
-    let found = until_interrupted(
-        python,
-        || compute(&|| stop.load(Ordering::Relaxed)),
-        || stop.store(true, Ordering::Relaxed),
-    )?;
+    let found = until_interrupted(python, |stop| compute(&|| stop.load(Ordering::Relaxed)))?;
     let results = found.map_err(|error| match error {
         PopulationError::Input(error) => PyValueError::new_err(message(error)),
         other => PyValueError::new_err(format!("population: {other}")),

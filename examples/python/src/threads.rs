@@ -1,5 +1,6 @@
 //! Threads of this process.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -36,21 +37,20 @@ pub(crate) fn on_all_cores<T: Send>(python: Python<'_>, compute: impl FnOnce() -
 /// How long Ctrl-C waits to be seen.
 const BETWEEN_SIGNALS: Duration = Duration::from_millis(50);
 
-/// Computes on all cores, with the interpreter's lock released. If Python has a signal to handle and its handler raises an exception,
-/// `stop` asks the computation to end, and the exception takes the place of its result.
+/// Computes on all cores, with the interpreter's lock released. If Python has a signal to handle and its handler raises an exception, the
+/// flag asks the computation to end, and the exception takes the place of its result.
 pub(crate) fn until_interrupted<T: Send>(
     python: Python<'_>,
-    compute: impl FnOnce() -> T + Send,
-    stop: impl Fn() + Sync,
+    compute: impl FnOnce(&Arc<AtomicBool>) -> T + Send,
 ) -> PyResult<T> {
-    let pool = threads()?;
+    let (pool, stop) = (threads()?, Arc::new(AtomicBool::new(false)));
     python.detach(|| {
         let (mut signal, mut result) = (Ok(()), None);
         let (ended, end) = mpsc::channel::<()>();
         pool.in_place_scope(|scope| {
-            let result = &mut result;
+            let (result, stop) = (&mut result, &stop);
             scope.spawn(move |_| {
-                *result = Some(compute());
+                *result = Some(compute(stop));
                 drop(ended);
             });
             // Until the sender is dropped.
@@ -58,7 +58,7 @@ pub(crate) fn until_interrupted<T: Send>(
                 if signal.is_ok() {
                     signal = Python::attach(|python| python.check_signals());
                     if signal.is_err() {
-                        stop();
+                        stop.store(true, Ordering::Relaxed);
                     }
                 }
             }

@@ -222,6 +222,12 @@ mi.Scene(density=2600, contact=contact, friction=0.1).population(
 )
 """
 
+LONG_METHOD = """
+print("computing", flush=True)
+scene = mi.Scene(radius=5e-6, density=2600, contact=contact, friction=0.1)
+scene.simulate(np.full(30_000, 2.8), 1.0, method=mi.RungeKuttaGill(steps=20_000))
+"""
+
 BEGIN = """
 import numpy as np
 import microimpact as mi
@@ -231,7 +237,7 @@ contact = mi.Ring(stiffness=7.5e10, adhesion=250, zeta_a=6.25, zeta_h=10.5)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="no SIGINT for one process on this system")
-@pytest.mark.parametrize("program", [LONG_FIT, LONG_POPULATION], ids=["fit", "population"])
+@pytest.mark.parametrize("program", [LONG_FIT, LONG_POPULATION, LONG_METHOD], ids=["fit", "population", "method"])
 def test_an_interrupt_ends_a_long_computation(program):
     command = [sys.executable, "-c", f"{BEGIN}{program}print('done')"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:

@@ -29,10 +29,10 @@ class Rows:
         """Number of rows."""
         return int(np.prod(self.shape, dtype=np.int64))
 
-    def parts(self, at_a_time: int) -> Iterator[tuple[dict[str, float | Float], int]]:
+    def parts(self) -> Iterator[tuple[dict[str, float | Float], int]]:
         """The numbers of some rows at a time, and how many rows. The interpreter sees Ctrl-C between them."""
-        for start in range(0, max(self.count, 1), at_a_time):
-            end = min(start + at_a_time, self.count)
+        for start in range(0, max(self.count, 1), AT_A_TIME):
+            end = min(start + AT_A_TIME, self.count)
             yield {n: v if isinstance(v, float) else v[start:end] for n, v in self.numbers.items()}, end - start
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from .arrays import AT_A_TIME, Float, Rows, number_array
+from .arrays import Float, Rows, number_array
 
 if TYPE_CHECKING:
     from ._native import _Results, _Statuses
@@ -165,16 +165,11 @@ class Impacts:
         )
 
 
-def computed(
-    broadcast: Rows,
-    errors: str,
-    compute: Callable[[dict[str, float | Float], int], _Results],
-    at_a_time: int = AT_A_TIME,
-) -> Impacts:
+def computed(broadcast: Rows, errors: str, compute: Callable[[dict[str, float | Float], int], _Results]) -> Impacts:
     """Computes the impacts of all rows, some at a time."""
     check_errors(errors)
     parts, before = [], 0
-    for numbers, count in broadcast.parts(at_a_time):
+    for numbers, count in broadcast.parts():
         parts.append(compute(numbers, count))
         check(errors, parts[-1][0][2], before, broadcast.shape)
         before += count
@@ -187,7 +182,7 @@ def critical_speeds(
     """Computes the critical speeds of all rows, some at a time."""
     check_errors(errors)
     parts, before = [], 0
-    for numbers, count in broadcast.parts(AT_A_TIME):
+    for numbers, count in broadcast.parts():
         (_, _, failure), speeds = compute(numbers, count)
         check(errors, failure, before, broadcast.shape)
         parts.append(speeds)

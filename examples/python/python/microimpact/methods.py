@@ -5,10 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from . import _native
-from .arrays import AT_A_TIME, one_number, whole_number
-
-LARGEST_STEPS = 4_000_000
-"""Time steps of a call of Rust: few enough that Ctrl-C is seen within a second or so."""
+from .arrays import one_number, whole_number
 
 
 @dataclass(frozen=True)
@@ -74,8 +71,3 @@ def checked(method: Method) -> Method:
     if not isinstance(method, Method):
         raise TypeError(f"method: {method!r} is refused: give Adaptive, Collocation, FixedCost or RungeKuttaGill")
     return method
-
-
-def rows_at_a_time(method: Method) -> int:
-    """Rows of a call of Rust."""
-    return max(1, min(AT_A_TIME, LARGEST_STEPS // method.steps)) if isinstance(method, RungeKuttaGill) else AT_A_TIME

@@ -12,7 +12,7 @@ from .arrays import ByValue, Float, one_number, rows, whole_number
 from .distributions import Distributed
 from .impacts import AT_WALL, OF_TWO, PLANAR, Impacts, computed, critical_speeds, outputs_of
 from .laws import Contact
-from .methods import Adaptive, Method, checked, rows_at_a_time
+from .methods import Adaptive, Method, checked
 from .motions import AT_REST, UPRIGHT, Numbers, at_wall, in_plane, of_two
 from .population import PARTICLES, TOLERANCE, Population
 from .tables import BoundaryTable, RestitutionTable
@@ -118,7 +118,7 @@ class Scene(ByValue):
         def compute(numbers: dict[str, float | Float], count: int) -> _native._Results:
             return _native.simulate(words, numbers, count, by, names)
 
-        return computed(rows({**self._with_radius(), **motions}), errors, compute, rows_at_a_time(by))
+        return computed(rows({**self._with_radius(), **motions}), errors, compute)
 
     def simulate(
         self,
