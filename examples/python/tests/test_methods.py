@@ -41,6 +41,14 @@ def with_law(contact):
     return mi.Scene(radius=5.06e-6, density=2600, contact=contact)
 
 
+def test_the_default_is_adaptive():
+    speeds = [2.0, 3.0, 5.0]
+    expected = GLASS.simulate(speeds).overall_restitution
+    assert (GLASS.simulate(speeds, method=mi.Adaptive()).overall_restitution == expected).all()
+    loose = mi.Adaptive(1e-6)
+    assert (GLASS.simulate(speeds, method=loose).overall_restitution != expected).any()
+
+
 def test_all_kinds_of_impacts_take_a_method():
     method, velocity = mi.FixedCost(nodes=9, iterations=6), [[1.0, 0.0, -3.0], [0.0, 2.0, -5.0]]
     for impacts, expected in [

@@ -12,7 +12,7 @@ from .arrays import one_number, whole_number
 class Adaptive:
     """Chooses nodes and intervals that keep the tolerance. It takes every scene, and decides the most impacts."""
 
-    tolerance: float
+    tolerance: float = _native.TOLERANCE
     """Tolerance of e^2 and of all outputs, 1e-13 to 1e-2."""
 
     def __post_init__(self) -> None:
