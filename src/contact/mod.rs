@@ -58,7 +58,7 @@ pub use along::{
 };
 pub use dimensionless::{DimensionlessContact, DimensionlessImpact};
 pub use force::ContactForce;
-pub use lanes::SurfaceInLanes;
+pub use lanes::{OutputInLanes, SurfaceInLanes};
 pub use law::{
     AnyDamping, AnyForce, AnyLaw, Attraction, ConstantDamping, ConstantForce, ContactLaw, Damping, Dmt, Fraction,
     Groups, HertzLaw, HystereticDamping, JkrEnd, JkrLaw, NoDamping, NoForce, NoTension, ProportionalDamping, Ring,

@@ -133,6 +133,16 @@ pub struct ContactTimes<T> {
     pub contact: Option<T>,
 }
 
+impl<T: Real> ContactTimes<T> {
+    pub(super) fn new(times: &quantities::Times<T>, path: &NormalPath<T>, units: &Units<T>) -> Self {
+        let unit = units.time();
+        Self {
+            peak: (path.peak > T::ZERO).then(|| times.peak * unit),
+            contact: (path.end == End::Separation).then(|| times.now * unit),
+        }
+    }
+}
+
 impl<T: Real, S> Output<T, S> for Times {
     type Observer = quantities::Times<T>;
     type Result = ContactTimes<T>;
@@ -143,11 +153,7 @@ impl<T: Real, S> Output<T, S> for Times {
     }
 
     fn finish<L: ContactLaw<T>>(&self, times: Self::Observer, end: &Ended<'_, T, L>) -> ContactTimes<T> {
-        let unit = end.units.time();
-        ContactTimes {
-            peak: (end.path.peak > T::ZERO).then(|| times.peak * unit),
-            contact: (end.path.end == End::Separation).then(|| times.now * unit),
-        }
+        ContactTimes::new(&times, end.path, end.units)
     }
 }
 
@@ -193,6 +199,13 @@ pub struct ContactImpulses<T> {
     pub adhesion_rebound: T,
 }
 
+impl<T: Real> ContactImpulses<T> {
+    pub(super) fn new(impulses: &integrals::Impulses<T>, sphere: &Sphere<T>, units: &Units<T>) -> Self {
+        let unit = sphere.mass() * units.speed;
+        Self { elastic: impulses.elastic * unit, adhesion_rebound: impulses.adhesion_rebound * unit }
+    }
+}
+
 impl<T: Real, S> Output<T, S> for Impulses {
     type Observer = integrals::Impulses<T>;
     type Result = ContactImpulses<T>;
@@ -203,8 +216,7 @@ impl<T: Real, S> Output<T, S> for Impulses {
     }
 
     fn finish<L: ContactLaw<T>>(&self, impulses: Self::Observer, end: &Ended<'_, T, L>) -> ContactImpulses<T> {
-        let unit = end.sphere.mass() * end.units.speed;
-        ContactImpulses { elastic: impulses.elastic * unit, adhesion_rebound: impulses.adhesion_rebound * unit }
+        ContactImpulses::new(&impulses, end.sphere, end.units)
     }
 }
 

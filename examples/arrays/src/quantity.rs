@@ -1,9 +1,26 @@
 //! The numbers that an impact can be asked for.
 
-/// Builds [`Quantity`] from one table: a line holds the variant, its name, and whether the contact simulation must follow the whole
-/// contact for it.
+/// What the contact simulation is asked for besides how an impact ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Asked {
+    /// Nothing.
+    End,
+    /// Times and impulses.
+    Times,
+    /// All that it tells of a contact, which costs about as much again as the end.
+    All,
+}
+
+impl Asked {
+    /// What some quantities need.
+    pub(crate) fn by(quantities: &[Quantity]) -> Self {
+        quantities.iter().map(|quantity| quantity.asked()).max().unwrap_or(Self::End)
+    }
+}
+
+/// Builds [`Quantity`] from one table: a line holds the variant, its name, and what the contact simulation is asked for to have it.
 macro_rules! quantities {
-    ($($(#[doc = $text:literal])+ $variant:ident: $name:literal, $followed:literal;)+) => {
+    ($($(#[doc = $text:literal])+ $variant:ident: $name:literal, $asked:ident;)+) => {
         /// A number that an impact can be asked for, in SI units. An impact that does not have it, has NaN in its place.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum Quantity {
@@ -24,10 +41,9 @@ macro_rules! quantities {
                 }
             }
 
-            /// Whether the contact simulation must follow the whole contact for it, which costs about as much again.
-            pub(crate) const fn is_followed(self) -> bool {
+            const fn asked(self) -> Asked {
                 match self {
-                    $(Self::$variant => $followed,)+
+                    $(Self::$variant => Asked::$asked,)+
                 }
             }
         }
@@ -36,73 +52,73 @@ macro_rules! quantities {
 
 quantities! {
     /// Overall restitution e; zero for a capture.
-    OverallRestitution: "overall_restitution", false;
+    OverallRestitution: "overall_restitution", End;
     /// Rebound speed, m/s; zero for a capture.
-    ReboundSpeed: "rebound_speed", false;
+    ReboundSpeed: "rebound_speed", End;
     /// Tangential velocity, m/s: after a rebound, or of a captured sphere when its slip has ended.
-    SpeedTangentialOut: "speed_tangential_out", false;
+    SpeedTangentialOut: "speed_tangential_out", End;
     /// Spin, rad/s: after a rebound, or of a captured sphere when its slip has ended.
-    SpinOut: "spin_out", false;
+    SpinOut: "spin_out", End;
     /// Friction over the least that ends the slip: the sphere rolls from one on. Not with a peeling moment or compliance.
-    FrictionOverLimit: "friction_over_limit", false;
+    FrictionOverLimit: "friction_over_limit", End;
     /// Peak indentation, m. Simulation.
-    MaxIndentation: "max_indentation", false;
+    MaxIndentation: "max_indentation", End;
     /// Impulse ratio mu. Rigid body, and simulation with compliance.
-    ImpulseRatioOut: "impulse_ratio_out", false;
+    ImpulseRatioOut: "impulse_ratio_out", End;
     /// Impulse ratio mu_0 that ends the slip. Rigid body.
-    RollingRatio: "rolling_ratio", false;
+    RollingRatio: "rolling_ratio", End;
     /// Number of phases of stick and slip. Simulation with compliance.
-    Phases: "phases", false;
+    Phases: "phases", End;
     /// Velocity in space after the impact, m/s, component x.
-    VelocityOutX: "velocity_out_x", false;
+    VelocityOutX: "velocity_out_x", End;
     /// Component y.
-    VelocityOutY: "velocity_out_y", false;
+    VelocityOutY: "velocity_out_y", End;
     /// Component z.
-    VelocityOutZ: "velocity_out_z", false;
+    VelocityOutZ: "velocity_out_z", End;
     /// Spin in space after the impact, rad/s, component x.
-    SpinOutX: "spin_out_x", false;
+    SpinOutX: "spin_out_x", End;
     /// Component y.
-    SpinOutY: "spin_out_y", false;
+    SpinOutY: "spin_out_y", End;
     /// Component z.
-    SpinOutZ: "spin_out_z", false;
+    SpinOutZ: "spin_out_z", End;
     /// Velocity of the second of two spheres after the impact, m/s, component x.
-    Velocity2OutX: "velocity_2_out_x", false;
+    Velocity2OutX: "velocity_2_out_x", End;
     /// Component y.
-    Velocity2OutY: "velocity_2_out_y", false;
+    Velocity2OutY: "velocity_2_out_y", End;
     /// Component z.
-    Velocity2OutZ: "velocity_2_out_z", false;
+    Velocity2OutZ: "velocity_2_out_z", End;
     /// Spin of the second of two spheres after the impact, rad/s, component x.
-    Spin2OutX: "spin_2_out_x", false;
+    Spin2OutX: "spin_2_out_x", End;
     /// Component y.
-    Spin2OutY: "spin_2_out_y", false;
+    Spin2OutY: "spin_2_out_y", End;
     /// Component z.
-    Spin2OutZ: "spin_2_out_z", false;
+    Spin2OutZ: "spin_2_out_z", End;
     /// Indentation at which a captured sphere first turns back, m. Simulation.
-    TurningIndentation: "turning_indentation", true;
+    TurningIndentation: "turning_indentation", All;
     /// Time from first contact to the peak, s. Simulation.
-    TimePeak: "time_peak", true;
+    TimePeak: "time_peak", Times;
     /// Time from first contact to separation, s. Simulation of a rebound.
-    ContactTime: "contact_time", true;
+    ContactTime: "contact_time", Times;
     /// Time at which the slip ends, s; zero if there is none. Simulation of a sphere that rolls before it is at the end.
-    TimeRoll: "time_roll", true;
+    TimeRoll: "time_roll", All;
     /// Impulse of the elastic force, N s. Simulation.
-    ImpulseHertz: "impulse_hertz", true;
+    ImpulseHertz: "impulse_hertz", Times;
     /// Impulse of adhesion on rebound, N s. Simulation.
-    ImpulseAdhesionRebound: "impulse_adhesion_rebound", true;
+    ImpulseAdhesionRebound: "impulse_adhesion_rebound", Times;
     /// Angle through which the sphere turns during contact, rad. Simulation.
-    Rotation: "rotation", true;
+    Rotation: "rotation", All;
     /// Distance of the centre along the surface during contact, m. Simulation.
-    DisplacementTangential: "displacement_tangential", true;
+    DisplacementTangential: "displacement_tangential", All;
     /// Work of the damping in the materials, J.
-    WorkMaterial: "work_material", true;
+    WorkMaterial: "work_material", All;
     /// Work of adhesion or of its damping, J.
-    WorkAdhesion: "work_adhesion", true;
+    WorkAdhesion: "work_adhesion", All;
     /// Work of friction, J. Rigid body, and simulation of a rebound.
-    WorkFriction: "work_friction", true;
+    WorkFriction: "work_friction", All;
     /// Work of rolling dissipation or of a peeling moment, J. Rigid body, and simulation of a rebound.
-    WorkRolling: "work_rolling", true;
+    WorkRolling: "work_rolling", All;
     /// Kinetic energy before the impact, J, of the motion in its plane. Rigid body, and simulation of a rebound.
-    EnergyBefore: "energy_before", true;
+    EnergyBefore: "energy_before", All;
     /// Kinetic energy after the impact, J, of the motion in its plane. Rigid body, and simulation of a rebound.
-    EnergyAfter: "energy_after", true;
+    EnergyAfter: "energy_after", All;
 }

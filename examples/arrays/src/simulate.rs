@@ -1,7 +1,8 @@
 //! Rows by the contact simulation.
 
+use methods::{Simulator, Solution};
 use microimpact::contact::{
-    AnyLaw, Classified, CompliantVelocities, Contact, ContactImpulses, ContactTimes, ContactWorks, Energy,
+    AnyLaw, AnyScene, Classified, CompliantVelocities, Contact, ContactImpulses, ContactTimes, ContactWorks, Energy,
     ErrorControl, Impulses, Method, NormalContact, SimulatedImpact, Slip, SlipHistory, Status, TangentialVelocities,
     Times, Works,
 };
@@ -12,14 +13,15 @@ use rayon::prelude::*;
 
 use crate::impacts::{Record, gather};
 use crate::motions::Arrival;
+use crate::quantity::Asked;
 use crate::{Contacts, Impacts, Motions, Quantity, RowStatus, Surface};
 
-/// What a simulation tells of a contact that it follows.
-type Followed =
+/// What a simulation tells of an impact besides how it ends.
+pub type Outputs =
     ((ContactTimes<f64>, ContactImpulses<f64>, ContactWorks<f64>), (SlipHistory<f64>, Option<EnergyLedger<f64>>));
 
 /// Asks for it.
-const FOLLOWED: ((Times, Impulses, Works), (Slip, Energy)) = ((Times, Impulses, Works), (Slip, Energy));
+pub const OUTPUTS: ((Times, Impulses, Works), (Slip, Energy)) = ((Times, Impulses, Works), (Slip, Energy));
 
 /// Computes the same with each law by its own type: a solver that asks for the law at every step takes more than half as much time
 /// again.
@@ -47,8 +49,64 @@ impl Contacts<'_> {
         method: &(impl Method<f64> + Sync),
         quantities: &[Quantity],
     ) -> Impacts {
-        let follow = quantities.iter().any(|quantity| quantity.is_followed());
-        gather(count, quantities, |row| self.row(motions, row, method, follow))
+        let asked = Asked::by(quantities);
+        gather(count, quantities, |row| self.row(motions, row, method, asked))
+    }
+
+    /// Simulates the impacts of `count` rows on all threads, by a method that is chosen at run time and may be slow. With compliance
+    /// along the surface, a row is unsupported unless the method is `Adaptive`. Once `stop` is true, all rows that are left end
+    /// without convergence.
+    ///
+    /// ```
+    /// use impact_arrays::{Column, Contacts, Motions, OUTPUTS, Quantity, RowStatus};
+    /// use methods::{MethodChoice, Refusal};
+    ///
+    /// let radii = [1e-6, 2e-6];
+    /// let (radius, density, stiffness) = (Column::Each(&radii), Column::All(2600.0), Column::All(7.5e10));
+    /// let contacts = Contacts { radius, density, stiffness, ..Contacts::default() };
+    /// let all = Column::All;
+    /// let motions = Motions::Planar { speed_normal: all(2.8), speed_tangential: all(0.0), spin: all(0.0) };
+    /// let simulator = MethodChoice::FixedCost { nodes: 7, iterations: 3 }.simulator(OUTPUTS)?;
+    /// let impacts = contacts.simulate_by(&simulator, &motions, radii.len(), &[Quantity::ContactTime], || false);
+    /// assert_eq!(impacts.status, [RowStatus::Solved; 2]);
+    /// # Ok::<(), Refusal>(())
+    /// ```
+    pub fn simulate_by(
+        &self,
+        simulator: &Simulator<f64, Outputs>,
+        motions: &Motions<'_>,
+        count: usize,
+        quantities: &[Quantity],
+        stop: impl Fn() -> bool + Sync,
+    ) -> Impacts {
+        gather(count, quantities, |row| {
+            if stop() {
+                return Ok(Record::without(RowStatus::NotConverged));
+            }
+            let (arrival, scene) = self.start(motions, row)?;
+            let before = &arrival.motion;
+            let moment = match self.surface {
+                Surface::Coulomb { .. } => 0.0,
+                Surface::Peeling { moment, .. } => checked_moment(&arrival, moment.at(row))?,
+                Surface::Compliant { stiffness_ratio, .. } => {
+                    let scene = scene.with_compliance(stiffness_ratio.at(row))?;
+                    return match simulator.simulate_compliant(&scene, before) {
+                        Some(solution) => Ok(compliant_record(&arrival, &solution?)),
+                        None => Ok(Record::without(RowStatus::Unsupported)),
+                    };
+                }
+            };
+            let (impact, outputs) = simulator.simulate(&scene, moment, before)?;
+            Ok(record(&arrival, &impact, Some(outputs.into())))
+        })
+    }
+
+    /// The arrival of a row and its scene, with friction but without a peeling moment or compliance.
+    fn start(&self, motions: &Motions<'_>, row: usize) -> Result<(Arrival, AnyScene<f64>), InputError> {
+        let arrival = motions.arrival(self.sphere(row)?, row)?;
+        arrival.check_on_one_body(self.external_force.at(row))?;
+        let scene = self.scene_of(arrival.sphere, |column| column.at(row))?;
+        Ok((arrival, scene))
     }
 
     /// The result of a row.
@@ -57,41 +115,34 @@ impl Contacts<'_> {
         motions: &Motions<'_>,
         row: usize,
         method: &impl Method<f64>,
-        follow: bool,
+        asked: Asked,
     ) -> Result<Record, InputError> {
-        let arrival = motions.arrival(self.sphere(row)?, row)?;
-        arrival.check_on_one_body(self.external_force.at(row))?;
-        let scene = self.scene_of(arrival.sphere, |column| column.at(row))?;
+        let (arrival, scene) = self.start(motions, row)?;
         let before = &arrival.motion;
         match self.surface {
-            Surface::Coulomb { friction } if !follow => {
+            Surface::Coulomb { friction } if asked == Asked::End => {
                 let (sphere, friction) = (*scene.sphere(), friction.at(row));
                 by_law!(*scene.law(), law => {
                     let scene = Contact::new(sphere, law).with_friction(friction)?;
                     Ok(record(&arrival, &scene.solve(before, method)?, None))
                 })
             }
+            Surface::Coulomb { .. } if asked == Asked::Times => {
+                let (impact, outputs) = scene.solve_for(before, method, (Times, Impulses))?;
+                Ok(record(&arrival, &impact, Some(outputs.into())))
+            }
             Surface::Coulomb { .. } => {
-                let (impact, followed) = scene.solve_for(before, method, FOLLOWED)?;
-                Ok(record(&arrival, &impact, Some(&followed)))
+                let (impact, outputs) = scene.solve_for(before, method, OUTPUTS)?;
+                Ok(record(&arrival, &impact, Some(outputs.into())))
             }
             Surface::Peeling { moment, .. } => {
-                let moment = moment.at(row);
-                arrival.check_about_one_axis(Parameter::PeelingMoment, moment)?;
-                let (impact, followed) = scene.with_peeling(moment)?.solve_for(before, method, FOLLOWED)?;
-                Ok(record(&arrival, &impact, Some(&followed)))
+                let moment = checked_moment(&arrival, moment.at(row))?;
+                let (impact, outputs) = scene.with_peeling(moment)?.solve_for(before, method, OUTPUTS)?;
+                Ok(record(&arrival, &impact, Some(outputs.into())))
             }
             Surface::Compliant { stiffness_ratio, .. } => {
                 let scene = scene.with_compliance(stiffness_ratio.at(row))?;
-                let (impact, followed) = scene.solve_for(before, method, FOLLOWED)?;
-                let mut record = record(&arrival, &impact, Some(&followed));
-                if is_decided(&impact.normal) {
-                    record.put(Quantity::ImpulseRatioOut, impact.tangential.impulse_ratio());
-                    record.put(Quantity::Phases, f64::from(impact.tangential.phases()));
-                    // It slips and sticks several times.
-                    record.put(Quantity::TimeRoll, f64::NAN);
-                }
-                Ok(record)
+                Ok(compliant_record(&arrival, &scene.solve_for(before, method, OUTPUTS)?))
             }
         }
     }
@@ -104,6 +155,24 @@ impl Contacts<'_> {
     ) -> Vec<Result<CriticalSpeed<f64>, InputError>> {
         (0..count).into_par_iter().map(|row| self.scene(row)?.critical_speed(method)).collect()
     }
+}
+
+/// A peeling moment, which is known where the sphere spins about one axis.
+fn checked_moment(arrival: &Arrival, moment: f64) -> Result<f64, InputError> {
+    arrival.check_about_one_axis(Parameter::PeelingMoment, moment)?;
+    Ok(moment)
+}
+
+/// The result of an impact with compliance along the surface.
+fn compliant_record(arrival: &Arrival, (impact, outputs): &Solution<f64, Outputs, CompliantVelocities<f64>>) -> Record {
+    let mut record = record(arrival, impact, Some((*outputs).into()));
+    if is_decided(&impact.normal) {
+        record.put(Quantity::ImpulseRatioOut, impact.tangential.impulse_ratio());
+        record.put(Quantity::Phases, f64::from(impact.tangential.phases()));
+        // It slips and sticks several times.
+        record.put(Quantity::TimeRoll, f64::NAN);
+    }
+    record
 }
 
 fn is_decided(normal: &NormalContact<f64>) -> bool {
@@ -127,11 +196,30 @@ impl Along for CompliantVelocities<f64> {
     }
 }
 
+/// What a simulation tells of a contact that it follows.
+pub(crate) struct Followed {
+    times: ContactTimes<f64>,
+    impulses: ContactImpulses<f64>,
+    rest: Option<(ContactWorks<f64>, SlipHistory<f64>, Option<EnergyLedger<f64>>)>,
+}
+
+impl From<Outputs> for Followed {
+    fn from(((times, impulses, works), (slip, ledger)): Outputs) -> Self {
+        Self { times, impulses, rest: Some((works, slip, ledger)) }
+    }
+}
+
+impl From<(ContactTimes<f64>, ContactImpulses<f64>)> for Followed {
+    fn from((times, impulses): (ContactTimes<f64>, ContactImpulses<f64>)) -> Self {
+        Self { times, impulses, rest: None }
+    }
+}
+
 /// The result of an impact.
 pub(crate) fn record<V: Along>(
     arrival: &Arrival,
     impact: &SimulatedImpact<f64, V>,
-    followed: Option<&Followed>,
+    followed: Option<Followed>,
 ) -> Record
 where
     SimulatedImpact<f64, V>: Departing<f64>,
@@ -148,7 +236,7 @@ where
     let motion = arrival.motion_after(along.motion);
     let mut record = Record::of(Class::of(outcome, motion));
     record.put_some(Quantity::MaxIndentation, normal.peak_indentation());
-    if let Some(((times, ..), _)) = followed {
+    if let Some(Followed { times, .. }) = &followed {
         record.put_some(Quantity::TimePeak, times.peak);
     }
     if outcome == Outcome::Undecided {
@@ -174,14 +262,20 @@ fn put_followed(
     outcome: Outcome,
     motion: SurfaceMotion,
     normal: &NormalContact<f64>,
-    ((times, impulses, works), (slip, ledger)): &Followed,
+    Followed { times, impulses, rest }: Followed,
 ) {
-    record.put_some(Quantity::TurningIndentation, normal.turning_indentation());
+    let ends = outcome == Outcome::Rebound || normal.turning_indentation().is_some();
     record.put_some(Quantity::ContactTime, times.contact);
-    record.put_some(Quantity::TimeRoll, slip.rolls_from.filter(|_| motion != SurfaceMotion::Sliding));
-    if outcome == Outcome::Rebound || normal.turning_indentation().is_some() {
+    if ends {
         record.put(Quantity::ImpulseHertz, impulses.elastic);
         record.put(Quantity::ImpulseAdhesionRebound, impulses.adhesion_rebound);
+    }
+    let Some((works, slip, ledger)) = rest else {
+        return;
+    };
+    record.put_some(Quantity::TurningIndentation, normal.turning_indentation());
+    record.put_some(Quantity::TimeRoll, slip.rolls_from.filter(|_| motion != SurfaceMotion::Sliding));
+    if ends {
         record.put(Quantity::WorkMaterial, works.material);
         record.put(Quantity::WorkAdhesion, works.adhesion);
         record.put(Quantity::Rotation, slip.rotation);

@@ -3,7 +3,7 @@
 use std::array;
 
 use impact_arrays::{Column, Contacts, Damping, F32x8, F64x4, Law, Motions, Quantity, RowStatus, Surface};
-use microimpact::contact::{Adaptive, AnyLaw, Contact, FixedCost, Status};
+use microimpact::contact::{Adaptive, AnyLaw, Contact, FixedCost, Impulses, Status, Times};
 use microimpact::{Class, InputError, NormalMotion, Real, Sphere, Stiffness};
 
 /// Numbers of the van der Corput sequence, evenly between two bounds on a logarithmic scale.
@@ -51,6 +51,8 @@ macro_rules! compare {
             })?;
             let (together, motions) = scene(<$lanes>::from(radius), <$lanes>::from(speed), in_lanes, 2.0)?;
             let impacts = together.solve_lanes::<$number, _, 7, 9, $count>(&motions, &method)?;
+            let outputs = (Times, Impulses);
+            let followed = together.solve_lanes_for::<$number, _, _, 7, 9, $count>(&motions, &method, outputs)?;
             for (lane, impact) in impacts.iter().enumerate() {
                 let mut turn = 1;
                 let alone = law(kind, |low, high| {
@@ -58,7 +60,9 @@ macro_rules! compare {
                     number(low, high, turn)[lane]
                 })?;
                 let scene = Contact::new(Sphere::solid(radius[lane], 2600.0)?, alone).with_friction(0.1)?;
-                let single = scene.solve(&NormalMotion::new(speed[lane])?.with_tangential(2.0)?, &method)?;
+                let motion = NormalMotion::new(speed[lane])?.with_tangential(2.0)?;
+                assert_eq!(followed[lane], scene.solve_for(&motion, &method, outputs)?);
+                let single = scene.solve(&motion, &method)?;
                 match single.class() {
                     Some(Class::ReboundSliding | Class::ReboundRolling) => solved += 1,
                     Some(Class::CapturedRolling | Class::CapturedSliding | Class::CapturedResting) => captured += 1,
@@ -129,9 +133,18 @@ fn rows_in_lanes_agree_with_rows_one_by_one() -> Result<(), InputError> {
     let (radius, mut speed, damping) = (numbers(1e-6, 2e-5, 0), numbers(0.05, 50.0, 5), numbers(1.0, 3e3, 11));
     (speed[3], speed[400]) = (-1.0, f64::NAN);
     let (quick, sure) = (FixedCost::<7>::new(3)?, Adaptive::new(1e-9)?);
-    let quantities =
-        [Quantity::OverallRestitution, Quantity::ReboundSpeed, Quantity::SpeedTangentialOut, Quantity::SpinOut];
-    for law in [Law::Ring { strength: Column::All(250.0), damping: Column::All(6.25) }, Law::WithoutTension] {
+    let quantities = [
+        Quantity::OverallRestitution,
+        Quantity::ReboundSpeed,
+        Quantity::SpeedTangentialOut,
+        Quantity::SpinOut,
+        Quantity::TimePeak,
+        Quantity::ContactTime,
+        Quantity::ImpulseHertz,
+        Quantity::ImpulseAdhesionRebound,
+    ];
+    let laws = [Law::Ring { strength: Column::All(250.0), damping: Column::All(6.25) }, Law::WithoutTension];
+    for (law, quantities) in laws.into_iter().flat_map(|law| [(law, &quantities[..4]), (law, &quantities[..])]) {
         let contacts = Contacts {
             radius: Column::Each(&radius),
             density: Column::All(2600.0),
@@ -143,10 +156,10 @@ fn rows_in_lanes_agree_with_rows_one_by_one() -> Result<(), InputError> {
         };
         let (speed_tangential, spin) = (Column::All(3.0), Column::All(1e5));
         let motions = Motions::Planar { speed_normal: Column::Each(&speed), speed_tangential, spin };
-        let together = contacts.simulate_in_lanes(&motions, ROWS, &quick, &sure, &quantities);
+        let together = contacts.simulate_in_lanes(&motions, ROWS, &quick, &sure, quantities);
         let [by_quick, by_sure] = [
-            contacts.simulate(&motions, ROWS, &quick, &quantities),
-            contacts.simulate(&motions, ROWS, &sure, &quantities),
+            contacts.simulate(&motions, ROWS, &quick, quantities),
+            contacts.simulate(&motions, ROWS, &sure, quantities),
         ];
         let mut others = 0;
         for row in 0..ROWS {

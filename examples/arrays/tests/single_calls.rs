@@ -1,9 +1,10 @@
 //! Rows agree with single calls of the library, and each row has a status of its own.
 
 use impact_arrays::{
-    Adhesion, Column, Contacts, Damping, Law, Motions, Quantity, Restitution, RigidBodies, RowStatus, Surface,
+    Adhesion, Column, Contacts, Damping, Law, Motions, OUTPUTS, Quantity, Restitution, RigidBodies, RowStatus, Surface,
 };
-use microimpact::contact::{Adaptive, Contact, FixedCost, JkrEnd, Slip, Times};
+use methods::{MethodChoice, Refusal};
+use microimpact::contact::{Adaptive, Collocation, Contact, FixedCost, JkrEnd, Method, RungeKuttaGill, Slip, Times};
 use microimpact::space::{Pair, SpatialMotion, Wall};
 use microimpact::{
     Class, CriticalSpeed, InputError, NormalMotion, Outcome, Parameter, RigidBody, SpeedRestitution, Sphere, Stiffness,
@@ -258,4 +259,55 @@ fn critical_speeds_are_those_of_the_paper() -> Result<(), InputError> {
     assert!(matches!(found[0], Ok(CriticalSpeed::At(speed)) if (speed - 5.159_566_762).abs() < 1e-8));
     assert_eq!(found[1].map_err(|error| error.parameter), Err(Parameter::Radius));
     Ok(())
+}
+
+/// A method that is chosen at run time is that of the library's type, and says which laws it cannot represent.
+#[test]
+fn chosen_methods_agree_with_their_types() -> Result<(), Refusal> {
+    fn compare(choice: MethodChoice<f64>, method: &impl Method<f64>) -> Result<(), Refusal> {
+        let (radius, speed) = (column(1e-6, 2e-5), column(0.05, 50.0));
+        let law = Law::Ring { strength: Column::All(250.0), damping: Column::All(6.25) };
+        let contacts = Contacts { law, ..spheres(&radius) };
+        let quantities = [Quantity::OverallRestitution, Quantity::SpinOut, Quantity::ContactTime];
+        let simulator = choice.simulator(OUTPUTS)?;
+        let impacts = contacts.simulate_by(&simulator, &planar(&speed, 3.0), ROWS, &quantities, || false);
+        let mut rebounds = 0;
+        for row in (0..ROWS).step_by(7) {
+            let sphere = Sphere::solid(radius[row], 2600.0)?;
+            let before = NormalMotion::new(speed[row])?.with_tangential(3.0)?.with_spin(&sphere, 1e5)?;
+            let hertz = Contact::hertz(sphere, Stiffness::new(7.5e10)?).with_damping(10.5)?;
+            let scene = hertz.with_ring(250.0, 6.25)?.with_friction(0.1)?.with_peeling(0.0)?;
+            let (impact, ((times, ..), _)) = scene.solve_for(&before, method, OUTPUTS)?;
+            assert_eq!(impacts.class[row], impact.class(), "{choice:?}, row {row}");
+            let Some(time) = times.contact else { continue };
+            rebounds += 1;
+            let numbers = impacts.quantities.iter().map(|(_, numbers)| numbers[row]);
+            let expected = [impact.normal.overall_restitution(), impact.tangential.spin(), time];
+            for (number, expected) in numbers.zip(expected) {
+                let close = (number - expected).abs() <= 1e-12 * expected.abs();
+                assert!(close, "{choice:?}, row {row}: {number:e} {expected:e}");
+            }
+        }
+        assert!(rebounds > 30, "{choice:?}: {rebounds}");
+
+        let jkr = Contacts { law: Law::Jkr { work: Column::All(0.4), end: JkrEnd::PullOff }, ..contacts };
+        let represented = matches!(choice, MethodChoice::Adaptive { .. } | MethodChoice::Collocation { .. });
+        let expected = if represented { RowStatus::Solved } else { RowStatus::Unsupported };
+        assert_eq!(jkr.simulate_by(&simulator, &planar(&speed, 3.0), ROWS, &[], || false).status, [expected; ROWS]);
+        let stopped = contacts.simulate_by(&simulator, &planar(&speed, 3.0), ROWS, &quantities, || true);
+        assert_eq!(stopped.status, [RowStatus::NotConverged; ROWS]);
+
+        let surface = Surface::Compliant { friction: Column::All(0.1), stiffness_ratio: Column::All(0.8) };
+        let compliant = Contacts { surface, law: Law::Hertz, ..contacts };
+        let expected = match choice {
+            MethodChoice::Adaptive { .. } => RowStatus::Solved,
+            _ => RowStatus::Unsupported,
+        };
+        assert_eq!(compliant.simulate_by(&simulator, &planar(&speed, 3.0), 1, &[], || false).status, [expected]);
+        Ok(())
+    }
+    compare(MethodChoice::Adaptive { tolerance: 1e-6 }, &Adaptive::new(1e-6)?)?;
+    compare(MethodChoice::Collocation { nodes: 6, tolerance: 1e-5 }, &Collocation::<6, f64>::new(1e-5)?)?;
+    compare(MethodChoice::FixedCost { nodes: 7, iterations: 3 }, &FixedCost::<7>::new(3)?.with_outputs::<13>())?;
+    compare(MethodChoice::RungeKuttaGill { steps: 300 }, &RungeKuttaGill::new(300))
 }

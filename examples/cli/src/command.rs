@@ -7,20 +7,20 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
-use microimpact::contact::{Adaptive, AdaptiveNodes};
+use methods::{OfferedNodes, default};
+use microimpact::contact::Adaptive;
 use microimpact::measure::NormalDistribution;
 use microimpact::{InputError, Real};
 use sheet::{Decimal, Header, Input, LABEL, RowWriter, Scalar, Shape, Sheet, Value};
 
 use crate::Streams;
-use crate::classify::OfferedNodes;
 use crate::progress::Progress;
 use crate::rows::{Computed, Task, Work};
 
 /// A number type that all commands can compute in.
-pub trait Number: Scalar + AdaptiveNodes + OfferedNodes + NormalDistribution + Into<f64> + 'static {}
+pub trait Number: Scalar + OfferedNodes + NormalDistribution + Into<f64> {}
 
-impl<T: Scalar + AdaptiveNodes + OfferedNodes + NormalDistribution + Into<f64> + 'static> Number for T {}
+impl<T: Scalar + OfferedNodes + NormalDistribution + Into<f64>> Number for T {}
 
 /// Options of a command that reads a table and adds columns to it.
 #[derive(Args)]
@@ -114,8 +114,7 @@ pub struct SimulationOptions {
     tolerance: Option<f64>,
 }
 
-/// Default tolerances of f64 and f32.
-const TOLERANCE: f64 = 1e-9;
+/// Default tolerance of f32.
 const SINGLE_TOLERANCE: f64 = 1e-6;
 
 impl SimulationOptions {
@@ -126,8 +125,9 @@ impl SimulationOptions {
 
     /// The tolerance: without the option, one that the number type can keep.
     pub fn tolerance<T: Real>(&self) -> T {
-        let default = if T::EPSILON < T::constant(TOLERANCE) { TOLERANCE } else { SINGLE_TOLERANCE };
-        T::constant(self.tolerance.unwrap_or(default))
+        let tolerance =
+            if T::EPSILON < T::constant(default::TOLERANCE) { default::TOLERANCE } else { SINGLE_TOLERANCE };
+        T::constant(self.tolerance.unwrap_or(tolerance))
     }
 
     /// The method that keeps this tolerance.

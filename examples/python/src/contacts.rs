@@ -7,6 +7,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::columns::Columns;
+use crate::method::Method;
 use crate::refusal::refused;
 use crate::results::{Results, Statuses, quantities, results, speeds};
 use crate::threads::on_all_cores;
@@ -55,20 +56,19 @@ pub(crate) fn contacts<'a>((law, end_rule, damping): &Words, columns: &'a Column
     })
 }
 
-/// Simulates impacts.
+/// Simulates impacts by a method.
 #[pyfunction]
 pub(crate) fn simulate<'py>(
     python: Python<'py>,
     words: Words,
     numbers: Columns<'py>,
     count: usize,
-    tolerance: f64,
+    method: Method,
     outputs: Vec<String>,
 ) -> PyResult<Results<'py>> {
     let (contacts, motions, outputs) = (contacts(&words, &numbers)?, numbers.motions()?, quantities(&outputs)?);
-    let method = Adaptive::new(tolerance).map_err(refused)?;
-    let impacts = on_all_cores(python, || contacts.simulate(&motions, count, &method, &outputs))?;
-    results(python, impacts, |row| numbers.is_second_refused(row).unwrap_or(false))
+    let impacts = method.simulate(python, &contacts, &motions, count, &outputs)?;
+    results(python, impacts, method.failures(), |row| numbers.is_second_refused(row).unwrap_or(false))
 }
 
 /// Finds critical speeds, m/s.

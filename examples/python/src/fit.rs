@@ -1,14 +1,18 @@
 //! Fits of measured impacts.
 
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
 use impact_fit::{
-    Candidate, Law, Measured, MeasuredSphere, Observation, ObservationError, ScatterModel, Statement, Verdict, compete,
+    Candidate, Law, Measured, MeasuredSphere, Observation, ObservationError, ScatterModel, Statement, Verdict,
+    compete_until,
 };
 use numpy::PyReadonlyArray1;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::threads::on_all_cores;
+use crate::threads::until_interrupted;
 
 /// A law by its name.
 fn law(name: &str) -> PyResult<Law> {
@@ -88,7 +92,10 @@ pub(crate) fn fit<'py>(
     };
     let observations = (0..columns[0].len()).map(observation).collect::<PyResult<Vec<_>>>()?;
     let scatter = if natural_scatter { ScatterModel::Free } else { ScatterModel::Errors };
-    let verdict = on_all_cores(python, || compete(&observations, &laws, scatter))?;
+    let fit = |stop: &Arc<AtomicBool>| compete_until(&stop.clone().into(), &observations, &laws, scatter);
+    let Some(verdict) = until_interrupted(python, fit)? else {
+        return Err(PyKeyboardInterrupt::new_err(()));
+    };
     let answer = PyDict::new(python);
     match verdict {
         Verdict::NotEnough(reason) => answer.set_item("reason", reason)?,

@@ -4,6 +4,7 @@
 mod columns;
 mod contacts;
 mod fit;
+mod method;
 mod population;
 mod refusal;
 mod results;
@@ -33,12 +34,14 @@ mod _native {
     use super::trajectory::trajectory;
     use super::*;
 
-    /// The version, the names of the parameters in the order of their codes, and the names of the quantities.
+    /// The version, the names of the parameters in the order of their codes, the names of the quantities, and
+    /// what the methods take.
     #[pymodule_init]
     fn names(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
         let second = refusal::OF_SECOND.map(|(_, keyword)| keyword);
         module.add("PARAMETERS", [&Parameter::ALL.map(refusal::keyword)[..], &second].concat())?;
-        module.add("QUANTITIES", Quantity::ALL.map(Quantity::name))
+        module.add("QUANTITIES", Quantity::ALL.map(Quantity::name))?;
+        method::add_ranges(module)
     }
 }

@@ -1,12 +1,14 @@
 //! Statistics of populations.
 
+use std::sync::atomic::Ordering;
+
 use impact_arrays::{Adhesion, Column, Law};
 use microimpact::contact::{Adaptive, Contact};
 use microimpact::{InputError, Parameter, RigidBody, Sphere};
 use numpy::PyReadonlyArray1;
 use population::{
-    Distribution, DistributionError, Estimate, Moments, Outcomes, Population, PopulationError, Response, RigidBodies,
-    Simulations, Statistics,
+    Classes, Distribution, DistributionError, Estimate, Moments, Population, PopulationError, Questions, Response,
+    Results, RigidBodies, Simulations, SizeBin, Statistics, Stop,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -16,6 +18,7 @@ use crate::columns::Columns;
 use crate::contacts::{Words, contacts};
 use crate::refusal::{message, refused};
 use crate::rigid_bodies::bodies;
+use crate::threads::until_interrupted;
 
 /// A distribution by its kind and two numbers, or samples.
 #[derive(FromPyObject)]
@@ -24,7 +27,7 @@ pub(crate) enum Shape<'py> {
     Samples(PyReadonlyArray1<'py, f64>),
 }
 
-/// Diameter, speed, angle in radians, and adhesion, which is the scene's own where there is none.
+/// Diameter, speed, angle in degrees, and adhesion, which is the scene's own where there is none.
 pub(crate) type Shapes<'py> = (Shape<'py>, Shape<'py>, Shape<'py>, Option<Shape<'py>>);
 
 impl Shape<'_> {
@@ -40,34 +43,31 @@ impl Shape<'_> {
             Self::Samples(values) if may_be_zero => Distribution::samples_of_any_sign(values.as_slice()?.to_vec()),
             Self::Samples(values) => Distribution::samples(values.as_slice()?.to_vec()),
         };
-        found.map_err(|error: DistributionError| PyValueError::new_err(format!("{name}: {error}")))
+        found.map_err(|error| refused_shape(name, error))
     }
 }
 
-/// Largest angle of incidence, degrees.
-const LARGEST_ANGLE: f64 = 89.9;
-
-/// Angles of incidence, rad; of a normal distribution, what lies beyond the largest is left out.
-fn angles(distribution: Distribution) -> PyResult<Distribution> {
-    let largest = LARGEST_ANGLE.to_radians();
-    if distribution.lone_values().iter().any(|angle| !(0.0..=largest).contains(angle)) {
-        let message = format!("angle_deg: an angle of incidence must be 0 to {LARGEST_ANGLE} degrees from the normal");
-        return Err(PyValueError::new_err(message));
-    }
-    if !distribution.is_continuous() {
-        return Ok(distribution);
-    }
-    distribution.within(0.0, largest).map_err(|error| PyValueError::new_err(format!("angle_deg: {error}")))
+fn refused_shape(name: &str, error: DistributionError) -> PyErr {
+    PyValueError::new_err(format!("{name}: {error}"))
 }
 
-/// What is asked of a population: number of ranges of diameters or their edges, m, speeds, m/s, and the tolerance of the quadrature.
-pub(crate) type Questions = (usize, Vec<f64>, Vec<f64>, f64);
+/// What is asked of a population: number of ranges of diameters or their edges, m, speeds, m/s, particles at each of them, and the
+/// tolerance of the quadrature.
+#[derive(FromPyObject)]
+pub(crate) struct Asked(u32, Vec<f64>, Vec<f64>, u32, f64);
+
+impl Asked {
+    fn questions(self) -> (Questions, f64) {
+        let Self(bins, edges, speeds, particles, tolerance) = self;
+        (Questions { bins, edges, speeds: Some(speeds), particles }, tolerance)
+    }
+}
 
 fn population((diameter, speed, angle, adhesion): &Shapes<'_>, own: Column<'_>) -> PyResult<Population> {
     Ok(Population {
         diameter: diameter.distribution("diameter", false)?,
         speed: speed.distribution("speed", false)?,
-        angle: angles(angle.distribution("angle_deg", true)?)?,
+        angle: angle.distribution("angle_deg", true)?.incidence().map_err(|error| refused_shape("angle_deg", error))?,
         adhesion: match adhesion {
             Some(shape) => shape.distribution("adhesion", false)?,
             None => Shape::Numbers("fixed".into(), own.at(0), 0.0).distribution("adhesion", true)?,
@@ -82,7 +82,7 @@ pub(crate) fn population_of_contacts<'py>(
     words: Words,
     numbers: Columns<'py>,
     shapes: Shapes<'py>,
-    questions: Questions,
+    asked: Asked,
     tolerance: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let contacts = contacts(&words, &numbers)?;
@@ -106,11 +106,11 @@ pub(crate) fn population_of_contacts<'py>(
         Ok::<_, InputError>(Contact::new(*scene.sphere(), *scene.law()))
     };
     let simulations = Simulations { scene, friction, method };
-    let answer = python.detach(|| {
-        let statistics = Statistics::interpolated(&population, &simulations, &questions.2)?.with_tolerance(questions.3);
-        Answer::of(&population, &statistics, &questions)
-    });
-    answer?.into_dict(python)
+    let (questions, tolerance) = asked.questions();
+    answer(python, &population, &questions, |stop| {
+        let statistics = Statistics::interpolated(&population, &simulations, &questions.speeds(&population))?;
+        Results::of(&population, &statistics.with_tolerance(tolerance).until(stop), &questions)
+    })
 }
 
 /// Statistics by the rigid-body model with a work of adhesion or a coefficient.
@@ -119,7 +119,7 @@ pub(crate) fn population_of_bodies<'py>(
     python: Python<'py>,
     numbers: Columns<'py>,
     shapes: Shapes<'py>,
-    questions: Questions,
+    asked: Asked,
 ) -> PyResult<Bound<'py, PyDict>> {
     let bodies = bodies(&numbers)?;
     let [density, gyration, friction] =
@@ -128,28 +128,62 @@ pub(crate) fn population_of_bodies<'py>(
     let body = |diameter: f64| {
         Ok::<_, InputError>(RigidBody::new(Sphere::new(0.5 * diameter, density, gyration)?, restitution))
     };
-    let answer = match bodies.adhesion {
+    let asked = asked.questions();
+    match bodies.adhesion {
         Adhesion::Coefficient(own) => {
             let population = population(&shapes, own)?;
             let scene = |diameter, rho| body(diameter)?.with_adhesion_coefficient(rho)?.with_friction(friction);
-            python.detach(|| direct(&population, &RigidBodies(scene), &questions))
+            direct(python, &population, &RigidBodies(scene), &asked)
         }
         Adhesion::Work(own) => {
             let population = population(&shapes, own)?;
             let scene = |diameter, work| body(diameter)?.with_work_of_adhesion(work)?.with_friction(friction);
-            python.detach(|| direct(&population, &RigidBodies(scene), &questions))
+            direct(python, &population, &RigidBodies(scene), &asked)
         }
         Adhesion::Speed { speed: own, power } => {
             let (population, power) = (population(&shapes, own)?, power.at(0));
             let scene = |diameter, speed| body(diameter)?.with_adhesion_at_speed(speed, power)?.with_friction(friction);
-            python.detach(|| direct(&population, &RigidBodies(scene), &questions))
+            direct(python, &population, &RigidBodies(scene), &asked)
         }
-    };
-    answer?.into_dict(python)
+    }
 }
 
-fn direct(population: &Population, response: &impl Response, questions: &Questions) -> Result<Answer, Stop> {
-    Answer::of(population, &Statistics::direct(population, response).with_tolerance(questions.3), questions)
+fn direct<'py>(
+    python: Python<'py>,
+    population: &Population,
+    response: &(impl Response + Sync),
+    (questions, tolerance): &(Questions, f64),
+) -> PyResult<Bound<'py, PyDict>> {
+    answer(python, population, questions, |stop| {
+        let statistics = Statistics::direct(population, response).with_tolerance(*tolerance).until(stop);
+        Results::of(population, &statistics, questions)
+    })
+}
+
+/// The statistics as arrays by name, unless Ctrl-C ends their computation.
+fn answer<'py>(
+    python: Python<'py>,
+    population: &Population,
+    questions: &Questions,
+    compute: impl FnOnce(&Stop<'_>) -> Result<Results, PopulationError> + Send,
+) -> PyResult<Bound<'py, PyDict>> {
+    let found = until_interrupted(python, |stop| compute(&|| stop.load(Ordering::Relaxed)))?;
+    let results = found.map_err(|error| match error {
+        PopulationError::Input(error) => PyValueError::new_err(message(error)),
+        other => PyValueError::new_err(format!("population: {other}")),
+    })?;
+    let answer = PyDict::new(python);
+    answer.set_item("by_number", classes(&results.classes_by_number))?;
+    answer.set_item("by_mass", classes(&results.classes_by_mass))?;
+    let edges = questions.edges(population);
+    let sizes: Vec<Size> = edges.windows(2).map(|pair| size([pair[0], pair[1]], &results.sizes)).collect();
+    answer.set_item("sizes", sizes)?;
+    let bounces: Vec<_> =
+        results.bounces.iter().map(|bounce| (number(bounce.bounce_fraction), bounce.interval)).collect();
+    answer.set_item("bounces", bounces)?;
+    answer.set_item("restitution", moments(results.restitution))?;
+    answer.set_item("restitution_of_rebounds", results.restitution_of_rebounds.map(moments))?;
+    Ok(answer)
 }
 
 /// A number and its error.
@@ -160,17 +194,8 @@ fn number(estimate: Estimate) -> Number {
 }
 
 /// Probabilities by the names of the classes.
-type Classes = Vec<(&'static str, Number)>;
-
-fn classes(outcomes: &Outcomes) -> Classes {
-    vec![
-        ("rebound", number(outcomes.rebound())),
-        ("capture", number(outcomes.capture())),
-        ("rebound_sliding", number(outcomes.rebound_sliding())),
-        ("rebound_rolling", number(outcomes.rebound_rolling())),
-        ("captured_sliding", number(outcomes.captured_sliding())),
-        ("captured_rolling", number(outcomes.captured_rolling())),
-    ]
+fn classes(classes: &Classes) -> Vec<(&'static str, Number)> {
+    classes.named().map(|(name, estimate)| (name, number(estimate))).into()
 }
 
 fn moments(moments: Moments) -> [Number; 3] {
@@ -180,86 +205,10 @@ fn moments(moments: Moments) -> [Number; 3] {
 /// A range of diameters: its edges, the parts of the spheres and of their mass, and the capture efficiency by both.
 type Size = ([f64; 4], Number, Number);
 
-/// What a population does.
-struct Answer {
-    by_number: Classes,
-    by_mass: Classes,
-    sizes: Vec<Size>,
-    bounces: Vec<Number>,
-    restitution: [Number; 3],
-    restitution_of_rebounds: Option<[Number; 3]>,
-}
-
-/// Why there is no answer.
-enum Stop {
-    Population(PopulationError),
-    /// Ctrl-C, or what another signal raises.
-    Signal(PyErr),
-}
-
-impl From<PopulationError> for Stop {
-    fn from(error: PopulationError) -> Self {
-        Self::Population(error)
-    }
-}
-
-impl From<Stop> for PyErr {
-    fn from(stop: Stop) -> Self {
-        match stop {
-            Stop::Population(PopulationError::Input(error)) => PyValueError::new_err(message(error)),
-            Stop::Population(other) => PyValueError::new_err(format!("population: {other}")),
-            Stop::Signal(error) => error,
-        }
-    }
-}
-
-/// Lets Python see signals. To be called between integrals, each of which takes up to some seconds.
-fn check_signals() -> Result<(), Stop> {
-    Python::attach(|python| python.check_signals()).map_err(Stop::Signal)
-}
-
-/// The range of diameters between two edges.
-fn size<R: Response>(statistics: &Statistics<'_, R>, edges: &[f64]) -> Result<Size, Stop> {
-    check_signals()?;
-    let (none, [from, to]) = ((f64::NAN, f64::NAN), [edges[0], edges[1]]);
-    Ok(statistics.by_size(&[from, to])?.first().map_or(([from, to, 0.0, 0.0], none, none), |bin| {
+/// The range of diameters between two edges; without spheres it has no capture efficiency.
+fn size([from, to]: [f64; 2], bins: &[SizeBin]) -> Size {
+    let none = (f64::NAN, f64::NAN);
+    bins.iter().find(|bin| bin.from == from).map_or(([from, to, 0.0, 0.0], none, none), |bin| {
         ([from, to, bin.number, bin.mass], number(bin.by_number), number(bin.by_mass))
-    }))
-}
-
-/// The bounce fraction at a speed.
-fn bounce<R: Response>(statistics: &Statistics<'_, R>, speed: f64) -> Result<Number, Stop> {
-    check_signals()?;
-    Ok(number(statistics.at_speed(speed)?.rebound()))
-}
-
-impl Answer {
-    fn of<R: Response>(
-        population: &Population,
-        statistics: &Statistics<'_, R>,
-        (bins, given, speeds, _): &Questions,
-    ) -> Result<Self, Stop> {
-        let edges = if given.is_empty() { population.diameter.ranges(*bins) } else { given.clone() };
-        let outcomes = statistics.outcomes()?;
-        check_signals()?;
-        Ok(Self {
-            by_number: classes(&outcomes),
-            by_mass: classes(&statistics.outcomes_by_mass()?),
-            sizes: edges.windows(2).map(|edges| size(statistics, edges)).collect::<Result<_, _>>()?,
-            bounces: speeds.iter().map(|speed| bounce(statistics, *speed)).collect::<Result<_, _>>()?,
-            restitution: moments(outcomes.restitution()),
-            restitution_of_rebounds: outcomes.restitution_of_rebounds().map(moments),
-        })
-    }
-
-    fn into_dict(self, python: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
-        let answer = PyDict::new(python);
-        answer.set_item("by_number", self.by_number)?;
-        answer.set_item("by_mass", self.by_mass)?;
-        answer.set_item("sizes", self.sizes)?;
-        answer.set_item("bounces", self.bounces)?;
-        answer.set_item("restitution", self.restitution)?;
-        answer.set_item("restitution_of_rebounds", self.restitution_of_rebounds)?;
-        Ok(answer)
-    }
+    })
 }

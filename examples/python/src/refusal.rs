@@ -34,6 +34,7 @@ pub(crate) fn keyword(parameter: Parameter) -> &'static str {
         Parameter::AdhesionDamping => "zeta_a",
         Parameter::PeelingMoment => "peeling",
         Parameter::Tolerance => "tolerance",
+        Parameter::Iterations => "iterations",
         Parameter::SpeedRatio => "speed_ratio",
         // Of the scene, and not of one argument.
         other => other.name(),

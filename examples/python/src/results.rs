@@ -66,22 +66,31 @@ fn class_code(class: &Option<Class>) -> i8 {
     }
 }
 
+/// The reasons of what either has a result or is refused.
+pub(crate) const ALGEBRA: [&str; 2] = [""; 2];
+
 /// The first row without a result, and why.
 pub(crate) type Failure = Option<(usize, String)>;
 
 /// Status and refused parameter of each row, and the first failure.
 pub(crate) type Statuses<'py> = (Bound<'py, PyArray1<i8>>, Bound<'py, PyArray1<i16>>, Failure);
 
-/// The statuses of rows, and a function that says of a row whether a sphere that is refused there is the second of two.
-fn statuses<'py>(python: Python<'py>, rows: &[RowStatus], of_second: impl Fn(usize) -> bool) -> Statuses<'py> {
+/// The statuses of rows, why there is no result without convergence and with a law that the method cannot represent, and a function
+/// that says of a row whether a sphere that is refused there is the second of two.
+fn statuses<'py>(
+    python: Python<'py>,
+    rows: &[RowStatus],
+    [not_converged, unsupported]: [&str; 2],
+    of_second: impl Fn(usize) -> bool,
+) -> Statuses<'py> {
     let refused = |row: usize| match rows[row] {
         RowStatus::Refused(error) => Some(Refused { error, of_second: of_second(row) }),
         _ => None,
     };
     let reason = |row: usize| match (rows[row], refused(row)) {
         (_, Some(refused)) => refused.message(),
-        (RowStatus::Unsupported, _) => "this method cannot represent this law of contact".into(),
-        _ => "tolerance: the simulation did not converge; use a larger tolerance".into(),
+        (RowStatus::Unsupported, _) => unsupported.into(),
+        _ => not_converged.into(),
     };
     let parameter = |row| refused(row).map_or(NO_PARAMETER, |refused| refused.code());
     let first = rows.iter().position(|status| *status != RowStatus::Solved);
@@ -95,18 +104,19 @@ fn statuses<'py>(python: Python<'py>, rows: &[RowStatus], of_second: impl Fn(usi
 /// Statuses, classes and quantities by their names.
 pub(crate) type Results<'py> = (Statuses<'py>, Bound<'py, PyArray1<i8>>, Bound<'py, PyDict>);
 
-/// The results of impacts; the function says of a row whether a sphere that is refused there is the second of two.
-pub(crate) fn results(
-    python: Python<'_>,
+/// The results of impacts, with the reasons of those that have none; the function says of a row whether a sphere that is refused there is the second of two.
+pub(crate) fn results<'py>(
+    python: Python<'py>,
     impacts: Impacts,
+    failures: [&str; 2],
     of_second: impl Fn(usize) -> bool,
-) -> PyResult<Results<'_>> {
+) -> PyResult<Results<'py>> {
     let quantities = PyDict::new(python);
     for (quantity, numbers) in impacts.quantities {
         quantities.set_item(quantity.name(), numbers.into_pyarray(python))?;
     }
     let classes: Vec<_> = impacts.class.iter().map(class_code).collect();
-    Ok((statuses(python, &impacts.status, of_second), classes.into_pyarray(python), quantities))
+    Ok((statuses(python, &impacts.status, failures, of_second), classes.into_pyarray(python), quantities))
 }
 
 /// The quantities of some names.
@@ -135,5 +145,5 @@ pub(crate) fn speeds(
         row.as_ref().map_or_else(|error| RowStatus::Refused(*error), |_| RowStatus::Solved)
     };
     let rows: Vec<_> = found.iter().map(status).collect();
-    (statuses(python, &rows, |_| false), found.iter().map(speed).collect::<Vec<_>>().into_pyarray(python))
+    (statuses(python, &rows, ALGEBRA, |_| false), found.iter().map(speed).collect::<Vec<_>>().into_pyarray(python))
 }

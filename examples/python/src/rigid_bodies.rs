@@ -5,7 +5,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use crate::columns::Columns;
-use crate::results::{Results, Statuses, quantities, results, speeds};
+use crate::results::{ALGEBRA, Results, Statuses, quantities, results, speeds};
 use crate::threads::on_all_cores;
 
 /// Spheres and restitution laws by the names of the arguments of `RigidBody`, which has checked that one of each is given.
@@ -50,7 +50,7 @@ pub(crate) fn classify<'py>(
 ) -> PyResult<Results<'py>> {
     let (bodies, motions, outputs) = (bodies(&numbers)?, numbers.motions()?, quantities(&outputs)?);
     let impacts = on_all_cores(python, || bodies.classify(&motions, count, &outputs))?;
-    results(python, impacts, |row| numbers.is_second_refused(row).unwrap_or(false))
+    results(python, impacts, ALGEBRA, |row| numbers.is_second_refused(row).unwrap_or(false))
 }
 
 /// Finds critical speeds of rigid bodies, m/s.

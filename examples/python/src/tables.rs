@@ -55,6 +55,9 @@ impl Material {
 fn of_table(error: InputError) -> PyErr {
     match error.parameter {
         Parameter::Radius => PyValueError::new_err(message_of("smallest_radius", error)),
+        Parameter::CriticalSpeed => PyValueError::new_err(format!(
+            "contact: {error}; a table needs a contact that captures slow spheres and releases fast ones"
+        )),
         _ => refused(error),
     }
 }

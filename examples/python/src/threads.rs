@@ -1,6 +1,9 @@
 //! Threads of this process.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -29,4 +32,38 @@ fn threads() -> PyResult<Arc<ThreadPool>> {
 pub(crate) fn on_all_cores<T: Send>(python: Python<'_>, compute: impl FnOnce() -> T + Send) -> PyResult<T> {
     let pool = threads()?;
     Ok(python.detach(|| pool.install(compute)))
+}
+
+/// How long Ctrl-C waits to be seen.
+const BETWEEN_SIGNALS: Duration = Duration::from_millis(50);
+
+/// Computes on all cores, with the interpreter's lock released. If Python has a signal to handle and its handler raises an exception, the
+/// flag asks the computation to end, and the exception takes the place of its result.
+pub(crate) fn until_interrupted<T: Send>(
+    python: Python<'_>,
+    compute: impl FnOnce(&Arc<AtomicBool>) -> T + Send,
+) -> PyResult<T> {
+    let (pool, stop) = (threads()?, Arc::new(AtomicBool::new(false)));
+    python.detach(|| {
+        let (mut signal, mut result) = (Ok(()), None);
+        let (ended, end) = mpsc::channel::<()>();
+        pool.in_place_scope(|scope| {
+            let (result, stop) = (&mut result, &stop);
+            scope.spawn(move |_| {
+                *result = Some(compute(stop));
+                drop(ended);
+            });
+            // Until the sender is dropped.
+            while end.recv_timeout(BETWEEN_SIGNALS) == Err(RecvTimeoutError::Timeout) {
+                if signal.is_ok() {
+                    signal = Python::attach(|python| python.check_signals());
+                    if signal.is_err() {
+                        stop.store(true, Ordering::Relaxed);
+                    }
+                }
+            }
+        });
+        signal?;
+        result.ok_or_else(|| PyRuntimeError::new_err("the computation has no result"))
+    })
 }

@@ -248,5 +248,11 @@ def test_tables_refuse_and_travel():
     for make in (scene.boundary_table, scene.restitution_table):
         with pytest.raises(ValueError, match="^smallest_radius: radius is -1"):
             make(-1)
+    elastic = mi.Scene(density=2600, contact=mi.Hertz(stiffness=7.5e10))
+    for make in (elastic.boundary_table, elastic.restitution_table):
+        with pytest.raises(
+            ValueError, match="^contact: critical speed is 0 m/s.* a table needs a contact that captures"
+        ):
+            make()
     with pytest.raises(TypeError, match="^cells: 1.5 is refused: give a whole number, 1 to 128"):
         scene.boundary_table(1.9e-6, 1.5)

@@ -1,6 +1,11 @@
 """Populations against draws, fits against the law that made the data."""
 
 import math
+import os
+import signal
+import subprocess
+import sys
+import time
 
 import numpy as np
 import pytest
@@ -51,6 +56,20 @@ def test_a_population_against_draws():
     spread = impacts.overall_restitution.std() / math.sqrt(DRAWS)
     assert abs(mean.value - impacts.overall_restitution.mean()) < 4 * spread + mean.error
     assert 0 < population.bounces.fraction[0] < 1
+
+
+def test_the_interval_of_a_bounce_fraction():
+    body = mi.RigidBody(density=2600, restitution_speed=130, work_of_adhesion=1e-12, friction=0.1)
+    spheres = {"diameter": mi.LogNormal(8.6e-6, 1.3), "speed": 2.0, "speeds": [1.0, 1.5, 2.0]}
+    for particles in (10, 1000):
+        bounces = body.population(**spheres, particles=particles).bounces
+        # The ends are the probabilities from which the fraction is 1.96 standard deviations away (Wilson 1927).
+        for end in (bounces.low, bounces.high):
+            deviation = np.sqrt(end * (1 - end) / particles)
+            assert np.abs(bounces.fraction - end) == pytest.approx(1.959964 * deviation, rel=1e-5)
+        assert (bounces.low < bounces.fraction).all() and (bounces.fraction < bounces.high).all()
+    with pytest.raises(ValueError, match="^particles: 0 is refused: it must be 1 to "):
+        body.population(**spheres, particles=0)
 
 
 def test_a_population_of_rigid_bodies_against_draws():
@@ -182,3 +201,50 @@ def test_a_captured_sphere_needs_no_rebound():
         mi.fit(speed, overall_restitution=np.where(captured, np.nan, e), captured=captured, laws=["speed-restitution"])
     )
     assert captured.any() and told[0].quantities == told[1].quantities and told[0].fits
+
+
+LONG_FIT = """
+random = np.random.default_rng(1)
+speed = random.uniform(1.0, 20.0, 3000)
+rebound = mi.Scene(radius=5e-6, density=2600, contact=contact).simulate(speed).rebound_speed
+print("computing", flush=True)
+mi.fit(speed, rebound_speed=np.clip(rebound + 0.01 * speed * random.standard_normal(3000), 0.0, speed))
+"""
+
+LONG_POPULATION = """
+print("computing", flush=True)
+mi.Scene(density=2600, contact=contact, friction=0.1).population(
+    diameter=mi.LogNormal(8.6e-6, 1.3),
+    speed=mi.LogNormal(3.0, 1.3),
+    angle_deg=mi.Normal(30.0, 5.0),
+    adhesion=mi.LogNormal(250.0, 1.3),
+    tolerance=1e-7,
+)
+"""
+
+LONG_METHOD = """
+print("computing", flush=True)
+scene = mi.Scene(radius=5e-6, density=2600, contact=contact, friction=0.1)
+scene.simulate(np.full(30_000, 2.8), 1.0, method=mi.RungeKuttaGill(steps=20_000))
+"""
+
+BEGIN = """
+import numpy as np
+import microimpact as mi
+
+contact = mi.Ring(stiffness=7.5e10, adhesion=250, zeta_a=6.25, zeta_h=10.5)
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no SIGINT for one process on this system")
+@pytest.mark.parametrize("program", [LONG_FIT, LONG_POPULATION, LONG_METHOD], ids=["fit", "population", "method"])
+def test_an_interrupt_ends_a_long_computation(program):
+    command = [sys.executable, "-c", f"{BEGIN}{program}print('done')"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "computing\n"
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        begin = time.perf_counter()
+        output, complaint = process.communicate(timeout=60)
+        assert time.perf_counter() - begin < 1.0
+    assert "KeyboardInterrupt" in complaint and "done" not in output

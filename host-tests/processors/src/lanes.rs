@@ -5,7 +5,7 @@ use std::error::Error;
 use std::hint::black_box;
 
 use impact_arrays::{F32x8, F64x4};
-use microimpact::contact::{Contact, FixedCost, HertzLaw, HystereticDamping, Ring};
+use microimpact::contact::{Contact, FixedCost, HertzLaw, HystereticDamping, Impulses, Ring, Times};
 use microimpact::{InputError, NormalMotion, Real, Sphere, Stiffness};
 
 use crate::least;
@@ -17,7 +17,14 @@ const IMPACTS: usize = 512;
 const RUNS: u32 = 8;
 
 /// What is measured in lanes and one by one, in the order of [`measure`]: number type, lanes, and results.
-pub const TASKS: [&str; 4] = ["f64 in 4, e", "f32 in 8, e", "f64 in 4, e and velocities", "f32 in 8, e and velocities"];
+pub const TASKS: [&str; 6] = [
+    "f64 in 4, e",
+    "f32 in 8, e",
+    "f64 in 4, e and velocities",
+    "f32 in 8, e and velocities",
+    "f64 in 4, e, times and impulses",
+    "f32 in 8, e, times and impulses",
+];
 
 /// A scene of Table 1 with another radius.
 fn scene<T: Real>(radius: T) -> Result<Contact<T, HertzLaw<T, HystereticDamping<T>, Ring<T>>>, InputError> {
@@ -26,21 +33,38 @@ fn scene<T: Real>(radius: T) -> Result<Contact<T, HertzLaw<T, HystereticDamping<
         .with_ring(T::constant(250.0), T::constant(6.25))
 }
 
-/// The restitution of an impact.
-macro_rules! restitution {
-    ($solve:ident, $radius:expr, $speed:expr, $method:expr) => {
-        scene($radius)?.$solve(&NormalMotion::new($speed)?, $method)
+/// Nodes for times and impulses: three more than those of a phase.
+const NODES: usize = 10;
+
+/// Solves one impact or those of lanes for a task.
+macro_rules! solve {
+    (e, $solve:ident $solve_for:ident, $radius:expr, $speed:expr, $method:expr) => {
+        scene($radius)?.$solve(&NormalMotion::new($speed)?, $method)?
     };
-    ($solve:ident, $radius:expr, $speed:expr, $method:expr, $friction:expr) => {
-        scene($radius)?
-            .with_friction($friction)?
-            .$solve(&NormalMotion::new($speed)?.with_tangential($friction)?, $method)
+    (velocities, $solve:ident $solve_for:ident, $radius:expr, $speed:expr, $method:expr) => {{
+        let friction = Real::constant(0.1);
+        let before = NormalMotion::new($speed)?.with_tangential(friction)?;
+        scene($radius)?.with_friction(friction)?.$solve(&before, $method)?
+    }};
+    (times, $solve:ident $solve_for:ident, $radius:expr, $speed:expr, $method:expr) => {
+        scene($radius)?.$solve_for(&NormalMotion::new($speed)?, &$method.with_outputs::<NODES>(), (Times, Impulses))?
+    };
+}
+
+/// A number that depends on all results of an impact that a task asks for.
+macro_rules! result {
+    (times, $solved:expr) => {{
+        let (impact, (times, impulses)) = $solved;
+        impact.normal.overall_restitution() + times.contact.unwrap_or(0.0) + impulses.elastic
+    }};
+    ($task:ident, $impact:expr) => {
+        $impact.normal.overall_restitution()
     };
 }
 
 /// Seconds for all impacts, one by one and in lanes.
 macro_rules! compare {
-    ($number:ident, $lanes:ident, $count:literal $(, $friction:literal)?) => {{
+    ($task:ident, $number:ident, $lanes:ident, $count:literal) => {{
         let method = FixedCost::<7>::new(3)?;
         // Spheres near and far from the critical speed next to each other: lanes take what their most expensive impact takes.
         let place = |index: usize| (index * 37 % IMPACTS) as $number / IMPACTS as $number;
@@ -50,8 +74,7 @@ macro_rules! compare {
         let mut alone = || -> Result<(), InputError> {
             let inputs = black_box(&radii).iter().zip(black_box(&speeds));
             for (result, (radius, speed)) in results.iter_mut().zip(inputs) {
-                let impact = restitution!(solve, *radius, *speed, &method $(, $friction)?)?;
-                *result = impact.normal.overall_restitution();
+                *result = result!($task, solve!($task, solve solve_for, *radius, *speed, &method));
             }
             black_box(&results);
             Ok(())
@@ -62,10 +85,10 @@ macro_rules! compare {
             let inputs = black_box(&radii).chunks_exact($count).zip(black_box(&speeds).chunks_exact($count));
             for (results, (radii, speeds)) in results.chunks_exact_mut($count).zip(inputs) {
                 let of = |numbers: &[$number]| $lanes::from(array::from_fn::<_, $count, _>(|lane| numbers[lane]));
-                let impacts = restitution!(solve_lanes, of(radii), of(speeds), &method $(, $lanes::constant($friction))?)?;
-                let impacts: [_; $count] = impacts;
+                let impacts: [_; $count] =
+                    solve!($task, solve_lanes solve_lanes_for, of(radii), of(speeds), &method);
                 for (result, impact) in results.iter_mut().zip(impacts) {
-                    *result = impact.normal.overall_restitution();
+                    *result = result!($task, impact);
                 }
             }
             black_box(&results);
@@ -78,7 +101,8 @@ macro_rules! compare {
 
 /// Least seconds of each task, one by one and in lanes.
 pub fn measure() -> Result<Vec<f64>, Box<dyn Error>> {
-    let e = [compare!(f64, F64x4, 4), compare!(f32, F32x8, 8)];
-    let velocities = [compare!(f64, F64x4, 4, 0.1), compare!(f32, F32x8, 8, 0.1)];
-    Ok(e.into_iter().chain(velocities).flatten().collect())
+    let e = [compare!(e, f64, F64x4, 4), compare!(e, f32, F32x8, 8)];
+    let velocities = [compare!(velocities, f64, F64x4, 4), compare!(velocities, f32, F32x8, 8)];
+    let times = [compare!(times, f64, F64x4, 4), compare!(times, f32, F32x8, 8)];
+    Ok(e.into_iter().chain(velocities).chain(times).flatten().collect())
 }

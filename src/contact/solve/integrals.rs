@@ -133,6 +133,11 @@ impl<T: Real> Impulses<T> {
     pub(crate) fn new() -> Self {
         Self { elastic: T::ZERO, adhesion_rebound: T::ZERO }
     }
+
+    /// The same in another number type.
+    pub(crate) fn map<U>(self, of: impl Fn(T) -> U) -> Impulses<U> {
+        Impulses { elastic: of(self.elastic), adhesion_rebound: of(self.adhesion_rebound) }
+    }
 }
 
 impl<T: Real> Quantities<T> for Impulses<T> {

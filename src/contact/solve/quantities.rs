@@ -40,4 +40,9 @@ impl<T: Real> Times<T> {
     pub(crate) fn new() -> Self {
         Self { now: T::ZERO, peak: T::ZERO }
     }
+
+    /// The same in another number type.
+    pub(crate) fn map<U>(self, of: impl Fn(T) -> U) -> Times<U> {
+        Times { now: of(self.now), peak: of(self.peak) }
+    }
 }

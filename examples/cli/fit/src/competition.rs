@@ -6,6 +6,7 @@ use crate::fit::{LawFit, ScatterModel};
 use crate::law::Law;
 use crate::observation::{Observation, median_mass};
 use crate::profile::Interval;
+use crate::stop::Stop;
 
 /// Probability below which a law does not fit.
 pub const LEAST_P_VALUE: f64 = 0.001;
@@ -104,6 +105,22 @@ impl Statement {
 /// are none that a fit can compute with is not enough.
 #[must_use]
 pub fn compete(observations: &[Observation], laws: &[Law], scatter: ScatterModel) -> Verdict {
+    verdict(&Stop::default(), observations, laws, scatter)
+}
+
+/// The same, which ends within some milliseconds after `stop` is asked from another thread; `None` if it was.
+#[must_use]
+pub fn compete_until(
+    stop: &Stop,
+    observations: &[Observation],
+    laws: &[Law],
+    scatter: ScatterModel,
+) -> Option<Verdict> {
+    let verdict = verdict(stop, observations, laws, scatter);
+    (!stop.is_asked()).then_some(verdict)
+}
+
+fn verdict(stop: &Stop, observations: &[Observation], laws: &[Law], scatter: ScatterModel) -> Verdict {
     for (index, observation) in observations.iter().enumerate() {
         if let Err(error) = observation.check() {
             return Verdict::NotEnough(format!("row {}: {error}", index + 1));
@@ -123,7 +140,8 @@ pub fn compete(observations: &[Observation], laws: &[Law], scatter: ScatterModel
              by a factor of at least {LEAST_RANGE}"
         ));
     }
-    let mut fits: Vec<LawFit> = laws.par_iter().filter_map(|law| LawFit::of(observations, *law, scatter)).collect();
+    let mut fits: Vec<LawFit> =
+        laws.par_iter().filter_map(|law| LawFit::until(stop, observations, *law, scatter)).collect();
     let least = fits.iter().map(LawFit::aic).fold(f64::INFINITY, f64::min);
     let candidate = |fit: &LawFit| Candidate::of(fit, least);
     let mut candidates: Vec<Candidate> = fits.iter().map(candidate).collect();

@@ -7,6 +7,7 @@ use crate::maximum::{Maximum, maximise};
 use crate::observation::Observation;
 use crate::profile::{Interval, drop_at_bounds, interval};
 use crate::start::{PLAIN, SKEWED, starts};
+use crate::stop::Stop;
 
 /// How rows scatter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -52,7 +53,18 @@ impl LawFit {
     /// Fits a law; `None` if no curve of it comes near the data.
     #[must_use]
     pub fn of(observations: &[Observation], law: Law, scatter_model: ScatterModel) -> Option<Self> {
+        Self::until(&Stop::default(), observations, law, scatter_model)
+    }
+
+    /// The same, which ends soon after `stop` is asked; what it then gives is of no use.
+    pub(crate) fn until(
+        stop: &Stop,
+        observations: &[Observation],
+        law: Law,
+        scatter_model: ScatterModel,
+    ) -> Option<Self> {
         let mut likelihood = Likelihood::new(observations, law);
+        likelihood.until(stop);
         let nuisances: &[Nuisance] = match scatter_model {
             ScatterModel::Free => &PLAIN,
             ScatterModel::Errors => &[Nuisance::Outlier],

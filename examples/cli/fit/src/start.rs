@@ -45,6 +45,7 @@ pub fn starts(observations: &[Observation], likelihood: &mut Likelihood, law: La
     let stride = sample.len().div_ceil(ROWS);
     let sample: Vec<Observation> = sample.into_iter().step_by(stride).copied().collect();
     let mut few = Likelihood::new(&sample, law);
+    few.until(likelihood.stop());
     few.set_parameters(Coordinate::CriticalSpeed, likelihood.nuisances());
     // The same units and sizes as with all rows.
     let factor = likelihood.reference / few.reference;

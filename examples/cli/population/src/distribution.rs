@@ -58,6 +58,9 @@ enum Shape {
     Samples(Vec<f64>),
 }
 
+/// Largest angle of incidence, degrees. At 90 degrees a sphere never arrives.
+const LARGEST_ANGLE: f64 = 89.9;
+
 /// Why there is no such distribution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DistributionError {
@@ -71,6 +74,8 @@ pub enum DistributionError {
     GeometricBelowOne(f64),
     /// There are no samples.
     NoSamples,
+    /// One value, or a sample, is no angle of incidence.
+    NoIncidence,
     /// No value lies in the range.
     OutsideRange(f64, f64),
 }
@@ -88,6 +93,9 @@ impl fmt::Display for DistributionError {
                 "a geometric standard deviation of {value} is refused: it must be at least 1, where 1 is no spread"
             ),
             Self::NoSamples => f.write_str("there are no samples"),
+            Self::NoIncidence => {
+                write!(f, "an angle of incidence must be 0 to {LARGEST_ANGLE} degrees from the normal")
+            }
             Self::OutsideRange(low, high) => write!(f, "no value lies in the range {low:e} to {high:e}"),
         }
     }
@@ -204,6 +212,28 @@ impl Distribution {
             Shape::Samples(values) => Shape::Samples(values.into_iter().map(|value| factor * value).collect()),
         };
         self
+    }
+
+    /// Angles of incidence in radians, of a distribution in degrees: from 0 to 89.9 degrees, and what lies beyond is left out where the
+    /// distribution is continuous.
+    ///
+    /// # Errors
+    /// A value that is no such angle, or there are none.
+    ///
+    /// ```
+    /// use population::Distribution;
+    ///
+    /// let angles = Distribution::fixed(60.0)?.incidence()?;
+    /// assert!((angles.quantile(0.5) - 60_f64.to_radians()).abs() < 1e-15);
+    /// assert!(Distribution::fixed(90.0)?.incidence().is_err());
+    /// # Ok::<(), population::DistributionError>(())
+    /// ```
+    pub fn incidence(self) -> Result<Self, DistributionError> {
+        if self.lone_values().iter().any(|angle| !(0.0..=LARGEST_ANGLE).contains(angle)) {
+            return Err(DistributionError::NoIncidence);
+        }
+        let inside = if self.is_continuous() { self.within(0.0, LARGEST_ANGLE)? } else { self };
+        Ok(inside.scaled(1.0_f64.to_radians()))
     }
 
     /// The values of a distribution that is not continuous.

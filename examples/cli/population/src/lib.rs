@@ -30,6 +30,7 @@ mod interpolation;
 mod outcome;
 mod quadrature;
 mod response;
+mod results;
 mod statistics;
 
 use std::fmt;
@@ -37,7 +38,9 @@ use std::fmt;
 use microimpact::InputError;
 
 pub use distribution::{Distribution, DistributionError};
+pub use outcome::Stop;
 pub use response::{Rebound, Response, RigidBodies, Simulations};
+pub use results::{Bounce, Classes, Questions, Results};
 pub use statistics::{Estimate, Moments, Outcomes, Population, SizeBin, Statistics, wilson};
 
 /// Why there are no statistics.
@@ -54,6 +57,8 @@ pub enum PopulationError {
         /// Its normal speed, m/s.
         speed: f64,
     },
+    /// They were asked to end before their time.
+    Stopped,
     /// A part of the spheres rebounds at every speed.
     ReboundsOfAPart,
     /// Samples of several quantities have too many combinations.
@@ -75,6 +80,7 @@ impl fmt::Display for PopulationError {
                 "the simulation of a sphere of {diameter:.3e} m at {speed:.3e} m/s did not converge; use narrower \
                  distributions or a larger tolerance"
             ),
+            Self::Stopped => f.write_str("the computation was stopped"),
             Self::ReboundsOfAPart => f.write_str(
                 "some spheres of the population rebound at every speed and others do not; divide the population by \
                  diameter or adhesion",

@@ -44,6 +44,9 @@ struct Point {
     restitution: f64,
 }
 
+/// Whether an integral is to end without a result.
+pub type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
+
 /// What is integrated.
 pub(crate) struct Problem<'a, R> {
     distributions: &'a [Distribution; VARIABLES],
@@ -53,6 +56,7 @@ pub(crate) struct Problem<'a, R> {
     with_powers: bool,
     adaptive: Adaptive,
     rules: [Rule; 2],
+    stop: &'a Stop<'a>,
 }
 
 impl<'a, R: Response> Problem<'a, R> {
@@ -61,9 +65,10 @@ impl<'a, R: Response> Problem<'a, R> {
         response: &'a R,
         with_powers: bool,
         tolerance: f64,
+        stop: &'a Stop<'a>,
     ) -> Result<Self, PopulationError> {
         let (adaptive, rules) = (Adaptive::over(1, tolerance), ORDERS.map(Rule::new));
-        let mut problem = Self { distributions, response, order: Vec::new(), with_powers, adaptive, rules };
+        let mut problem = Self { distributions, response, order: Vec::new(), with_powers, adaptive, rules, stop };
         problem.order = problem.ordered()?;
         let continuous = problem.order.iter().filter(|variable| distributions[**variable].is_continuous());
         problem.adaptive = Adaptive::over(continuous.count().saturating_sub(1), tolerance);
@@ -137,6 +142,9 @@ impl<'a, R: Response> Problem<'a, R> {
 
     /// The integrals over some variables for given values of the others.
     fn over(&self, variables: &[usize], values: &mut [f64; VARIABLES]) -> Result<Integrals, PopulationError> {
+        if (self.stop)() {
+            return Err(PopulationError::Stopped);
+        }
         let [variable, others @ ..] = variables else {
             return Ok(self.at(values)?.integrals());
         };

@@ -1,9 +1,12 @@
 //! Statistics of a population: classes, capture efficiency by size, bounce fraction by speed, and moments of the restitution.
 
+#[cfg(feature = "serde")]
+use serde::Serialize;
+
 use crate::PopulationError;
 use crate::distribution::Distribution;
 use crate::interpolation::{Fineness, Interpolated};
-use crate::outcome::{ADHESION, ANGLE, DIAMETER, POWERS, Problem, SPEED, VARIABLES};
+use crate::outcome::{ADHESION, ANGLE, DIAMETER, POWERS, Problem, SPEED, Stop, VARIABLES};
 use crate::quadrature::{Integrals, QUANTITIES, TOLERANCE};
 use crate::response::Response;
 
@@ -25,6 +28,7 @@ pub struct Population {
 
 /// A number with an estimate of its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize))]
 pub struct Estimate {
     /// The number.
     pub value: f64,
@@ -40,6 +44,7 @@ pub struct Outcomes {
 
 /// Mean, variance and skewness.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(Serialize))]
 pub struct Moments {
     /// Mean.
     pub mean: Estimate,
@@ -51,18 +56,25 @@ pub struct Moments {
 
 /// A range of diameters.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(Serialize))]
 pub struct SizeBin {
     /// The diameters in the range are larger than this one, m.
+    #[cfg_attr(feature = "serde", serde(rename = "diameter_from_m"))]
     pub from: f64,
     /// They are not larger than this one, m.
+    #[cfg_attr(feature = "serde", serde(rename = "diameter_to_m"))]
     pub to: f64,
     /// Part of the spheres, by number.
+    #[cfg_attr(feature = "serde", serde(rename = "number_fraction"))]
     pub number: f64,
     /// Part of their mass.
+    #[cfg_attr(feature = "serde", serde(rename = "mass_fraction"))]
     pub mass: f64,
     /// Capture efficiency by number: the part of these spheres that is captured.
+    #[cfg_attr(feature = "serde", serde(rename = "capture_by_number"))]
     pub by_number: Estimate,
     /// Capture efficiency by mass: the part of their mass that is captured.
+    #[cfg_attr(feature = "serde", serde(rename = "capture_by_mass"))]
     pub by_mass: Estimate,
 }
 
@@ -158,6 +170,7 @@ pub struct Statistics<'a, R> {
     distributions: [Distribution; VARIABLES],
     evaluation: Evaluation<'a, R>,
     tolerance: f64,
+    stop: &'a Stop<'a>,
 }
 
 impl<'a, R: Response> Statistics<'a, R> {
@@ -167,6 +180,7 @@ impl<'a, R: Response> Statistics<'a, R> {
             distributions: distributions(population),
             evaluation: Evaluation::Direct(response),
             tolerance: TOLERANCE,
+            stop: &|| false,
         }
     }
 
@@ -186,13 +200,19 @@ impl<'a, R: Response> Statistics<'a, R> {
         let interpolated = |fineness| Interpolated::new(response, [diameters, bounds[ADHESION], normal], fineness);
         let [coarse, fine] = INTERPOLATIONS;
         let evaluation = Evaluation::Interpolated(Box::new([interpolated(coarse)?, interpolated(fine)?]));
-        Ok(Self { distributions, evaluation, tolerance: TOLERANCE })
+        Ok(Self { distributions, evaluation, tolerance: TOLERANCE, stop: &|| false })
     }
 
     /// The same with another tolerance of the quadrature than 2e-7: the error of a panel of an integral over one variable below which
     /// the panel is not divided, and ten times that for each further variable.
     pub fn with_tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
+        self
+    }
+
+    /// The same, which fail soon after `stop` has become true.
+    pub fn until(mut self, stop: &'a Stop<'a>) -> Self {
+        self.stop = stop;
         self
     }
 
@@ -203,12 +223,14 @@ impl<'a, R: Response> Statistics<'a, R> {
     ) -> Result<Outcomes, PopulationError> {
         let integrals = match &self.evaluation {
             Evaluation::Direct(response) => {
-                Problem::new(distributions, *response, with_powers, self.tolerance)?.integrals()?
+                Problem::new(distributions, *response, with_powers, self.tolerance, self.stop)?.integrals()?
             }
             Evaluation::Interpolated(responses) => {
                 let [coarse, fine] = &**responses;
-                let coarse = Problem::new(distributions, coarse, with_powers, self.tolerance)?.integrals()?;
-                let mut fine = Problem::new(distributions, fine, with_powers, self.tolerance)?.integrals()?;
+                let coarse =
+                    Problem::new(distributions, coarse, with_powers, self.tolerance, self.stop)?.integrals()?;
+                let mut fine =
+                    Problem::new(distributions, fine, with_powers, self.tolerance, self.stop)?.integrals()?;
                 fine.add_differences(&coarse);
                 fine
             }

@@ -11,7 +11,7 @@ use microimpact::{Approach, Class, Hertz, Oblique, Outcome, PlanarMotion, Surfac
 use sheet::{Header, Input, Row, Value};
 
 use super::arrival::{self, Arrival};
-use super::method::{Outputs, Simulator};
+use super::method::{Outputs, Simulation};
 use super::uncertain::{Deviations, Inputs, Kind, Probabilities, Reason, Values};
 use crate::command::Number;
 use crate::contact_law::{LAW_INPUTS, LawName, RowLaw};
@@ -27,7 +27,7 @@ type Solved<T> = (NormalContact<T>, Along<T>, Outputs<T>);
 
 /// The simulation by a method, in numbers of type `T`.
 pub struct SimulationModel<T> {
-    pub simulator: Simulator<T>,
+    pub method: Simulation<T>,
     /// Least probability of a class that is named where numbers have standard errors.
     pub level: f64,
 }
@@ -242,7 +242,7 @@ impl<T: Number> SimulationModel<T> {
         let Some(deviations) = Deviations::read::<T>(row, &Kind::Simulation)? else { return Ok(None) };
         let is_empty = |column: &&str| !row.has(column);
         let is_known = deviations.are_small() && ["peeling_n_m", STIFFNESS_RATIO].iter().all(is_empty);
-        let probabilities = match self.simulator.control.as_ref().filter(|_| is_known) {
+        let probabilities = match self.method.control.as_ref().filter(|_| is_known) {
             Some(method) => deviations.expanded(|inputs, row_of| expand(row, inputs, row_of, method)),
             None => deviations.drawn::<T>(DRAWS, |row| Ok(self.compute(row)?.class)),
         };
@@ -282,7 +282,7 @@ impl<T: Number> SimulationModel<T> {
         };
         let outcome = normal.outcome().ok_or("the simulation has no outcome")?;
         let class = Class::of(outcome, arrival.motion_after(tangential.motion));
-        let follows_captures = self.simulator.follows_captures;
+        let follows_captures = self.method.follows_captures;
         Ok(Simulated {
             outcome,
             class,
@@ -303,15 +303,10 @@ impl<T: Number> SimulationModel<T> {
 
     fn solve(&self, row: &Row<'_>, scene: &AnyScene<T>, before: &PlanarMotion<T>) -> Result<Solved<T>, String> {
         let peeling: T = row.or_zero("peeling_n_m")?;
-        let with_peeling = scene.with_peeling(peeling).map_err(|error| row.reason(error))?;
-        // Without a moment this is the same motion.
-        let solved = match &self.simulator.simulate_without_peeling {
-            Some(simulate) if peeling == T::ZERO => simulate(scene, before),
-            _ => (self.simulator.simulate)(&with_peeling, before),
-        };
+        let solved = self.method.simulator.simulate(scene, peeling, before);
         let (impact, outputs) = solved.map_err(|error| row.reason(error))?;
         if impact.run.status != Status::Solved {
-            return Err(self.simulator.refusal(impact.run.status, &with_peeling, before));
+            return Err(self.method.refusal(impact.run.status, scene, peeling, before));
         }
         let along = impact.tangential;
         let (motion, velocity, spin) = (along.motion(), along.velocity(), along.spin());
@@ -328,14 +323,14 @@ impl<T: Number> SimulationModel<T> {
         if row.or_zero::<T>("peeling_n_m")? != T::ZERO {
             return Err("peeling_n_m: it is not known with a stiffness_ratio; leave one of them empty".into());
         }
-        let Some(simulate) = &self.simulator.simulate_compliant else {
+        let scene = scene.with_compliance(ratio).map_err(|error| row.reason(error))?;
+        let Some(solved) = self.method.simulator.simulate_compliant(&scene, before) else {
             return Err(format!(
                 "{STIFFNESS_RATIO}: --method {} is not offered with it; use --method adaptive, or leave the cell empty",
-                self.simulator.method
+                self.method.method
             ));
         };
-        let scene = scene.with_compliance(ratio).map_err(|error| row.reason(error))?;
-        let (impact, outputs) = simulate(&scene, before).map_err(|error| row.reason(error))?;
+        let (impact, outputs) = solved.map_err(|error| row.reason(error))?;
         if impact.run.status != Status::Solved {
             return Err(format!(
                 "{STIFFNESS_RATIO}: the contact sticks and slips too often to be followed, as it does where damping leaves hardly any \
@@ -445,7 +440,7 @@ radius_m,density_kg_m3,stiffness_pa,adhesion_n_m,zeta_h,zeta_a,friction,speed_no
     #[test]
     fn an_undecided_impact_has_no_values_of_its_end() {
         let options = Arguments::try_parse_from(["test"]).unwrap_or_else(|error| panic!("{error}"));
-        let model = SimulationModel::<f64> { simulator: options.method.simulator().unwrap(), level: 0.9 };
+        let model = SimulationModel::<f64> { method: options.method.simulation().unwrap(), level: 0.9 };
         let mut sheet = Sheet::open(TABLE.as_bytes(), &model.inputs(), None).unwrap();
         let row = sheet.next_row().unwrap().unwrap();
         let rebound = model.compute(&row).unwrap();

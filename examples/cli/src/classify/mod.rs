@@ -19,7 +19,7 @@ use crate::command::{BadRows, Number, STATUS, TABLE_MANUAL, TableCommand, TableO
 use crate::rows::{BadRow, Work};
 use crate::words::{LEVEL, name_of, probability};
 pub use contact::scene;
-pub use method::{MethodOptions, OfferedNodes};
+pub use method::MethodOptions;
 
 /// Classify impacts of microspheres: rebound or capture, sliding, rolling or resting
 #[derive(Args)]
@@ -62,8 +62,8 @@ begin with rigid_body_.
 least 1e-13 in f64, and 1e-6 in f32. The least tolerance of collocation depends on its nodes: 3e-4 with 5 nodes, 1e-5 with 6, 1e-7 \
 with 7, 1e-9 with 8, 1e-11 with 9. With 10 or more, only rounding limits it. Of the methods, adaptive chooses nodes and intervals that \
 keep the tolerance; collocation uses as many intervals as the tolerance needs, with a fixed number of nodes in each; fixed-cost, for \
-firmware, has a fixed number of nodes and iterations, and cannot represent jkr and no-force; runge-kutta-gill is the paper's own, \
-with fixed steps in time, and cannot represent jkr.
+firmware, has a fixed number of nodes and iterations; runge-kutta-gill is the paper's own, with fixed steps in time. These two \
+cannot represent jkr and no-force.
 
 In space the velocities, spins and the normal take the place of the speeds and the spin in a plane. With radius_2_m there are two \
 spheres, in space or in a plane, and the normal points from the second to the first; in a plane the speeds and the spin are those of \
@@ -84,7 +84,7 @@ pub enum Model {
 pub fn model_columns(model: Model, options: &MethodOptions) -> Used {
     let rigid_body = rigid_body::RigidBodyModel::<f64>::new(LEVEL);
     // The default method is offered.
-    let simulation = options.simulator().map(|simulator| contact::SimulationModel::<f64> { simulator, level: LEVEL });
+    let simulation = options.simulation().map(|method| contact::SimulationModel::<f64> { method, level: LEVEL });
     match (model, simulation) {
         (Model::RigidBody, _) | (_, Err(_)) => Used::by(&rigid_body),
         (Model::Simulation, Ok(simulation)) => Used::by(&simulation),
@@ -103,8 +103,7 @@ impl TableCommand for Options {
         let bundled = include_str!("impacts.csv");
         let level = self.level;
         let rigid_body = rigid_body::RigidBodyModel::<T>::new(level);
-        let simulation =
-            || Ok::<_, String>(contact::SimulationModel::<T> { simulator: self.method.simulator()?, level });
+        let simulation = || Ok::<_, String>(contact::SimulationModel::<T> { method: self.method.simulation()?, level });
         match self.model {
             Model::RigidBody => {
                 self.method.refuse("rigid-body")?;

@@ -9,9 +9,6 @@ use sheet::{Input, Row, Sheet};
 use super::Model;
 use crate::command::open;
 
-/// Largest angle of incidence, degrees.
-const LARGEST_ANGLE: f64 = 89.9;
-
 /// A quantity of a population and its columns.
 pub(super) struct Quantity {
     ways: &'static [Way],
@@ -183,13 +180,7 @@ pub(super) fn angles(row: &Row<'_>, samples: &SampleFiles) -> Result<Distributio
         Some(distribution) => distribution,
         None => Distribution::fixed(0.0).map_err(|error| error.to_string())?,
     };
-    let outside = |value: f64| !(0.0..=LARGEST_ANGLE).contains(&value);
-    if degrees.lone_values().iter().any(|value| outside(*value)) {
-        return Err(format!("{column}: an angle of incidence must be 0 to {LARGEST_ANGLE} degrees from the normal"));
-    }
-    let inside = if degrees.is_continuous() { degrees.within(0.0, LARGEST_ANGLE) } else { Ok(degrees) };
-    let radians = inside.map(|angles| angles.scaled(1.0_f64.to_radians()));
-    radians.map_err(|error| format!("{column}: {error}"))
+    degrees.incidence().map_err(|error| format!("{column}: {error}"))
 }
 
 /// Samples of quantities, by the names of their columns.

@@ -6,7 +6,6 @@
 mod distributions;
 mod figure;
 mod output;
-mod results;
 mod scenes;
 
 use std::error::Error;
@@ -17,8 +16,9 @@ use sheet::{Input, Row};
 
 use crate::Streams;
 use crate::command::{Format, Origin, Reading, STATUS, SimulationOptions, TABLE_MANUAL, exit_status, one_row, say};
+use crate::words::name_of;
 use distributions::SampleFiles;
-use results::{Questions, Results};
+use population::{Questions, Results};
 
 const NAME: &str = "population";
 
@@ -131,7 +131,7 @@ impl Options {
         Ok(Questions {
             bins: self.bins,
             edges: self.edges.clone(),
-            speeds: self.speeds.clone(),
+            speeds: Some(self.speeds.clone()).filter(|speeds| !speeds.is_empty()),
             particles: self.particles,
         })
     }
@@ -174,10 +174,11 @@ fn run(options: &Options, streams: &mut Streams<'_>) -> Result<usize, Box<dyn Er
     }
     drop(progress);
     say(NAME, sheet.empty_in_words(), streams.errors);
+    let model = name_of(&options.model);
     match options.format {
-        Format::Table => output::tables(&answers, streams.output)?,
-        Format::Csv => output::csv(&answers, streams.output)?,
-        Format::Json => output::json(&answers, streams.output)?,
+        Format::Table => output::tables(&answers, &model, streams.output)?,
+        Format::Csv => output::csv(&answers, &model, streams.output)?,
+        Format::Json => output::json(&answers, &model, streams.output)?,
     }
     if let Some(path) = &options.figure {
         match &answers[..] {

@@ -4,10 +4,10 @@ use std::error::Error;
 use std::io::Write;
 
 use comfy_table::{CellAlignment, Table, presets};
+use population::{Estimate, Moments, Results};
 use serde::Serialize;
 
 use super::Answer;
-use super::results::{Number, Results, Spread};
 
 /// A table whose first columns, so many as `words`, hold words.
 fn table(heads: &[&str], words: usize, rows: impl IntoIterator<Item = Vec<String>>) -> Table {
@@ -20,32 +20,32 @@ fn table(heads: &[&str], words: usize, rows: impl IntoIterator<Item = Vec<String
 }
 
 /// Four digits after the point, or as many as the error leaves.
-fn probability(number: Number) -> String {
+fn probability(number: Estimate) -> String {
     let digits = if number.error < 1e-4 { 4 } else { 3 };
     format!("{:.digits$}", number.value.clamp(0.0, 1.0))
 }
 
 fn errors(results: &Results) -> f64 {
     let classes = results.classes_by_number.named().into_iter().chain(results.classes_by_mass.named());
-    let sizes = results.sizes.iter().flat_map(|size| [size.capture_by_number, size.capture_by_mass]);
+    let sizes = results.sizes.iter().flat_map(|size| [size.by_number, size.by_mass]);
     let bounces = results.bounces.iter().map(|bounce| bounce.bounce_fraction);
     let all = classes.map(|(_, number)| number).chain(sizes).chain(bounces);
     all.map(|number| number.error).fold(0.0, f64::max)
 }
 
 /// Writes tables to read.
-pub(super) fn tables(answers: &[Answer], to: &mut dyn Write) -> Result<(), Box<dyn Error>> {
+pub(super) fn tables(answers: &[Answer], model: &str, to: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     for (name, answer) in answers {
         match answer {
             Err(reason) => writeln!(to, "{name}: bad row: {reason}\n")?,
-            Ok(results) => results_in_tables(name, results, to)?,
+            Ok(results) => results_in_tables(name, model, results, to)?,
         }
     }
     Ok(())
 }
 
-fn results_in_tables(name: &str, results: &Results, to: &mut dyn Write) -> Result<(), Box<dyn Error>> {
-    writeln!(to, "{name} ({})", results.model)?;
+fn results_in_tables(name: &str, model: &str, results: &Results, to: &mut dyn Write) -> Result<(), Box<dyn Error>> {
+    writeln!(to, "{name} ({})", model)?;
     let by_mass = results.classes_by_mass.named();
     let classes = results.classes_by_number.named().into_iter().zip(by_mass);
     let rows =
@@ -54,12 +54,12 @@ fn results_in_tables(name: &str, results: &Results, to: &mut dyn Write) -> Resul
     if !results.sizes.is_empty() {
         let rows = results.sizes.iter().map(|size| {
             vec![
-                format!("{:.3e}", size.diameter_from_m),
-                format!("{:.3e}", size.diameter_to_m),
-                format!("{:.4}", size.number_fraction),
-                format!("{:.4}", size.mass_fraction),
-                probability(size.capture_by_number),
-                probability(size.capture_by_mass),
+                format!("{:.3e}", size.from),
+                format!("{:.3e}", size.to),
+                format!("{:.4}", size.number),
+                format!("{:.4}", size.mass),
+                probability(size.by_number),
+                probability(size.by_mass),
             ]
         });
         let heads = [
@@ -74,7 +74,7 @@ fn results_in_tables(name: &str, results: &Results, to: &mut dyn Write) -> Resul
     }
     let rows = results.bounces.iter().map(|bounce| {
         vec![
-            format!("{:.4}", bounce.speed_m_s),
+            format!("{:.4}", bounce.speed),
             probability(bounce.bounce_fraction),
             format!("{:.3}", bounce.interval[0]),
             format!("{:.3}", bounce.interval[1]),
@@ -84,7 +84,7 @@ fn results_in_tables(name: &str, results: &Results, to: &mut dyn Write) -> Resul
     writeln!(to, "{}", table(&["speed\nm/s", "bounce\nfraction", &particles, "to"], 0, rows))?;
     let spreads = [("rebounds", results.restitution_of_rebounds), ("all impacts", Some(results.restitution))];
     let rows = spreads.into_iter().filter_map(|(name, spread)| {
-        let Spread { mean, variance, skewness } = spread?;
+        let Moments { mean, variance, skewness } = spread?;
         let numbers = [mean, variance, skewness].map(|number| format!("{:.4}", number.value));
         Some([&[name.to_owned()][..], &numbers].concat())
     });
@@ -109,7 +109,7 @@ struct Line<'a> {
 }
 
 /// Writes a row for each number.
-pub(super) fn csv(answers: &[Answer], to: &mut dyn Write) -> Result<(), Box<dyn Error>> {
+pub(super) fn csv(answers: &[Answer], model: &str, to: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let mut writer = csv::Writer::from_writer(to);
     for (population, answer) in answers {
         let results = match answer {
@@ -119,9 +119,9 @@ pub(super) fn csv(answers: &[Answer], to: &mut dyn Write) -> Result<(), Box<dyn 
                 continue;
             }
         };
-        let line = |quantity: String, Number { value, error }: Number| Line {
+        let line = |quantity: String, Estimate { value, error }: Estimate| Line {
             population,
-            model: results.model,
+            model,
             quantity,
             value: Some(value),
             numerical_error: Some(error),
@@ -133,19 +133,19 @@ pub(super) fn csv(answers: &[Answer], to: &mut dyn Write) -> Result<(), Box<dyn 
             }
         }
         for size in &results.sizes {
-            let exact = |value| Number { value, error: 0.0 };
+            let exact = |value| Estimate { value, error: 0.0 };
             for (quantity, number) in [
-                ("number_fraction", exact(size.number_fraction)),
-                ("mass_fraction", exact(size.mass_fraction)),
-                ("capture_efficiency_number", size.capture_by_number),
-                ("capture_efficiency_mass", size.capture_by_mass),
+                ("number_fraction", exact(size.number)),
+                ("mass_fraction", exact(size.mass)),
+                ("capture_efficiency_number", size.by_number),
+                ("capture_efficiency_mass", size.by_mass),
             ] {
-                let (from, to) = (Some(size.diameter_from_m), Some(size.diameter_to_m));
+                let (from, to) = (Some(size.from), Some(size.to));
                 writer.serialize(Line { from, to, ..line(quantity.into(), number) })?;
             }
         }
         for bounce in &results.bounces {
-            let (speed, [low, high]) = (Some(bounce.speed_m_s), bounce.interval);
+            let (speed, [low, high]) = (Some(bounce.speed), bounce.interval);
             let ends = Line { from: speed, to: speed, low: Some(low), high: Some(high), ..Line::default() };
             let Line { population, model, quantity, value, numerical_error, .. } =
                 line("bounce_fraction".into(), bounce.bounce_fraction);
@@ -169,17 +169,20 @@ struct Object<'a> {
     population: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    model: Option<&'a str>,
     #[serde(flatten)]
     results: Option<&'a Results>,
 }
 
 /// Writes an array with an object for each population.
-pub(super) fn json(answers: &[Answer], to: &mut dyn Write) -> Result<(), Box<dyn Error>> {
+pub(super) fn json(answers: &[Answer], model: &str, to: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let objects: Vec<_> = answers
         .iter()
         .map(|(population, answer)| Object {
             population,
             error: answer.as_ref().err().map(String::as_str),
+            model: answer.is_ok().then_some(model),
             results: answer.as_ref().ok(),
         })
         .collect();

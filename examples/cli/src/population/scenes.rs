@@ -3,12 +3,11 @@
 use microimpact::contact::{Adaptive, Contact};
 use microimpact::rigid::{AnyRestitution, ReboundAdhesion};
 use microimpact::{Coulomb, InputError, Parameter, RigidBody, Sphere};
-use population::{Distribution, Population, PopulationError, RigidBodies, Simulations, Statistics};
+use population::{Distribution, Population, PopulationError, Questions, Results, RigidBodies, Simulations, Statistics};
 use sheet::{Input, Row};
 
 use super::Model;
 use super::distributions::{DIAMETER, Quantity, RING, SPEED, SampleFiles, WORK, WORK_PER_AREA, angles};
-use super::results::{Questions, Results};
 use crate::contact_law::{LAW_INPUTS, RING_INPUT, RowLaw, WORK_INPUT};
 use crate::inputs::{DENSITY_INPUT, FRICTION_INPUT, GYRATION_INPUT, POWER_INPUT, RESTITUTION_INPUT, restitution_law};
 
@@ -112,7 +111,7 @@ pub(super) fn simulations(
         |diameter: f64, adhesion: f64| Ok(Contact::new(spheres.sphere(diameter)?, law.with_adhesion(adhesion).law()?));
     let simulations = Simulations { scene, friction: spheres.friction, method };
     Statistics::interpolated(&population, &simulations, &questions.speeds(&population))
-        .and_then(|statistics| Results::of("simulation", &population, &statistics, questions))
+        .and_then(|statistics| Results::of(&population, &statistics, questions))
         .map_err(refused(row))
 }
 
@@ -156,5 +155,5 @@ fn of_bodies<A: ReboundAdhesion<f64>>(
 ) -> Result<Results, String> {
     let (population, bodies) = (spheres.population(adhesion), RigidBodies(body));
     let statistics = Statistics::direct(&population, &bodies);
-    Results::of("rigid-body", &population, &statistics, questions).map_err(refused(row))
+    Results::of(&population, &statistics, questions).map_err(refused(row))
 }

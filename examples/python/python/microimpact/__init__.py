@@ -10,6 +10,7 @@ from .distributions import LogNormal, Normal, Samples
 from .fitting import Candidate, Fit, Quantity, fit
 from .impacts import CLASSES, Class, Impacts, Outcome, Status
 from .laws import Dmt, Hertz, Jkr, Ring
+from .methods import Adaptive, Collocation, FixedCost, RungeKuttaGill
 from .population import Bounces, Estimate, Population, Sizes
 from .rigid_body import RigidBody
 from .scene import Scene
@@ -18,13 +19,16 @@ from .trajectory import Trajectory
 
 __all__ = [
     "CLASSES",
+    "Adaptive",
     "BoundaryTable",
     "Bounces",
     "Candidate",
     "Class",
+    "Collocation",
     "Dmt",
     "Estimate",
     "Fit",
+    "FixedCost",
     "Hertz",
     "Impacts",
     "Jkr",
@@ -36,6 +40,7 @@ __all__ = [
     "RestitutionTable",
     "RigidBody",
     "Ring",
+    "RungeKuttaGill",
     "Samples",
     "Scene",
     "Sizes",

@@ -6,9 +6,16 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from . import methods
+
 __version__: str
 PARAMETERS: list[str]
 QUANTITIES: list[str]
+COLLOCATION_NODES: tuple[int, int, int]
+FIXED_COST_NODES: tuple[int, int, int]
+ITERATIONS: tuple[int, int, int]
+STEPS: tuple[int, int, int]
+TOLERANCE: float
 
 _Float = npt.NDArray[np.float64]
 _Numbers = Mapping[str, float | _Float]
@@ -18,9 +25,11 @@ _Statuses = tuple[npt.NDArray[np.int8], npt.NDArray[np.int16], _Failure]
 _Results = tuple[_Statuses, npt.NDArray[np.int8], dict[str, _Float]]
 _Shape = tuple[str, float, float] | _Float
 _Shapes = tuple[_Shape, _Shape, _Shape, _Shape | None]
-_Questions = tuple[int, Sequence[float], Sequence[float], float]
+_Asked = tuple[int, Sequence[float], Sequence[float], int, float]
 
-def simulate(words: _Words, numbers: _Numbers, count: int, tolerance: float, outputs: Sequence[str]) -> _Results: ...
+def simulate(
+    words: _Words, numbers: _Numbers, count: int, method: methods.Method, outputs: Sequence[str]
+) -> _Results: ...
 def critical_speeds(words: _Words, numbers: _Numbers, count: int, tolerance: float) -> tuple[_Statuses, _Float]: ...
 def classify(numbers: _Numbers, count: int, outputs: Sequence[str]) -> _Results: ...
 def critical_speeds_of_bodies(numbers: _Numbers, count: int) -> tuple[_Statuses, _Float]: ...
@@ -34,9 +43,9 @@ def fit(
     natural_scatter: bool,
 ) -> dict[str, Any]: ...
 def population_of_contacts(
-    words: _Words, numbers: _Numbers, shapes: _Shapes, questions: _Questions, tolerance: float
+    words: _Words, numbers: _Numbers, shapes: _Shapes, asked: _Asked, tolerance: float
 ) -> dict[str, Any]: ...
-def population_of_bodies(numbers: _Numbers, shapes: _Shapes, questions: _Questions) -> dict[str, Any]: ...
+def population_of_bodies(numbers: _Numbers, shapes: _Shapes, asked: _Asked) -> dict[str, Any]: ...
 
 class BoundaryTable:
     def __new__(

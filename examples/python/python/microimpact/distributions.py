@@ -39,16 +39,16 @@ Distributed = float | LogNormal | Normal | Samples
 Shape = tuple[str, float, float] | Float
 
 
-def shape(name: str, distributed: Distributed, factor: float = 1.0) -> Shape:
-    """The distribution in another unit, for Rust."""
+def shape(name: str, distributed: Distributed) -> Shape:
+    """The distribution, for Rust."""
     if isinstance(distributed, LogNormal):
         median = one_number(name, distributed.median)
-        return ("log-normal", factor * median, one_number(name, distributed.geometric_deviation))
+        return ("log-normal", median, one_number(name, distributed.geometric_deviation))
     if isinstance(distributed, Normal):
         mean, deviation = (one_number(name, number) for number in (distributed.mean, distributed.deviation))
-        return ("normal", factor * mean, factor * deviation)
+        return ("normal", mean, deviation)
     if isinstance(distributed, Samples):
-        return np.ascontiguousarray(factor * number_array(name, distributed.values).reshape(-1))
+        return np.ascontiguousarray(number_array(name, distributed.values).reshape(-1))
     if not np.isscalar(distributed) and np.ndim(distributed):
         raise TypeError(f"{name}: an array is refused: give a number, LogNormal, Normal or Samples")
-    return ("fixed", factor * one_number(name, distributed), 0.0)
+    return ("fixed", one_number(name, distributed), 0.0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -66,9 +66,9 @@ class Fit:
     """Standard deviation of the natural scatter of the restitution."""
     outlier_fraction: float | None
     """Fraction of outliers."""
-    curve: tuple[Float, Float, Float, Float] | None
+    curve: tuple[Float, Float, Float, Float] | None = field(repr=False)
     """Speeds, m/s, the fitted restitution there, and its bounds of 95 %."""
-    data: tuple[Float, Float]
+    data: tuple[Float, Float] = field(repr=False)
     """Measured approach speeds, m/s, and restitutions; a capture has zero."""
 
     @property

@@ -27,6 +27,16 @@ def _axes(ax: Any) -> Any:
     return pyplot.subplots()[1]
 
 
+def _logarithmic(axes: Any) -> None:
+    """Makes the horizontal axis logarithmic, with plain numbers at 1, 2 and 5 of each decade."""
+    from matplotlib.ticker import LogLocator, NullFormatter
+
+    axes.set_xscale("log")
+    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.xaxis.set_minor_formatter(NullFormatter())
+
+
 def restitution(scene: Scene | RigidBody, speed_normal: npt.ArrayLike, ax: Any = None) -> Any:
     """Draws overall restitution against approach speed (m/s) of a scene of one sphere; returns the axes."""
     from .rigid_body import RigidBody
@@ -35,7 +45,8 @@ def restitution(scene: Scene | RigidBody, speed_normal: npt.ArrayLike, ax: Any =
     speeds = number_array("speed_normal", speed_normal)
     impacts = scene.classify(speeds) if isinstance(scene, RigidBody) else scene.simulate(speeds)
     axes.plot(speeds, impacts.overall_restitution)
-    axes.set(xlabel="approach speed, m/s", ylabel="overall restitution", xscale="log", ylim=(0, 1))
+    axes.set(xlabel="approach speed, m/s", ylabel="overall restitution", ylim=(0, 1))
+    _logarithmic(axes)
     return axes
 
 
@@ -75,7 +86,8 @@ def sizes(ranges: Sizes, ax: Any = None) -> Any:
     edges = 1e6 * np.append(ranges.diameter_from, ranges.diameter_to[-1:])
     axes.stairs(ranges.capture, edges, label="by number")
     axes.stairs(ranges.capture_by_mass, edges, linestyle="--", label="by mass")
-    axes.set(xlabel="diameter, µm", ylabel="capture efficiency", xscale="log", ylim=(0, 1))
+    axes.set(xlabel="diameter, µm", ylabel="capture efficiency", ylim=(0, 1))
+    _logarithmic(axes)
     axes.legend()
     return axes
 

@@ -15,6 +15,12 @@ from .distributions import Distributed, LogNormal
 MOST_BINS = 200
 """Largest number of ranges of diameters."""
 
+PARTICLES = 100
+"""Particles observed at each speed, where nothing else is said."""
+
+MOST_PARTICLES = 4_294_967_295
+"""Their largest number."""
+
 TOLERANCE = 1e-5
 """Tolerance of the quadrature: the error of a part of an integral over one distribution at which the part is not divided again; ten
 times as much for each further distribution."""
@@ -62,6 +68,10 @@ class Bounces:
     """Probability of a rebound."""
     error: Float
     """Its error."""
+    low: Float
+    """Lower end of the interval of 95 % (Wilson 1927) in which as many `particles` are counted to rebound."""
+    high: Float
+    """Its upper end."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +79,7 @@ class Population:
     """What a population of spheres does."""
 
     Shapes = tuple[distributions.Shape, distributions.Shape, distributions.Shape, "distributions.Shape | None"]
-    Questions = tuple[int, Sequence[float], Sequence[float], float]
+    Questions = tuple[int, Sequence[float], Sequence[float], int, float]
 
     by_number: dict[str, Estimate]
     """Probabilities of rebound, capture, and each class; a capture that rests counts as rolling."""
@@ -95,6 +105,7 @@ class Population:
         bins: int,
         edges: Sequence[float],
         speeds: Sequence[float],
+        particles: int,
         tolerance: float,
     ) -> Population:
         """Asks Rust for the statistics."""
@@ -105,6 +116,7 @@ class Population:
         fast = number_array("speeds", speeds).reshape(-1).tolist()
         if not all(np.isfinite(value) and value > 0.0 for value in fast):
             raise ValueError("speeds: give positive speeds in m/s")
+        particles = whole_number("particles", particles, 1, MOST_PARTICLES)
         tolerance = one_number("tolerance", tolerance)
         if not TOLERANCES[0] <= tolerance <= TOLERANCES[1]:
             raise ValueError(f"tolerance: {tolerance} is refused: it must be {TOLERANCES[0]} to {TOLERANCES[1]}")
@@ -114,7 +126,7 @@ class Population:
             _angle(angle_deg),
             None if adhesion is None else distributions.shape("adhesion", adhesion),
         )
-        answer = compute(shapes, (bins, edge, fast, tolerance))
+        answer = compute(shapes, (bins, edge, fast, particles, tolerance))
         if not all(np.isfinite(number) for _, estimate in answer["by_number"] for number in estimate):
             raise ValueError("population: the quadrature does not resolve these distributions; give narrower ones")
 
@@ -127,12 +139,14 @@ class Population:
 
         ranges = np.array([size[0] for size in answer["sizes"]], dtype=np.float64).reshape(-1, 4).T
         number, mass = columns([size[1] for size in answer["sizes"]]), columns([size[2] for size in answer["sizes"]])
-        bounce, rebounds = columns(answer["bounces"]), answer["restitution_of_rebounds"]
+        bounce = columns([bounce[0] for bounce in answer["bounces"]])
+        interval = columns([bounce[1] for bounce in answer["bounces"]])
+        rebounds = answer["restitution_of_rebounds"]
         return cls(
             by_number={name: Estimate(*value) for name, value in answer["by_number"]},
             by_mass={name: Estimate(*value) for name, value in answer["by_mass"]},
             sizes=Sizes(*ranges, *number, *mass),
-            bounces=Bounces(np.array(fast), *bounce),
+            bounces=Bounces(np.array(fast), *bounce, *interval),
             restitution=estimates(answer["restitution"]),
             restitution_of_rebounds=None if rebounds is None else estimates(rebounds),
         )
@@ -143,7 +157,7 @@ class Population:
 
 
 def _angle(angle: Distributed) -> distributions.Shape:
-    """An angle of incidence, in radians. It may be zero, so that a log-normal one is none."""
+    """An angle of incidence. It may be zero, so that a log-normal one is none."""
     if isinstance(angle, LogNormal):
         raise TypeError("angle_deg: a log-normal angle is refused: give a number, Normal or Samples")
-    return distributions.shape("angle_deg", angle, np.pi / 180.0)
+    return distributions.shape("angle_deg", angle)

@@ -12,7 +12,7 @@ from .arrays import ByValue, Float, one_number, rows
 from .distributions import Distributed
 from .impacts import AT_WALL, OF_TWO, PLANAR, Impacts, computed, critical_speeds, outputs_of
 from .motions import AT_REST, UPRIGHT, Numbers, at_wall, in_plane, of_two
-from .population import TOLERANCE, Population
+from .population import PARTICLES, TOLERANCE, Population
 
 COMPUTED = (
     "impulse_ratio_out",
@@ -176,6 +176,7 @@ class RigidBody(ByValue):
         bins: int = 8,
         edges: Sequence[float] = (),
         speeds: Sequence[float] = (),
+        particles: int = PARTICLES,
         tolerance: float = TOLERANCE,
     ) -> Population:
         """What a population of spheres does, as `Scene.population`, in a few seconds at most.
@@ -195,4 +196,4 @@ class RigidBody(ByValue):
         def compute(shapes: Population.Shapes, questions: Population.Questions) -> dict[str, object]:
             return _native.population_of_bodies(single, shapes, questions)
 
-        return Population.of(compute, diameter, speed, angle_deg, adhesion, bins, edges, speeds, tolerance)
+        return Population.of(compute, diameter, speed, angle_deg, adhesion, bins, edges, speeds, particles, tolerance)

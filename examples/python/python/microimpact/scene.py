@@ -12,8 +12,9 @@ from .arrays import ByValue, Float, one_number, rows, whole_number
 from .distributions import Distributed
 from .impacts import AT_WALL, OF_TWO, PLANAR, Impacts, computed, critical_speeds, outputs_of
 from .laws import Contact
+from .methods import Adaptive, Method, checked
 from .motions import AT_REST, UPRIGHT, Numbers, at_wall, in_plane, of_two
-from .population import TOLERANCE, Population
+from .population import PARTICLES, TOLERANCE, Population
 from .tables import BoundaryTable, RestitutionTable
 from .trajectory import Trajectory
 
@@ -66,8 +67,8 @@ class Scene(ByValue):
     """Tangential stiffness over (3/2) K a, 1e-3 to 1e3; about 0.85 for a Poisson's ratio of 0.25."""
     gyration_ratio: npt.ArrayLike = 0.4
     """Squared radius of gyration over the squared radius, 1e-3 to 1."""
-    tolerance: float = 1e-9
-    """Tolerance of e^2 and of all outputs, 1e-13 to 1e-2."""
+    tolerance: float = _native.TOLERANCE
+    """Tolerance of e^2 and of all outputs, 1e-13 to 1e-2, of all that is computed without another `method`."""
 
     def __post_init__(self) -> None:
         if not isinstance(self.contact, Contact):
@@ -98,13 +99,24 @@ class Scene(ByValue):
         return {name: one_number(name, value) for name, value in numbers.items() if value is not None}
 
     def _simulated(
-        self, motions: Numbers, basic: tuple[str, ...], outputs: str | Sequence[str], errors: str
+        self,
+        motions: Numbers,
+        basic: tuple[str, ...],
+        outputs: str | Sequence[str],
+        errors: str,
+        method: Method | None,
     ) -> Impacts:
+        by = Adaptive(self.tolerance) if method is None else checked(method)
+        if self.stiffness_ratio is not None and not isinstance(by, Adaptive):
+            name = type(by).__name__
+            raise ValueError(
+                f"stiffness_ratio: the method {name} is not offered with it; use Adaptive, or leave it out"
+            )
         names = outputs_of(outputs, basic, SIMULATED if self.stiffness_ratio is None else COMPLIANT)
         words = self.contact.words()
 
         def compute(numbers: dict[str, float | Float], count: int) -> _native._Results:
-            return _native.simulate(words, numbers, count, self.tolerance, names)
+            return _native.simulate(words, numbers, count, by, names)
 
         return computed(rows({**self._with_radius(), **motions}), errors, compute)
 
@@ -116,15 +128,17 @@ class Scene(ByValue):
         *,
         outputs: str | Sequence[str] = (),
         errors: str = "raise",
+        method: Method | None = None,
     ) -> Impacts:
         """Simulates impacts in a plane.
 
         `speed_normal` is the approach speed, m/s, a positive number; `speed_tangential` the tangential velocity, m/s; `spin` the
         spin, rad/s. `outputs` names quantities besides restitution and the velocities after the impact, or is "all"; they are
         listed in `microimpact.scene.SIMULATED`, and cost about as much time again. Raises ValueError for the first impact that
-        is refused or does not converge; with errors="status" the result says so in its `status`.
+        is refused or does not converge; with errors="status" the result says so in its `status`. `method` is `Adaptive` with the
+        scene's tolerance, or another of `microimpact.methods`, of which `Adaptive` alone goes with a stiffness_ratio.
         """
-        return self._simulated(in_plane(speed_normal, speed_tangential, spin), PLANAR, outputs, errors)
+        return self._simulated(in_plane(speed_normal, speed_tangential, spin), PLANAR, outputs, errors, method)
 
     def strike(
         self,
@@ -135,6 +149,7 @@ class Scene(ByValue):
         wall_velocity: npt.ArrayLike = AT_REST,
         outputs: str | Sequence[str] = (),
         errors: str = "raise",
+        method: Method | None = None,
     ) -> Impacts:
         """Simulates impacts in space, on a wall of any direction that may move.
 
@@ -142,7 +157,7 @@ class Scene(ByValue):
         `normal` has length one and points from the wall to the sphere. The result has `velocity_out` and `spin_out` as vectors.
         """
         motions = at_wall(self._numbers(), velocity, spin, normal, wall_velocity)
-        return self._simulated(motions, AT_WALL, outputs, errors)
+        return self._simulated(motions, AT_WALL, outputs, errors, method)
 
     def collide(
         self,
@@ -157,6 +172,7 @@ class Scene(ByValue):
         gyration_ratio_2: npt.ArrayLike = 0.4,
         outputs: str | Sequence[str] = (),
         errors: str = "raise",
+        method: Method | None = None,
     ) -> Impacts:
         """Simulates collisions of two spheres in space, of which the second is like the first where nothing else is said.
 
@@ -166,7 +182,7 @@ class Scene(ByValue):
         """
         both, spins = (velocity, velocity_2), (spin, spin_2)
         motions = of_two(self._with_radius(), both, spins, normal, radius_2, density_2, gyration_ratio_2)
-        return self._simulated(motions, OF_TWO, outputs, errors)
+        return self._simulated(motions, OF_TWO, outputs, errors, method)
 
     def classify(
         self,
@@ -176,13 +192,14 @@ class Scene(ByValue):
         *,
         outputs: str | Sequence[str] = (),
         errors: str = "raise",
+        method: Method | None = None,
     ) -> Impacts:
         """Simulates impacts as `simulate` does, and adds `speed_over_critical`: the approach speed over the critical speed.
 
         It is infinite where every speed rebounds, and zero where none does. The search for critical speeds takes several
-        times as long as a simulation.
+        times as long as a simulation, and keeps the scene's tolerance with every `method`.
         """
-        impacts = self.simulate(speed_normal, speed_tangential, spin, outputs=outputs, errors=errors)
+        impacts = self.simulate(speed_normal, speed_tangential, spin, outputs=outputs, errors=errors, method=method)
         return impacts.with_margin(speed_normal, self.critical_speed(errors=errors))
 
     def critical_speed(self, *, errors: str = "raise") -> Float:
@@ -230,14 +247,15 @@ class Scene(ByValue):
         bins: int = 8,
         edges: Sequence[float] = (),
         speeds: Sequence[float] = (),
+        particles: int = PARTICLES,
         tolerance: float = TOLERANCE,
     ) -> Population:
         """What a population of spheres does. Quantities are independent: numbers, `LogNormal`, `Normal` or `Samples`.
 
         `diameter` in m; `speed` along the path in m/s; `angle_deg` between the path and the normal, in degrees; `adhesion` takes
         the place of the number of adhesion that the law has. Capture efficiency is that in `bins` ranges of diameters, or between
-        the `edges` (m), NaN in a range without spheres; the bounce fraction that at each of the `speeds` (m/s). Angles end at 89.9
-        degrees. Spheres do not spin before the impact.
+        the `edges` (m), NaN in a range without spheres; the bounce fraction that at each of the `speeds` (m/s), with the
+        interval for as many `particles`. Angles end at 89.9 degrees. Spheres do not spin before the impact.
 
         Each result has an estimate of its error, which `tolerance`, 1e-9 to 1e-3, makes smaller; that of the default is about 1e-4 or
         less. With the default, a table by size takes less than a second where three of the quantities are distributed, and about
@@ -254,4 +272,4 @@ class Scene(ByValue):
                 self.contact.words(), self._material(), shapes, questions, self.tolerance
             )
 
-        return Population.of(compute, diameter, speed, angle_deg, adhesion, bins, edges, speeds, tolerance)
+        return Population.of(compute, diameter, speed, angle_deg, adhesion, bins, edges, speeds, particles, tolerance)

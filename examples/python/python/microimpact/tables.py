@@ -84,6 +84,10 @@ class BoundaryTable:
     def __hash__(self) -> int:
         return hash(str(self.parts))
 
+    def __repr__(self) -> str:
+        cells = len(self.parts[2])
+        return f"<BoundaryTable: {cells} cells from {self.smallest_radius:.3e} m, margin {self.margin:.1e}>"
+
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         return _boundary_table, self.parts
 
@@ -122,6 +126,10 @@ class RestitutionTable:
 
     def __hash__(self) -> int:
         return hash(str(self._table.parts))
+
+    def __repr__(self) -> str:
+        (smallest, _, _), _, _ = self._table.parts
+        return f"<RestitutionTable: from {smallest:.3e} m, error {self.error:.1e}>"
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         return _restitution_table, self._table.parts

@@ -9,7 +9,7 @@ from . import plot
 from .arrays import Float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Trajectory:
     """The course of an impact: arrays with a number for each moment, from first contact on."""
 
@@ -23,6 +23,9 @@ class Trajectory:
     """Normal force of the surface on the sphere, N, positive where it repels; without a constant external force."""
     elastic: Float
     """Elastic part of the force, N."""
+
+    def __repr__(self) -> str:
+        return f"<Trajectory: {len(self.time)} moments in {self.time[-1]:.3e} s>"
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the force against time with matplotlib; returns the axes."""

@@ -17,6 +17,7 @@ use crate::approach::log_density_slopes;
 use crate::law::{Coordinate, Curve, Law, Size};
 use crate::observation::{Observation, Response, median_mass};
 use crate::scatter::Scatter;
+use crate::stop::Stop;
 use straight::Border;
 
 /// A row in reference speeds.
@@ -72,6 +73,8 @@ pub struct Likelihood {
     without_adhesion: bool,
     /// Whether the steepness at straight rows is kept altogether, so that a trend cannot hide behind a steeper curve.
     keep_steepness: bool,
+    /// There are no more curves once it is asked.
+    stop: Stop,
 }
 
 /// Restitutions of outliers reach beyond one by as much as errors do.
@@ -134,8 +137,19 @@ impl Likelihood {
             border: None,
             without_adhesion: false,
             keep_steepness: false,
+            stop: Stop::default(),
             least_variance: 1e-12,
         }
+    }
+
+    /// Whatever is computed with it ends soon after `stop` is asked, without a result.
+    pub fn until(&mut self, stop: &Stop) {
+        self.stop = stop.clone();
+    }
+
+    /// What ends its computations.
+    pub fn stop(&self) -> &Stop {
+        &self.stop
     }
 
     /// The same rows with other parameters.
@@ -203,6 +217,9 @@ impl Likelihood {
 
     /// The curve of some parameters.
     pub fn curve(&self, values: &[f64]) -> Option<Curve> {
+        if self.stop.is_asked() {
+            return None;
+        }
         self.law.curve(&self.coordinates, &values[..self.coordinates.len()], self.radii, 1.0)
     }
 
@@ -228,6 +245,9 @@ impl Likelihood {
         let trend = &values[self.coordinates.len()..];
         let median = self.nuisance(values, Nuisance::Median);
         for ((row, datum), straight) in rows.iter_mut().zip(&self.data).zip(&self.straight) {
+            if self.stop.is_asked() {
+                return false;
+            }
             let mut shift = median;
             for (nuisance, coefficient) in self.nuisances.iter().zip(trend) {
                 if let Nuisance::Trend(degree) = nuisance {

@@ -43,6 +43,7 @@ impl Likelihood {
             coordinates: self.coordinates.clone(),
             nuisances: self.nuisances.clone(),
             nodes: self.nodes.clone(),
+            stop: self.stop.clone(),
             ..*self
         };
         simulated.keep_straight_rows(values);
