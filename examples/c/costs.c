@@ -38,6 +38,9 @@ static MicroimpactMotion motion;
 static MicroimpactBoundaryTable boundary;
 static int32_t cells[12][4];
 static MicroimpactRestitutionTable table;
+static MicroimpactBoundaryMaker boundary_maker;
+static MicroimpactRestitutionMaker restitution_maker;
+static size_t remaining;
 static MicroimpactTally tally;
 static MicroimpactQueue queue;
 static MicroimpactEvent events[8], event;
@@ -96,9 +99,21 @@ static void fixed_classify(void)
     microimpact_fixed_classify(&fixed, &fixed_motion, &c, &error);
 }
 static void boundary_make(void) { microimpact_boundary_make(&contact, 2e-6f, cells, COUNT(cells), &boundary, &error); }
+static void boundary_begin(void) { microimpact_boundary_begin(&contact, 2e-6f, cells, COUNT(cells), &boundary_maker, &error); }
+static void boundary_step(void)
+{
+    if (microimpact_boundary_step(&boundary_maker, 1u, &boundary, &remaining, &error) != MICROIMPACT_STATUS_OK)
+        remaining = 0u;
+}
 static void boundary_check(void) { microimpact_boundary_check(&boundary, &error); }
 static void boundary_classify(void) { MicroimpactVerdict v; microimpact_boundary_classify(&boundary, 5.06e-6f, &motion, &v, &error); }
 static void restitution_make(void) { microimpact_restitution_make(&contact, 2e-6f, 10.0f, &table, &error); }
+static void restitution_begin(void) { microimpact_restitution_begin(&contact, 2e-6f, 10.0f, &restitution_maker, &error); }
+static void restitution_step(void)
+{
+    if (microimpact_restitution_step(&restitution_maker, 1u, &table, &remaining, &error) != MICROIMPACT_STATUS_OK)
+        remaining = 0u;
+}
 static void restitution_read(void) { MicroimpactTableReading r; microimpact_restitution_read(&table, 5.06e-6f, &motion, &r, &error); }
 static void wall_incidence(void) { microimpact_wall_incidence(&wall, 5.06e-6f, &in_space, &planar, &error); }
 static void wall_after(void) { microimpact_wall_after(&wall, 5.06e-6f, &in_space, 0.7f, 0.4f, after, &error); }
@@ -122,10 +137,14 @@ static void version(void) { (void)microimpact_version(); }
 static void abi(void) { (void)microimpact_abi(); }
 static void layout(void) { (void)microimpact_layout(); }
 
+/* For each motion of the grid; or until the table is complete. */
+#define EACH 1
+#define STEPS 2
+
 static const struct {
     const char *name;
     void (*call)(void);
-    int each; /* whether it depends on the motion */
+    int each; /* whether it depends on the motion, or is a step towards a table */
 } FUNCTIONS[] = {
     {"rigid_init", rigid_init, 0}, {"classify", classify, 1}, {"contact_init", contact_init, 0}, {"simulate", simulate, 1},
     {"simulate_trajectory", simulate_trajectory, 1}, {"compliant_init", compliant_init, 0}, {"simulate_compliant", simulate_compliant, 1},
@@ -134,7 +153,9 @@ static const struct {
     {"scene_critical_speed, contact", critical_contact, 0}, {"scene_probabilities, rigid body", probabilities_rigid, 1},
     {"scene_probabilities, contact", probabilities_contact, 0}, {"sphere_hollow", sphere_hollow, 0}, {"sphere_coated", sphere_coated, 0},
     {"fixed_init", fixed_init, 0}, {"fixed_classify", fixed_classify, 1}, {"boundary_make, 12 cells", boundary_make, 0},
+    {"boundary_begin, 12 cells", boundary_begin, 0}, {"boundary_step, a critical speed of 12 cells", boundary_step, STEPS},
     {"boundary_check, 12 cells", boundary_check, 0}, {"boundary_classify", boundary_classify, 1}, {"restitution_make", restitution_make, 0},
+    {"restitution_begin", restitution_begin, 0}, {"restitution_step, a critical speed or a simulation", restitution_step, STEPS},
     {"restitution_read", restitution_read, 1}, {"wall_incidence", wall_incidence, 0}, {"wall_after", wall_after, 0},
     {"wall_sideways", wall_sideways, 0}, {"pair_incidence", pair_incidence, 0}, {"pair_after", pair_after, 0},
     {"event_classify, rigid body", event_classify, 1}, {"queue_init", queue_init, 0}, {"queue_push", queue_push, 0},
@@ -230,17 +251,18 @@ int main(void)
     for (i = 0; i < COUNT(FUNCTIONS); i++) {
         uint64_t most = 0u;
         uint32_t deepest = 0u;
-        for (j = 0; j < (FUNCTIONS[i].each ? COUNT(SPEEDS) : 1u); j++) {
-            for (k = 0; k < (FUNCTIONS[i].each ? COUNT(ALONG) : 1u); k++) {
-                uint64_t ticks;
-                if (FUNCTIONS[i].each)
+        for (j = 0; j < (FUNCTIONS[i].each == EACH ? COUNT(SPEEDS) : 1u); j++) {
+            for (k = 0; k < (FUNCTIONS[i].each == EACH ? COUNT(ALONG) : 1u); k++) {
+                if (FUNCTIONS[i].each == EACH)
                     move(SPEEDS[j], ALONG[k]);
-                ticks = ticks_of(FUNCTIONS[i].call, &stack);
-                ticks = ticks > empty ? ticks - empty : 0u;
-                most = ticks > most ? ticks : most;
-                deepest = stack > deepest ? stack : deepest;
+                do {
+                    const uint64_t ticks = ticks_of(FUNCTIONS[i].call, &stack);
+                    most = ticks > most ? ticks : most;
+                    deepest = stack > deepest ? stack : deepest;
+                } while (FUNCTIONS[i].each == STEPS && remaining > 0u);
             }
         }
+        most = most > empty ? most - empty : 0u;
         move(2.8f, 1.0f);
         printf("%s;%lu;%lu\n", FUNCTIONS[i].name, (unsigned long)((most * 1000000u + per_million / 2u) / per_million), (unsigned long)deepest);
         fflush(stdout);

@@ -7,10 +7,10 @@ use crate::{CriticalSpeed, Fault, InputError, Parameter};
 
 /// Makes a [`BoundaryTable`] in steps, between which a firmware does other work.
 ///
-/// A critical speed of a [`Contact`](crate::contact::Contact) takes a Cortex-M3 without floating-point unit some 8 million
+/// A critical speed of a [`Contact`](crate::contact::Contact) takes a Cortex-M3 without floating-point unit some ten million
 /// instructions, and a cell takes seven of them. A step makes at most as many calls of the source of critical speeds as its
-/// budget allows. What is done is kept in the maker, which takes 52 bytes besides the cells on a 32-bit processor; nothing is allocated. The table is
-/// that of [`BoundaryTable::new`] to the last bit.
+/// budget allows. What is done is kept in the maker, which takes 52 bytes besides the cells on a 32-bit processor; nothing is
+/// allocated. The table is that of [`BoundaryTable::new`] to the last bit.
 ///
 /// ```
 /// use microimpact::table::{BoundaryTable, BoundaryTableMaker};
@@ -77,7 +77,7 @@ impl<const N: usize> BoundaryTableMaker<N> {
     /// use microimpact::CriticalSpeed;
     /// use microimpact::table::BoundaryTableMaker;
     ///
-    /// let critical = |radius| Ok(CriticalSpeed::At(1e-6 / radius));
+    /// let critical = |radius: f64| Ok(CriticalSpeed::At(1e-6 / radius));
     /// let mut maker = BoundaryTableMaker::<2>::new(1e-6)?;
     /// assert_eq!(maker.step(10, critical)?, None);
     /// assert!(maker.step(4, critical)?.is_some()); // 2 cells: 14 calls
@@ -102,7 +102,7 @@ impl<const N: usize> BoundaryTableMaker<N> {
     /// use microimpact::table::BoundaryTableMaker;
     ///
     /// let mut maker = BoundaryTableMaker::<2>::new(1e-6)?;
-    /// maker.step(3, |radius| Ok(CriticalSpeed::At(1e-6 / radius)))?;
+    /// maker.step(3, |radius: f64| Ok(CriticalSpeed::At(1e-6 / radius)))?;
     /// assert_eq!(maker.calls(), 3);
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
@@ -189,8 +189,9 @@ impl BoundarySliceMaker {
     ///
     /// let mut cells = [[0; 4]; 2];
     /// let mut maker = BoundarySliceMaker::new(1e-6)?;
-    /// assert_eq!(maker.step(&mut cells, 13, |radius| Ok(CriticalSpeed::At(1e-6 / radius)))?, None);
-    /// assert!(maker.step(&mut cells, 1, |radius| Ok(CriticalSpeed::At(1e-6 / radius)))?.is_some());
+    /// let critical = |radius: f64| Ok(CriticalSpeed::At(1e-6 / radius));
+    /// assert_eq!(maker.step(&mut cells, 13, critical)?, None);
+    /// assert!(maker.step(&mut cells, 1, critical)?.is_some());
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn step<'a, T: Single>(

@@ -38,8 +38,8 @@ pub struct RestitutionTableMaker<T, const N: usize, const R: usize, const S: usi
     row: usize,
     column: usize,
     calls: usize,
-    /// The place before in the same row.
-    before: Option<(T, T)>,
+    /// Root and impulse of the place before in the same row.
+    before: (T, T),
     /// Largest impulse at a node, at least one.
     largest: T,
     /// Largest slopes, between the nodes alone and between all places.
@@ -88,10 +88,10 @@ struct Slopes<T> {
 }
 
 impl<T: Real> Slopes<T> {
-    /// Takes account of a place after the one `before` in the same row. At the critical speed the restitution is zero.
-    fn take(&mut self, root: T, rebound: &TableRebound<T>, before: &mut Option<(T, T)>) {
+    /// Takes account of a place, and of the one before it in the same row. At the critical speed the restitution is zero.
+    fn take(&mut self, root: T, rebound: &TableRebound<T>, before: Option<(T, T)>) {
         self.restitution = self.restitution.max(rebound.restitution / root);
-        if let Some((place, impulse)) = before.replace((root, rebound.impulse))
+        if let Some((place, impulse)) = before
             && root > place
         {
             self.impulse = self.impulse.max((rebound.impulse - impulse).abs() / (root - place));
@@ -160,7 +160,7 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
             row: 0,
             column: 0,
             calls: 0,
-            before: None,
+            before: (T::ZERO, T::ZERO),
             largest: T::ONE,
             between_nodes: none,
             slopes: none,
@@ -233,8 +233,8 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
                 _ => self.compare(&place, root, exact),
             }
             self.column += 1;
-            if self.column == if self.row < R { S } else { Self::COLUMNS } {
-                (self.row, self.column, self.before) = (self.row + 1, 0, None);
+            if self.column >= if self.row < R { S } else { Self::COLUMNS } {
+                (self.row, self.column) = (self.row + 1, 0);
             }
         }
         Ok(true)
@@ -261,11 +261,17 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
     /// Takes in what the source says of a node.
     fn take_node(&mut self, root: T, node: &TableRebound<T>) {
         self.largest = self.largest.max(node.impulse);
-        self.slopes.take(root, node, &mut self.before);
+        self.take_slopes(root, node);
         self.between_nodes = self.slopes;
         if let Some(place) = self.table.nodes.get_mut(self.row).and_then(|row| row.get_mut(self.column)) {
             *place = [node.restitution / root, node.impulse];
         }
+    }
+
+    /// Takes in the slopes up to a place.
+    fn take_slopes(&mut self, root: T, rebound: &TableRebound<T>) {
+        self.slopes.take(root, rebound, (self.column > 0).then_some(self.before));
+        self.before = (root, rebound.impulse);
     }
 
     /// Compares the table with what the source says, or with itself at a node. Differences next to the critical speed are less what
@@ -274,7 +280,7 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
         let (slope, impulse) = self.table.interpolated(place.row, place.column);
         let found = TableRebound { restitution: slope * root, impulse };
         let exact = exact.unwrap_or(found);
-        self.slopes.take(root, &exact, &mut self.before);
+        self.take_slopes(root, &exact);
         let uncertain = if place.extrapolated {
             let (half, margin) = (T::constant(0.5), octaves::<T>(self.table.boundary.margin as i32));
             [half * margin * self.between_nodes.restitution, half * margin * self.between_nodes.impulse]
