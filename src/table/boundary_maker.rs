@@ -9,7 +9,7 @@ use crate::{CriticalSpeed, Fault, InputError, Parameter};
 ///
 /// A critical speed of a [`Contact`](crate::contact::Contact) takes a Cortex-M3 without floating-point unit some ten million
 /// instructions, and a cell takes seven of them. A step makes at most as many calls of the source of critical speeds as its
-/// budget allows. What is done is kept in the maker, which takes 52 bytes besides the cells on a 32-bit processor; nothing is
+/// budget allows. What is done is kept in the maker, which takes 60 bytes besides the cells on a 32-bit processor; nothing is
 /// allocated. The table is that of [`BoundaryTable::new`] to the last bit.
 ///
 /// ```
@@ -28,7 +28,7 @@ use crate::{CriticalSpeed, Fault, InputError, Parameter};
 /// let table = loop {
 ///     rounds += 1; // here a firmware feeds its watchdog and answers its host
 ///     if let Some(table) = maker.step(1, critical)? {
-///         break table;
+///         break *table;
 ///     }
 /// };
 /// assert_eq!(rounds, BoundaryTableMaker::<4>::CALLS);
@@ -39,7 +39,8 @@ use crate::{CriticalSpeed, Fault, InputError, Parameter};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BoundaryTableMaker<const N: usize> {
     maker: BoundarySliceMaker,
-    cells: [Cubic; N],
+    /// Without its margin until the last step.
+    table: BoundaryTable<N>,
 }
 
 impl<const N: usize> BoundaryTableMaker<N> {
@@ -63,11 +64,12 @@ impl<const N: usize> BoundaryTableMaker<N> {
     /// ```
     pub fn new<T: Single>(smallest: T) -> Result<Self, InputError> {
         const { BoundaryTable::<N>::COUNTED }
-        Ok(Self { maker: BoundarySliceMaker::new(smallest)?, cells: [[0; 4]; N] })
+        let maker = BoundarySliceMaker::new(smallest)?;
+        Ok(Self { maker, table: BoundaryTable { cells: [[0; 4]; N], first: maker.first, margin: 0 } })
     }
 
     /// Goes on with at most `budget` calls of the source, which must be the same function in every step. Returns the table once
-    /// it is complete, also if it is asked again. A budget of zero makes no call.
+    /// it is complete, also if it is asked again; it stays in the maker until it is copied. A budget of zero makes no call.
     ///
     /// # Errors
     /// Those of [`BoundaryTable::new`]. The maker keeps what was done before: the next step calls the source for the same radius
@@ -87,12 +89,13 @@ impl<const N: usize> BoundaryTableMaker<N> {
         &mut self,
         budget: usize,
         critical: impl FnMut(T) -> Result<CriticalSpeed<T>, InputError>,
-    ) -> Result<Option<BoundaryTable<N>>, InputError> {
-        let Self { maker, cells } = self;
-        let Some(BoundarySlice { first, margin, .. }) = maker.step(cells, budget, critical)? else {
+    ) -> Result<Option<&BoundaryTable<N>>, InputError> {
+        let Self { maker, table } = self;
+        let Some(BoundarySlice { margin, .. }) = maker.step(&mut table.cells, budget, critical)? else {
             return Ok(None);
         };
-        Ok(Some(BoundaryTable { cells: *cells, first, margin }))
+        table.margin = margin;
+        Ok(Some(table))
     }
 
     /// Calls of the source so far, of [`CALLS`](Self::CALLS).

@@ -184,7 +184,7 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
     ) -> Result<Self, InputError> {
         let mut maker = RestitutionTableMaker::new(boundary, ratio)?;
         maker.advance(usize::MAX, source)?;
-        Ok(maker.finished())
+        Ok(*maker.finished())
     }
 
     /// Bound of the interpolation error of the restitution: twice the largest error found when the table was made.

@@ -22,7 +22,7 @@ use crate::{Fault, InputError, Parameter, Real};
 /// let table = loop {
 ///     // Here a firmware feeds its watchdog and answers its host.
 ///     if let Some(table) = maker.step(20, source)? {
-///         break table;
+///         break *table;
 ///     }
 /// };
 /// assert_eq!(maker.calls(), RestitutionTableMaker::<f64, 2, 3, 12>::CALLS);
@@ -169,7 +169,7 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
     }
 
     /// Goes on with at most `budget` calls of the source, which must be the same function in every step. Returns the table once
-    /// it is complete, also if it is asked again. A budget of zero makes no call.
+    /// it is complete, also if it is asked again; it stays in the maker until it is copied. A budget of zero makes no call.
     ///
     /// # Errors
     /// Those of [`RestitutionTable::new`]. The maker keeps what was done before: the next step calls the source for the same
@@ -190,8 +190,8 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
         &mut self,
         budget: usize,
         source: impl FnMut(T, T) -> Result<TableRebound<T>, InputError>,
-    ) -> Result<Option<RestitutionTable<T, N, R, S>>, InputError> {
-        Ok(self.advance(budget, source)?.then(|| self.finished()))
+    ) -> Result<Option<&RestitutionTable<T, N, R, S>>, InputError> {
+        Ok(if self.advance(budget, source)? { Some(self.finished()) } else { None })
     }
 
     /// Calls of the source so far, of [`CALLS`](Self::CALLS).
@@ -294,16 +294,15 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
     }
 
     /// The table with its errors, once all places are done.
-    pub(super) fn finished(&self) -> RestitutionTable<T, N, R, S> {
+    pub(super) fn finished(&mut self) -> &RestitutionTable<T, N, R, S> {
         let rounding = T::constant(ROUNDINGS) * T::EPSILON * self.largest;
-        RestitutionTable {
-            error: T::constant(SAFETY) * self.differences.restitution + rounding,
-            impulse_error: T::constant(SAFETY) * self.differences.impulse + rounding,
-            // The margin is the uncertainty of d: that of sqrt(d) is at most the margin over sqrt(d), as no d is below the margin.
-            near: self.slopes.restitution * octaves(self.table.boundary.margin as i32),
-            impulse_over_restitution: self.slopes.impulse / self.slopes.restitution.max(T::EPSILON),
-            ..self.table
-        }
+        let table = &mut self.table;
+        table.error = T::constant(SAFETY) * self.differences.restitution + rounding;
+        table.impulse_error = T::constant(SAFETY) * self.differences.impulse + rounding;
+        // The margin is the uncertainty of d: that of sqrt(d) is at most the margin over sqrt(d), as no d is below the margin.
+        table.near = self.slopes.restitution * octaves(table.boundary.margin as i32);
+        table.impulse_over_restitution = self.slopes.impulse / self.slopes.restitution.max(T::EPSILON);
+        table
     }
 }
 

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::memory;
 use crate::simulation::ContactScene;
 use crate::status::{Failure, Status, finish, followed};
-use crate::tables::{BoundaryTable, Made, RestitutionTable, Surface};
+use crate::tables::{BoundaryTable, Made, RestitutionTable};
 
 /// Room for a boundary table that is being made, which microimpact_boundary_begin prepares.
 #[repr(C)]
@@ -198,7 +198,7 @@ pub unsafe extern "C" fn microimpact_restitution_step(
                 let making: &mut MakingCells = followed(memory::follow_mut(maker.cast()))?;
                 let done = making.maker.calls();
                 let scene = making.wanted.scene;
-                let made = making.maker.step(left, |radius| scene.critical_speed(radius))?;
+                let made = making.maker.step(left, |radius| scene.critical_speed(radius))?.copied();
                 left = left.saturating_sub(making.maker.calls().saturating_sub(done));
                 let Some(boundary) = made else {
                     let calls = making.maker.calls();
@@ -213,9 +213,9 @@ pub unsafe extern "C" fn microimpact_restitution_step(
             }
             let making: &mut MakingSurface = followed(memory::follow_mut(maker.cast()))?;
             let Wanted { scene, smallest_radius, .. } = making.wanted;
-            let made: Option<Surface> = making.maker.step(left, |radius, speed| scene.rebound(radius, speed))?;
+            let made = making.maker.step(left, |radius, speed| scene.rebound(radius, speed))?;
             if let Some(made) = made {
-                followed(memory::write(table.cast(), Made::of(&scene, smallest_radius, made)?))?;
+                followed(memory::write(table.cast(), Made::of(&scene, smallest_radius, *made)?))?;
             }
             followed(memory::write(remaining, SurfaceMaker::CALLS.saturating_sub(making.maker.calls())))
         };

@@ -130,14 +130,12 @@ pub struct RestitutionTable {
     pub words: [u32; 165],
 }
 
-/// Eight cells of radii, and nodes at six radii and ten speeds.
-pub(crate) type Surface = table::RestitutionTable<f32, 8, 6, 10>;
-
 /// What is in the room.
 #[derive(Clone, Copy)]
 pub(crate) struct Made {
     mark: u32,
-    table: Surface,
+    /// Eight cells of radii, and nodes at six radii and ten speeds.
+    table: table::RestitutionTable<f32, 8, 6, 10>,
     friction: Coulomb<f32>,
     gyration_ratio: f32,
 }
@@ -181,7 +179,11 @@ impl Made {
         Self::of(&scene, smallest_radius, table::RestitutionTable::new(boundary, speed_ratio, rebound)?)
     }
 
-    pub(crate) fn of(scene: &ContactScene, smallest_radius: f32, table: Surface) -> Result<Self, InputError> {
+    pub(crate) fn of(
+        scene: &ContactScene,
+        smallest_radius: f32,
+        table: table::RestitutionTable<f32, 8, 6, 10>,
+    ) -> Result<Self, InputError> {
         let (friction, gyration_ratio) = scene.of_spheres(smallest_radius)?;
         Ok(Self { mark: MARK, table, friction, gyration_ratio })
     }

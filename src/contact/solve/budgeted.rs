@@ -10,7 +10,8 @@ use crate::contact::law::ContactLaw;
 /// [`Collocation::with_budget`].
 ///
 /// Of the other methods, [`FixedCost`](super::FixedCost) has its budget in its number of iterations, and
-/// [`RungeKuttaGill`](super::RungeKuttaGill) in its number of steps. [`Adaptive`](super::Adaptive) has none of one's own.
+/// [`RungeKuttaGill`](super::RungeKuttaGill) in its number of steps. [`Adaptive`](super::Adaptive) takes none: where
+/// whole phases do not serve, it takes the intervals of a [`Collocation`] without a budget.
 ///
 /// ```
 /// use microimpact::contact::{Budgeted, Collocation};
