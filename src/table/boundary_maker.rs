@@ -7,7 +7,7 @@ use crate::{CriticalSpeed, Fault, InputError, Parameter};
 
 /// Makes a [`BoundaryTable`] in steps, between which a firmware does other work.
 ///
-/// A critical speed of a [`Contact`](crate::contact::Contact) takes a Cortex-M3 without floating-point unit some ten million
+/// A critical speed of a [`Contact`](crate::contact::Contact) takes a Cortex-M3 without floating-point unit ten to thirty million
 /// instructions, and a cell takes seven of them. A step makes at most as many calls of the source of critical speeds as its
 /// budget allows. What is done is kept in the maker, which takes 60 bytes besides the cells on a 32-bit processor; nothing is
 /// allocated. The table is that of [`BoundaryTable::new`] to the last bit.

@@ -8,7 +8,7 @@
 use super::RestitutionParts;
 use super::boundary::BoundaryTable;
 use super::logarithm::{Single, logarithm, octaves};
-use super::restitution_maker::RestitutionTableMaker;
+use super::restitution_maker::{RestitutionTableMaker, range};
 use crate::rolling::Friction;
 use crate::{Approach, Coulomb, InputError, Oblique, Real, Separation};
 
@@ -182,7 +182,7 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
         ratio: T,
         source: impl FnMut(T, T) -> Result<TableRebound<T>, InputError>,
     ) -> Result<Self, InputError> {
-        let mut maker = RestitutionTableMaker::new(boundary, ratio)?;
+        let mut maker = RestitutionTableMaker::with_range(boundary, range(ratio)?);
         maker.advance(usize::MAX, source)?;
         Ok(*maker.finished())
     }

@@ -139,8 +139,12 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn new(boundary: BoundaryTable<N>, ratio: T) -> Result<Self, InputError> {
+        Ok(Self::with_range(boundary, range(ratio)?))
+    }
+
+    /// The same up to a logarithm of speed over critical speed.
+    pub(super) fn with_range(boundary: BoundaryTable<N>, end: i32) -> Self {
         const { RestitutionTable::<T, N, R, S>::COUNTED }
-        let end = logarithm(Parameter::SpeedRatio.check(ratio)?.single()) - logarithm(1.0);
         let (first, last) = boundary.logarithms();
         let none = Slopes { restitution: T::ZERO, impulse: T::ZERO };
         let table = RestitutionTable {
@@ -155,7 +159,7 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
             near: T::ZERO,
             impulse_over_restitution: T::ZERO,
         };
-        Ok(Self {
+        Self {
             table,
             row: 0,
             column: 0,
@@ -165,7 +169,7 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
             between_nodes: none,
             slopes: none,
             differences: TableRebound { restitution: T::ZERO, impulse: T::ZERO },
-        })
+        }
     }
 
     /// Goes on with at most `budget` calls of the source, which must be the same function in every step. Returns the table once
@@ -304,6 +308,11 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
         table.impulse_over_restitution = self.slopes.impulse / self.slopes.restitution.max(T::EPSILON);
         table
     }
+}
+
+/// Logarithm of the largest over the critical speed.
+pub(super) fn range<T: Single>(ratio: T) -> Result<i32, InputError> {
+    Ok(logarithm(Parameter::SpeedRatio.check(ratio)?.single()) - logarithm(1.0))
 }
 
 /// A number of nodes or places.

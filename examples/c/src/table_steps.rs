@@ -215,7 +215,7 @@ pub unsafe extern "C" fn microimpact_restitution_step(
             let Wanted { scene, smallest_radius, .. } = making.wanted;
             let made = making.maker.step(left, |radius, speed| scene.rebound(radius, speed))?;
             if let Some(made) = made {
-                followed(memory::write(table.cast(), Made::of(&scene, smallest_radius, *made)?))?;
+                followed(memory::write(table.cast(), Made::of(scene.of_spheres(smallest_radius)?, *made)))?;
             }
             followed(memory::write(remaining, SurfaceMaker::CALLS.saturating_sub(making.maker.calls())))
         };

@@ -173,19 +173,18 @@ pub unsafe extern "C" fn microimpact_restitution_make(
 
 impl Made {
     fn new(scene: ContactScene, smallest_radius: f32, speed_ratio: f32) -> Result<Self, InputError> {
-        scene.of_spheres(smallest_radius)?;
+        let material = scene.of_spheres(smallest_radius)?;
         let boundary = table::BoundaryTable::new(smallest_radius, |radius| scene.critical_speed(radius))?;
         let rebound = |radius, speed| scene.rebound(radius, speed);
-        Self::of(&scene, smallest_radius, table::RestitutionTable::new(boundary, speed_ratio, rebound)?)
+        Ok(Self::of(material, table::RestitutionTable::new(boundary, speed_ratio, rebound)?))
     }
 
+    /// With friction and gyration ratio of the material.
     pub(crate) fn of(
-        scene: &ContactScene,
-        smallest_radius: f32,
+        (friction, gyration_ratio): (Coulomb<f32>, f32),
         table: table::RestitutionTable<f32, 8, 6, 10>,
-    ) -> Result<Self, InputError> {
-        let (friction, gyration_ratio) = scene.of_spheres(smallest_radius)?;
-        Ok(Self { mark: MARK, table, friction, gyration_ratio })
+    ) -> Self {
+        Self { mark: MARK, table, friction, gyration_ratio }
     }
 }
 
