@@ -258,7 +258,7 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
             return Place { row, column: T::constant(column).max(nearest), extrapolated: true, agrees: false };
         }
         let j = self.column - EXTRAPOLATED_COLUMNS.len();
-        let agrees = i % across == 0 && j % along == 0;
+        let agrees = i.is_multiple_of(across) && j.is_multiple_of(along);
         Place { row, column: count::<T>(j) / count(along), extrapolated: false, agrees }
     }
 
