@@ -394,6 +394,98 @@ static void boundary(void)
     free(cells), free(scene), free(motion), free(table), free(verdict);
 }
 
+static void boundary_in_steps(void)
+{
+    enum { CELLS = 2, CALLS = 7 * CELLS };
+    int32_t(*cells)[4] = malloc(CELLS * sizeof *cells), (*expected)[4] = malloc(CELLS * sizeof *expected);
+    MicroimpactContactScene *scene = copy(&CONTACT, sizeof CONTACT);
+    MicroimpactBoundaryMaker *maker = malloc(sizeof *maker);
+    MicroimpactBoundaryTable *table = malloc(sizeof *table), at_once;
+    size_t *remaining = malloc(sizeof *remaining);
+    MicroimpactError error;
+    const MicroimpactStatus null = MICROIMPACT_STATUS_POINTER;
+
+    assert(microimpact_boundary_make(scene, 5e-6f, expected, CELLS, &at_once, &error) == MICROIMPACT_STATUS_OK);
+    for (size_t budget = 1; budget <= CALLS + 1; budget++) {
+        size_t left = CALLS;
+        memset(cells, 0x55, CELLS * sizeof *cells), memset(maker, 0x55, sizeof *maker), memset(table, 0x55, sizeof *table);
+        assert(microimpact_boundary_begin(scene, 5e-6f, cells, CELLS, maker, &error) == MICROIMPACT_STATUS_OK);
+        do {
+            left = left > budget ? left - budget : 0;
+            assert(microimpact_boundary_step(maker, budget, table, remaining, &error) == MICROIMPACT_STATUS_OK);
+            assert(*remaining == left);
+        } while (*remaining > 0);
+        assert(memcmp(cells, expected, CELLS * sizeof *cells) == 0);
+        assert(table->cells == cells && table->count == CELLS && table->margin == at_once.margin);
+        assert(table->smallest_radius == at_once.smallest_radius);
+        assert(microimpact_boundary_check(table, &error) == MICROIMPACT_STATUS_OK);
+    }
+
+    /* A step of nothing, and pointers that are null. */
+    assert(microimpact_boundary_begin(scene, 5e-6f, cells, CELLS, maker, NULL) == MICROIMPACT_STATUS_OK);
+    assert(microimpact_boundary_step(maker, 0, table, remaining, NULL) == MICROIMPACT_STATUS_OK && *remaining == CALLS);
+    assert(microimpact_boundary_step(NULL, 1, table, remaining, &error) == null);
+    assert(microimpact_boundary_step(maker, 1, NULL, remaining, &error) == null);
+    assert(microimpact_boundary_step(maker, 1, table, NULL, &error) == null);
+    assert(microimpact_boundary_begin(NULL, 5e-6f, cells, CELLS, maker, &error) == null);
+    assert(microimpact_boundary_begin(scene, 5e-6f, NULL, CELLS, maker, &error) == null);
+    assert(microimpact_boundary_begin(scene, 5e-6f, cells, SIZE_MAX, maker, &error) == null);
+    assert(microimpact_boundary_begin(scene, 5e-6f, cells, CELLS, NULL, &error) == null);
+    refused(microimpact_boundary_begin(scene, -1.0f, cells, CELLS, maker, &error), &error, "radius");
+    /* Memory in which nothing was begun. */
+    memset(maker, 0xff, sizeof *maker);
+    assert(microimpact_boundary_step(maker, 1, table, remaining, &error) == MICROIMPACT_STATUS_UNMADE);
+    /* A scene without a boundary: the step says so, and again when it is repeated. */
+    scene->adhesion_strength = scene->adhesion_damping = 0.0f;
+    assert(microimpact_boundary_begin(scene, 5e-6f, cells, CELLS, maker, &error) == MICROIMPACT_STATUS_OK);
+    for (int i = 0; i < 2; i++)
+        assert(microimpact_boundary_step(maker, 1, table, remaining, &error) == MICROIMPACT_STATUS_INPUT);
+    scene->density = 0.0f;
+    refused(microimpact_boundary_begin(scene, 5e-6f, cells, CELLS, maker, &error), &error, "density");
+
+    free(cells), free(expected), free(scene), free(maker), free(table), free(remaining);
+}
+
+static void restitution_in_steps(void)
+{
+    enum { CALLS = 392 };
+    static const size_t BUDGETS[] = {1, 50, 57, CALLS};
+    MicroimpactContactScene *scene = copy(&CONTACT, sizeof CONTACT);
+    MicroimpactRestitutionMaker *maker = malloc(sizeof *maker);
+    MicroimpactRestitutionTable *table = malloc(sizeof *table), *expected = malloc(sizeof *expected);
+    size_t *remaining = malloc(sizeof *remaining);
+    MicroimpactError error;
+    const MicroimpactStatus null = MICROIMPACT_STATUS_POINTER;
+
+    memset(expected, 0, sizeof *expected);
+    assert(microimpact_restitution_make(scene, 2e-6f, 10.0f, expected, &error) == MICROIMPACT_STATUS_OK);
+    for (size_t i = 0; i < sizeof BUDGETS / sizeof BUDGETS[0]; i++) {
+        size_t left = CALLS;
+        memset(maker, 0x55, sizeof *maker), memset(table, 0, sizeof *table);
+        assert(microimpact_restitution_begin(scene, 2e-6f, 10.0f, maker, &error) == MICROIMPACT_STATUS_OK);
+        do {
+            left = left > BUDGETS[i] ? left - BUDGETS[i] : 0;
+            assert(microimpact_restitution_step(maker, BUDGETS[i], table, remaining, &error) == MICROIMPACT_STATUS_OK);
+            assert(*remaining == left);
+        } while (*remaining > 0);
+        assert(memcmp(table, expected, sizeof *table) == 0);
+    }
+    assert(microimpact_restitution_begin(scene, 2e-6f, 10.0f, maker, NULL) == MICROIMPACT_STATUS_OK);
+    assert(microimpact_restitution_step(maker, 0, table, remaining, NULL) == MICROIMPACT_STATUS_OK && *remaining == CALLS);
+    assert(microimpact_restitution_step(NULL, 1, table, remaining, &error) == null);
+    assert(microimpact_restitution_step(maker, 1, NULL, remaining, &error) == null);
+    assert(microimpact_restitution_step(maker, 1, table, NULL, &error) == null);
+    assert(microimpact_restitution_begin(NULL, 2e-6f, 10.0f, maker, &error) == null);
+    assert(microimpact_restitution_begin(scene, 2e-6f, 10.0f, NULL, &error) == null);
+    refused(microimpact_restitution_begin(scene, 2e-6f, 1.0f, maker, &error), &error, "largest over critical speed");
+    memset(maker, 0, sizeof *maker);
+    assert(microimpact_restitution_step(maker, 1, table, remaining, &error) == MICROIMPACT_STATUS_UNMADE);
+    scene->friction = -1.0f;
+    refused(microimpact_restitution_begin(scene, 2e-6f, 10.0f, maker, &error), &error, "friction coefficient");
+
+    free(scene), free(maker), free(table), free(expected), free(remaining);
+}
+
 static void restitution(void)
 {
     MicroimpactContactScene *scene = copy(&CONTACT, sizeof CONTACT);
@@ -835,6 +927,8 @@ int main(int count, char **arguments)
     simulate();
     trajectory();
     boundary();
+    boundary_in_steps();
+    restitution_in_steps();
     restitution();
     wall_values();
     pair_values();

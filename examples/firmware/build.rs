@@ -21,8 +21,8 @@ const MAPS: [(&str, &str); 2] = [("thumbv8m", "maps/mps2-an505.x"), ("riscv32", 
 const MEASURED: [&str; 8] =
     ["classify", "contacts", "double_contacts", "variants", "collocations", "recordings", "law", "calibrate"];
 
-/// A binary with so many methods in it that only the largest boards hold it, and their map.
-const LARGE: (&str, &str) = ("methods", "maps/mps2.x");
+/// Binaries with so many methods in them that only the largest boards hold them, and their map.
+const LARGE: ([&str; 2], &str) = (["methods", "worst"], "maps/mps2.x");
 
 /// Binaries that log by defmt, whose strings stay out of flash.
 const LOGGING: [&str; 1] = ["instrument"];
@@ -53,7 +53,7 @@ fn main() {
         if let Some(name) = file.path().file_stem().and_then(OsStr::to_str) {
             let folder = match name {
                 _ if name.starts_with(PROBES) => &probe,
-                _ if name == LARGE.0 => &large,
+                _ if LARGE.0.contains(&name) => &large,
                 _ => &board,
             };
             println!("cargo:rustc-link-arg-bin={name}=-L{}", folder.display());

@@ -70,7 +70,7 @@ pub use outputs::{
 pub use result::{NormalContact, SettledImpact, SimulatedImpact};
 pub use scene::{Classified, Contact};
 pub use solve::{
-    Adaptive, AdaptiveNodes, Collocation, ErrorControl, FixedCost, Method, MotionToRest, Nodes, PhaseNodes,
+    Adaptive, AdaptiveNodes, Budgeted, Collocation, ErrorControl, FixedCost, Method, MotionToRest, Nodes, PhaseNodes,
     PhaseSamples, RestCriterion, RunReport, RungeKuttaGill, Status,
 };
 pub use trajectory::{Recording, Sample, Trajectory};

@@ -575,6 +575,9 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
     /// [`Parameter::ApproachSpeed`] rebounds, the answer is [`CriticalSpeed::AlwaysRebounds`]; if a sphere is captured
     /// even at the largest of them, [`CriticalSpeed::NeverRebounds`].
     ///
+    /// The search makes at most 88 trials of a speed, and few as a rule. A trial is the path of an impact, and one in reverse, of at most
+    /// [`Collocation::MOST_INTERVALS`](super::Collocation::MOST_INTERVALS) intervals each.
+    ///
     /// # Errors
     /// A ratio of the scene's forces outside its range at the critical speed. [`Parameter::Tolerance`] where rounding does not allow
     /// even the largest tolerance.

@@ -38,9 +38,9 @@ const UNIT: f64 = core::f64::consts::LN_2 / OCTAVE as f64;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(into = "Parts<N>", try_from = "Parts<N>"))]
 pub struct BoundaryTable<const N: usize> {
-    cells: [[i32; 4]; N],
+    pub(super) cells: [[i32; 4]; N],
     /// Bits of the radius in the middle of the first cell.
-    first: u32,
+    pub(super) first: u32,
     pub(super) margin: u32,
 }
 
@@ -51,7 +51,8 @@ impl<const N: usize> BoundaryTable<N> {
     /// called for seven radii in each cell: the cubic interpolates four of them, and its error is measured at the other three,
     /// where it is largest. The margin is twice the largest error found, plus the rounding error of a lookup. It bounds the
     /// error of the whole table if the fourth derivative of the curve is nowhere more than twice its smallest value in the
-    /// cell with the largest error. The error of the source is not included.
+    /// cell with the largest error. The error of the source is not included. A
+    /// [`BoundaryTableMaker`](super::BoundaryTableMaker) does the same in steps, of one call of the source or more.
     ///
     /// # Errors
     /// A radius is outside its range; [`Parameter::CriticalSpeed`] if every speed rebounds (too small) or if no speed rebounds
@@ -121,7 +122,7 @@ impl<const N: usize> BoundaryTable<N> {
         }
     }
 
-    const COUNTED: () = assert!(N > 0 && N <= 128, "a table has 1 to 128 cells");
+    pub(super) const COUNTED: () = assert!(N > 0 && N <= 128, "a table has 1 to 128 cells");
 
     /// The same table as a [`BoundarySlice`], whose type does not contain the number of cells.
     ///

@@ -7,19 +7,24 @@
 //! restitution and elastic impulse as functions of radius and speed. They determine the rebound speed, and whether the sphere
 //! slides or rolls.
 //!
-//! A table can be computed on the device at start-up, from any source of critical speeds, or on the host as a constant. Its
-//! cells are part of the table or, in a [`BoundarySlice`], stored elsewhere.
+//! A table can be computed on the device at start-up, from any source of critical speeds, or on the host as a constant. On the
+//! device it takes hundreds of simulations, which a [`BoundaryTableMaker`] and a [`RestitutionTableMaker`] divide into steps. The
+//! cells of a boundary are part of the table or, in a [`BoundarySlice`], stored elsewhere.
 
 mod boundary;
+mod boundary_maker;
 mod logarithm;
 mod parts;
 mod restitution;
+mod restitution_maker;
 mod slice;
 
 pub use boundary::BoundaryTable;
+pub use boundary_maker::{BoundarySliceMaker, BoundaryTableMaker};
 pub use logarithm::Single;
 pub use parts::RestitutionParts;
 pub use restitution::{Lookup, RestitutionTable, TableRebound};
+pub use restitution_maker::RestitutionTableMaker;
 pub use slice::BoundarySlice;
 
 /// Outcome of an impact according to a table.

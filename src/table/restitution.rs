@@ -7,9 +7,10 @@
 #[cfg(feature = "serde")]
 use super::RestitutionParts;
 use super::boundary::BoundaryTable;
-use super::logarithm::{Single, logarithm, number, octaves};
+use super::logarithm::{Single, logarithm, octaves};
+use super::restitution_maker::{RestitutionTableMaker, range};
 use crate::rolling::Friction;
-use crate::{Approach, Coulomb, Fault, InputError, Oblique, Parameter, Real, Separation};
+use crate::{Approach, Coulomb, InputError, Oblique, Real, Separation};
 
 /// Restitution and elastic impulse of a rebound: what a [`RestitutionTable`] holds for each radius and speed.
 ///
@@ -144,56 +145,8 @@ pub struct RestitutionTable<T, const N: usize, const R: usize, const S: usize> {
     pub(super) impulse_over_restitution: T,
 }
 
-/// Smallest number of places, in each direction, at which a table is compared with its source: enough to find the largest
-/// error of the polynomials of three or four nodes.
-const LEAST_PLACES: usize = 12;
-
-/// Places from one node of a table to the next, one of the nodes included.
-const fn places_per_cell(nodes: usize) -> usize {
-    let places = LEAST_PLACES.div_ceil(nodes - 1);
-    if places > 2 { places } else { 2 }
-}
-
-/// The same for radii: an odd number, since in the middle of a cell one parabola takes the place of another, whose error may
-/// be larger. So there are places on both sides of the middle.
-const fn rows_per_cell(nodes: usize) -> usize {
-    places_per_cell(nodes) | 1
-}
-
-/// Columns below the first node at which a table is compared with its source. The polynomials extrapolate there, to the
-/// critical speed at -0.5.
-const EXTRAPOLATED_COLUMNS: [f64; 2] = [-0.45, -0.25];
-
-/// Smallest distance of these columns from the critical speed, in margins of the boundary, so that the source yields a rebound.
-const MARGINS_FROM_BOUNDARY: f64 = 2.0;
-
-/// Stated errors over the largest differences found. The test of random tables finds errors of 1.4 times those differences.
-const SAFETY: f64 = 2.0;
-
-/// Rounding errors of a lookup, in units of the largest value of a node: up to 7 times that value is extrapolated to the
-/// critical speed, in a few operations.
-const ROUNDINGS: f64 = 32.0;
-
 impl<T, const N: usize, const R: usize, const S: usize> RestitutionTable<T, N, R, S> {
     pub(super) const COUNTED: () = assert!(R >= 3 && S >= 4 && R <= 256 && S <= 256, "3 to 256 radii, 4 to 256 speeds");
-}
-
-/// Largest changes over that of sqrt(d).
-struct Slopes<T> {
-    restitution: T,
-    impulse: T,
-}
-
-impl<T: Real> Slopes<T> {
-    /// Takes account of a place after the one `before` in the same row. At the critical speed the restitution is zero.
-    fn take(&mut self, root: T, rebound: &TableRebound<T>, before: &mut Option<(T, T)>) {
-        self.restitution = self.restitution.max(rebound.restitution / root);
-        if let Some((place, impulse)) = before.replace((root, rebound.impulse))
-            && root > place
-        {
-            self.impulse = self.impulse.max((rebound.impulse - impulse).abs() / (root - place));
-        }
-    }
 }
 
 impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable<T, N, R, S> {
@@ -202,7 +155,8 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
     /// The `source` computes restitution and impulse for a radius (m) and a speed (m/s). It is called at the `R` times `S`
     /// nodes and, to find the errors, on a grid of places at nodes, on the lines between them and inside the cells. The
     /// grid divides each cell in three by two, or finer if there are few cells, so that it has at least 13 by 15 places, also
-    /// close to the critical speed. In all there are about six calls for each node, and at least 195.
+    /// close to the critical speed. In all there are about six calls for each node, and at least 195. A
+    /// [`RestitutionTableMaker`] makes them in steps.
     ///
     /// The bounds of the interpolation error, [`error`](Self::error) and [`impulse_error`](Self::impulse_error), are twice
     /// the largest differences found, plus rounding. They hold if between the places the difference is nowhere more than twice
@@ -226,80 +180,11 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
     pub fn new(
         boundary: BoundaryTable<N>,
         ratio: T,
-        mut source: impl FnMut(T, T) -> Result<TableRebound<T>, InputError>,
+        source: impl FnMut(T, T) -> Result<TableRebound<T>, InputError>,
     ) -> Result<Self, InputError> {
-        const { Self::COUNTED }
-        let count = |number: usize| T::constant(number as f64);
-        let end = logarithm(Parameter::SpeedRatio.check(ratio)?.single()) - logarithm(1.0);
-        let (first, last) = boundary.logarithms();
-        let mut table = Self {
-            boundary,
-            nodes: [[[T::ZERO; 2]; S]; R],
-            first,
-            per_octave: count(R - 1) / octaves(last - first),
-            per_root: (count(S) - T::constant(0.5)) / octaves::<T>(end).sqrt(),
-            end,
-            error: T::ZERO,
-            impulse_error: T::ZERO,
-            near: T::ZERO,
-            impulse_over_restitution: T::ZERO,
-        };
-        let (mut largest, mut slopes) = (T::ONE, Slopes { restitution: T::ZERO, impulse: T::ZERO });
-        for i in 0..R {
-            let mut before = None;
-            for j in 0..S {
-                let root = (count(j) + T::constant(0.5)) / table.per_root;
-                let rebound = table.sample(count(i), root, &mut source)?;
-                largest = largest.max(rebound.impulse);
-                slopes.take(root, &rebound, &mut before);
-                if let Some(place) = table.nodes.get_mut(i).and_then(|row| row.get_mut(j)) {
-                    *place = [rebound.restitution / root, rebound.impulse];
-                }
-            }
-        }
-        let found = table.differences(&mut slopes, &mut source)?;
-        let rounding = T::constant(ROUNDINGS) * T::EPSILON * largest;
-        table.error = T::constant(SAFETY) * found.restitution + rounding;
-        table.impulse_error = T::constant(SAFETY) * found.impulse + rounding;
-        // The margin is the uncertainty of d: that of sqrt(d) is at most the margin over sqrt(d), as no d is below the margin.
-        table.near = slopes.restitution * octaves(table.boundary.margin as i32);
-        table.impulse_over_restitution = slopes.impulse / slopes.restitution.max(T::EPSILON);
-        Ok(table)
-    }
-
-    /// Largest differences between the table and its source on the grid of places. Those next to the critical speed are less
-    /// what the margin of the boundary accounts for, by the `slopes` between the nodes, which are updated.
-    fn differences(
-        &self,
-        slopes: &mut Slopes<T>,
-        source: &mut impl FnMut(T, T) -> Result<TableRebound<T>, InputError>,
-    ) -> Result<TableRebound<T>, InputError> {
-        let count = |number: usize| T::constant(number as f64);
-        let (half, margin) = (T::constant(0.5), octaves::<T>(self.boundary.margin as i32));
-        let (across, along) = const { (rows_per_cell(R), places_per_cell(S)) };
-        let nearest = (T::constant(MARGINS_FROM_BOUNDARY) * margin).sqrt() * self.per_root - half;
-        let uncertain = [half * margin * slopes.restitution, half * margin * slopes.impulse];
-        let mut largest = TableRebound { restitution: T::ZERO, impulse: T::ZERO };
-        for i in 0..=across * (R - 1) {
-            let row = count(i) / count(across);
-            let mut before = None;
-            let outer = EXTRAPOLATED_COLUMNS.map(|column| (T::constant(column).max(nearest), uncertain, false));
-            let inner = (0..=along * (S - 1)).map(|j| {
-                let at_node = i % across == 0 && j % along == 0;
-                (count(j) / count(along), [T::ZERO; 2], at_node)
-            });
-            for (column, uncertain, at_node) in outer.into_iter().chain(inner) {
-                let root = (column + half) / self.per_root;
-                let (slope, impulse) = self.interpolated(row, column);
-                let found = TableRebound { restitution: slope * root, impulse };
-                let exact = if at_node { found } else { self.sample(row, root, source)? };
-                slopes.take(root, &exact, &mut before);
-                let off = (found.restitution - exact.restitution).abs() - uncertain[0] / root;
-                largest.restitution = largest.restitution.max(off);
-                largest.impulse = largest.impulse.max((impulse - exact.impulse).abs() - uncertain[1] / root);
-            }
-        }
-        Ok(largest)
+        let mut maker = RestitutionTableMaker::with_range(boundary, range(ratio)?);
+        maker.advance(usize::MAX, source)?;
+        Ok(*maker.finished())
     }
 
     /// Bound of the interpolation error of the restitution: twice the largest error found when the table was made.
@@ -425,7 +310,7 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
     /// Interpolates e/sqrt(d) and I/(m v) at a place that is counted in nodes.
     // A function call would pass all values through memory.
     #[inline(always)]
-    fn interpolated(&self, row: T, column: T) -> (T, T) {
+    pub(super) fn interpolated(&self, row: T, column: T) -> (T, T) {
         let (i, across) = parabola::<T, R>(row);
         let (j, along) = cubic::<T, S>(column);
         let mut sums = [T::ZERO; 2];
@@ -441,26 +326,6 @@ impl<T: Single, const N: usize, const R: usize, const S: usize> RestitutionTable
             }
         }
         (sums[0], sums[1])
-    }
-
-    /// Calls the source at a row of nodes and at `root` = sqrt(d).
-    fn sample(
-        &self,
-        row: T,
-        root: T,
-        source: &mut impl FnMut(T, T) -> Result<TableRebound<T>, InputError>,
-    ) -> Result<TableRebound<T>, InputError> {
-        let units = |octaves: T| (octaves.single() * super::logarithm::OCTAVE as f32) as i32;
-        let radius = T::from_single(self.boundary.radius_at(self.first + units(row / self.per_octave)));
-        let critical = self.boundary.logarithm_at(radius);
-        let outside = || InputError { parameter: Parameter::Radius, fault: Fault::TooLarge, value: radius.single() };
-        let critical = critical.ok_or_else(outside)?;
-        let speed = T::from_single(number(critical.saturating_add(units(root * root))));
-        let rebound = source(radius, Parameter::ApproachSpeed.check(speed)?)?;
-        Ok(TableRebound {
-            restitution: Parameter::Restitution.check(rebound.restitution)?,
-            impulse: Parameter::ImpulseOverMomentum.check(rebound.impulse)?,
-        })
     }
 }
 

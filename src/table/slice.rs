@@ -1,7 +1,8 @@
 //! Boundary tables whose cells are stored elsewhere.
 
 use super::TableOutcome;
-use super::logarithm::{LARGEST_ERROR, OCTAVE, Single, exact_logarithm, logarithm, number};
+use super::boundary_maker::BoundarySliceMaker;
+use super::logarithm::{LARGEST_ERROR, OCTAVE, Single, logarithm, number};
 use crate::{Approach, CriticalSpeed, Fault, InputError, Parameter, Real};
 
 /// Cells per octave of radii. The uppermost bits of the fraction of a radius select the cell.
@@ -12,15 +13,15 @@ pub(super) const CELL: u32 = OCTAVE / CELLS_PER_OCTAVE;
 const UNIT: f32 = core::f32::consts::LN_2 / OCTAVE as f32;
 
 /// Parts of a cell. A place in the cell is counted in these parts.
-const PARTS: u32 = 1 << 16;
-const BITS_PER_PART: u32 = CELL / PARTS;
+pub(super) const PARTS: u32 = 1 << 16;
+pub(super) const BITS_PER_PART: u32 = CELL / PARTS;
 
 /// Largest margin of a table, 0.05, in units of 2^-23 octaves.
-const LARGEST_MARGIN: u32 = 590_000;
+pub(super) const LARGEST_MARGIN: u32 = 590_000;
 
 /// The logarithm of the critical speed, less the margin, as a cubic function of the radius. The coefficients start with the
 /// lowest power. The variable is zero in the middle of the cell.
-type Cubic = [i32; 4];
+pub(super) type Cubic = [i32; 4];
 
 /// A [`BoundaryTable`](super::BoundaryTable) with any number of cells, which are stored elsewhere: in flash, or in the memory
 /// of a C program.
@@ -46,7 +47,7 @@ pub struct BoundarySlice<'a> {
 
 /// Value of a cubic at a place, which is counted from the middle of the cell.
 #[inline]
-const fn at(cubic: &Cubic, place: i32) -> i32 {
+pub(super) const fn at(cubic: &Cubic, place: i32) -> i32 {
     let [constant, linear, square, cube] = *cubic;
     let square = square.wrapping_add(times(cube, place));
     let linear = linear.wrapping_add(times(square, place));
@@ -61,7 +62,7 @@ const fn times(coefficient: i32, place: i32) -> i32 {
 
 impl<'a> BoundarySlice<'a> {
     /// Fills `cells` with a table that starts at the radius `smallest` (m), like
-    /// [`BoundaryTable::new`](super::BoundaryTable::new).
+    /// [`BoundaryTable::new`](super::BoundaryTable::new). A [`BoundarySliceMaker`] does the same in steps.
     ///
     /// # Errors
     /// Those of [`BoundaryTable::new`](super::BoundaryTable::new). Then the content of the cells is invalid.
@@ -79,35 +80,11 @@ impl<'a> BoundarySlice<'a> {
     pub fn fill<T: Single>(
         smallest: T,
         cells: &'a mut [[i32; 4]],
-        mut critical: impl FnMut(T) -> Result<CriticalSpeed<T>, InputError>,
+        critical: impl FnMut(T) -> Result<CriticalSpeed<T>, InputError>,
     ) -> Result<Self, InputError> {
-        let first = middle_of_cell(Parameter::Radius.check(smallest)?.single());
-        let (mut middle, mut worst, mut coarsest) = (first, 0_u32, 0);
-        for cubic in &mut *cells {
-            let mut curve = |place: i32| {
-                // A place represents the radii up to the next place.
-                let bits = middle.wrapping_add_signed(place * BITS_PER_PART as i32) + BITS_PER_PART / 2;
-                exact_critical_speed(Parameter::Radius.check(of_single(bits))?, &mut critical)
-            };
-            *cubic = interpolated(&mut curve)?;
-            let mut error = 0;
-            for place in EXTREMES {
-                error = curve(place)?.abs_diff(at(cubic, place)).max(error);
-            }
-            worst = error.max(worst);
-            coarsest = half_step(cubic).max(coarsest);
-            middle += CELL;
-        }
-        // The source has an error of two units, the rounding of a cubic three, and the rounding of radius and speed to f32
-        // three.
-        let rounding = LARGEST_ERROR + 2 + 3 + 3 + coarsest;
-        let margin = widest_jump(cells).max(worst.saturating_mul(2)).saturating_add(rounding);
-        // `checked` refuses a larger margin.
-        let shift = margin.min(LARGEST_MARGIN) as i32;
-        for cubic in &mut *cells {
-            cubic[0] = cubic[0].saturating_sub(shift);
-        }
-        Self { cells, first, margin }.checked()
+        let mut maker = BoundarySliceMaker::new(smallest)?;
+        maker.advance(cells, usize::MAX, critical)?;
+        maker.finished(cells)
     }
 
     /// Creates a table from its [`parts`](Self::parts): the radius `smallest` (m), the margin and the cells.
@@ -238,7 +215,7 @@ impl<'a> BoundarySlice<'a> {
     }
 
     /// Returns the table if its cells and its margin are valid.
-    const fn checked(self) -> Result<Self, InputError> {
+    pub(super) const fn checked(self) -> Result<Self, InputError> {
         let (slowest, fastest) = Parameter::CriticalSpeed.range();
         // The interpolation may exceed a bound slightly.
         let slack = 2 * LARGEST_MARGIN as i32;
@@ -269,12 +246,12 @@ impl<'a> BoundarySlice<'a> {
 }
 
 /// Bits of the radius in the middle of the cell that contains a radius.
-const fn middle_of_cell(radius: f32) -> u32 {
+pub(super) const fn middle_of_cell(radius: f32) -> u32 {
     radius.to_bits() / CELL * CELL + CELL / 2
 }
 
 /// Largest jump between neighbouring cells.
-const fn widest_jump(mut cells: &[Cubic]) -> u32 {
+pub(super) const fn widest_jump(mut cells: &[Cubic]) -> u32 {
     let mut widest = 0;
     while let [left, rest @ ..] = cells {
         if let [right, ..] = rest {
@@ -288,63 +265,9 @@ const fn widest_jump(mut cells: &[Cubic]) -> u32 {
     widest
 }
 
-/// Largest change of a cubic over half the distance between two places.
-fn half_step(cubic: &Cubic) -> u32 {
-    let [_, linear, square, cube] = cubic.map(i32::unsigned_abs);
-    // The slope is largest at an end of the cell, where it is linear + square + 3/4 cube.
-    linear.saturating_add(square).saturating_add(cube) / (2 * PARTS) + 1
-}
-
 /// The number that has these bits as an f32.
 pub(super) fn of_single<T: Real>(bits: u32) -> T {
     T::constant(f64::from(f32::from_bits(bits)))
-}
-
-/// Logarithm of the critical speed of a radius.
-fn exact_critical_speed<T: Single>(
-    radius: T,
-    critical: &mut impl FnMut(T) -> Result<CriticalSpeed<T>, InputError>,
-) -> Result<i32, InputError> {
-    let (fault, value) = match critical(radius)? {
-        CriticalSpeed::At(speed) => return Ok(exact_logarithm(Parameter::CriticalSpeed.check(speed)?.single())),
-        CriticalSpeed::AlwaysRebounds => (Fault::TooSmall, 0.0),
-        CriticalSpeed::NeverRebounds => (Fault::TooLarge, f32::INFINITY),
-    };
-    Err(InputError { parameter: Parameter::CriticalSpeed, fault, value })
-}
-
-/// Chebyshev nodes for a cubic, in parts of a cell: cos(pi/8)/2 and cos(3 pi/8)/2 on both sides of the middle.
-const OUTER: i32 = 30_274;
-const INNER: i32 = 12_540;
-
-/// Places where the interpolation error is largest: 0 and cos(pi/4)/2 on both sides of the middle.
-const EXTREMES: [i32; 3] = [-23_170, 0, 23_170];
-
-/// The cubic through a curve at the Chebyshev nodes.
-fn interpolated(curve: &mut impl FnMut(i32) -> Result<i32, InputError>) -> Result<Cubic, InputError> {
-    const ALPHA: f64 = OUTER as f64 / PARTS as f64;
-    const BETA: f64 = INNER as f64 / PARTS as f64;
-    const SPREAD: f64 = ALPHA * ALPHA - BETA * BETA;
-    let [below, above] = [curve(-OUTER)?, curve(OUTER)?].map(i64::from);
-    let [left, right] = [curve(-INNER)?, curve(INNER)?].map(i64::from);
-    // Twice the even and the odd part of the curve at the outer and the inner nodes.
-    let (even, odd) = ((above + below, right + left), (above - below, right - left));
-    let square = scaled::<{ fixed(0.5 / SPREAD) }>(even.0 - even.1);
-    let cube = scaled::<{ fixed(0.5 / ALPHA / SPREAD) }>(odd.0) - scaled::<{ fixed(0.5 / BETA / SPREAD) }>(odd.1);
-    let linear = scaled::<{ fixed(0.5 / BETA) }>(odd.1) - scaled::<{ fixed(BETA * BETA) }>(cube);
-    let constant = (even.1 + 1) / 2 - scaled::<{ fixed(BETA * BETA) }>(square);
-    // A coefficient that does not fit increases the error of the cubic, which is measured.
-    Ok([constant, linear, square, cube].map(|part| part.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32))
-}
-
-/// Converts a factor to units of 2^-24.
-const fn fixed(factor: f64) -> i64 {
-    (factor * (1 << 24) as f64 + 0.5) as i64
-}
-
-/// Product of a number and a factor in units of 2^-24.
-fn scaled<const FACTOR: i64>(number: i64) -> i64 {
-    (number * FACTOR + (1 << 23)) >> 24
 }
 
 #[cfg(test)]

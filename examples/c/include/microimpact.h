@@ -23,7 +23,7 @@
     MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_4, sizeof(MicroimpactTally)), sizeof(MicroimpactTallyReport)), sizeof(MicroimpactFixedBody) + sizeof(MicroimpactFixedMotion)), sizeof(MicroimpactFixedResult))
 /* To be compared with what microimpact_layout returns. */
 #define MICROIMPACT_LAYOUT \
-    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_5, sizeof(MicroimpactUncertainMotion) + sizeof(MicroimpactUncertainClass)), sizeof(MicroimpactMeasuredImpact) + sizeof(MicroimpactFitRoom)), sizeof(MicroimpactFit))
+    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_5, sizeof(MicroimpactUncertainMotion) + sizeof(MicroimpactUncertainClass)), sizeof(MicroimpactMeasuredImpact) + sizeof(MicroimpactFitRoom)), sizeof(MicroimpactFit)), sizeof(MicroimpactBoundaryMaker) + sizeof(MicroimpactRestitutionMaker))
 
 
 /* Number of the interface: another one has other functions, structures or meanings. */
@@ -582,6 +582,12 @@ typedef struct MicroimpactPair {
   struct MicroimpactSpatialMotion motion[2];
 } MicroimpactPair;
 
+/* Room for a boundary table that is being made, which microimpact_boundary_begin prepares. */
+typedef struct MicroimpactBoundaryMaker {
+  /* What is in it concerns the library alone. */
+  size_t words[32];
+} MicroimpactBoundaryMaker;
+
 /*
  The critical speeds of spheres of one material on one surface, over a range of radii. Made by microimpact_boundary_make,
  or a constant that `cargo microimpact table` has written.
@@ -596,6 +602,12 @@ typedef struct MicroimpactBoundaryTable {
   /* Their number. */
   size_t count;
 } MicroimpactBoundaryTable;
+
+/* Room for a restitution table that is being made, which microimpact_restitution_begin prepares. */
+typedef struct MicroimpactRestitutionMaker {
+  /* What is in it concerns the library alone. */
+  size_t words[216];
+} MicroimpactRestitutionMaker;
 
 /* Room for a table of restitution over two octaves of radii and a range of speeds, which microimpact_restitution_make makes. */
 typedef struct MicroimpactRestitutionTable {
@@ -790,7 +802,7 @@ MicroimpactStatus microimpact_fit_restitution(const struct MicroimpactMeasuredIm
 /*
  Writes the strength zeta_H of hysteretic damping with which a scene without adhesion rebounds with a measured restitution at a speed,
  m/s. Of the scene, radius, density, stiffness and tolerance count. The error may be null. Re-entrant.
- On a Cortex-M3, at most 3293633 instructions and 2032 bytes of stack.
+ On a Cortex-M3, at most 3293560 instructions and 2040 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -834,7 +846,7 @@ MicroimpactStatus microimpact_fixed_classify(const struct MicroimpactFixedBody *
  probability is below 0.01, and below 0.03 for few motions that are close to capture and to the limit of slip at once; above three tenths of the approach speed or of the radius they are refused. The error may be null.
  Re-entrant.
  On a Cortex-M3, rigid body, at most 237340 instructions and 3528 bytes of stack.
- On a Cortex-M3, contact, at most 181129552 instructions and 5592 bytes of stack.
+ On a Cortex-M3, contact, at most 181130397 instructions and 5600 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -931,8 +943,10 @@ MicroimpactStatus microimpact_scene_init(const struct MicroimpactSceneConfig *pa
  What becomes of a sphere of a scene. A contact for which the method does not come to an end, or whose error the method of fixed
  cost cannot bound, is MICROIMPACT_STATUS_UNSOLVED. The error may be null. Re-entrant.
  On a Cortex-M3, rigid body, at most 3360 instructions and 1296 bytes of stack.
- On a Cortex-M3, tolerance, at most 623785 instructions and 2096 bytes of stack.
+ On a Cortex-M3, tolerance, at most 623785 instructions and 2104 bytes of stack.
  On a Cortex-M3, 3 iterations, at most 196840 instructions and 1272 bytes of stack.
+ On a Cortex-M3, tolerance on the shared grid, at most 10474211 instructions and 2464 bytes of stack.
+ On a Cortex-M3, 3 iterations on the shared grid, at most 196979 instructions and 1272 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -946,7 +960,7 @@ MicroimpactStatus microimpact_scene_classify(const struct MicroimpactSceneConfig
  Writes the speed below which the surface holds a sphere of a scene, m/s: zero if it never does, a negative number if it always
  does. A contact needs a tolerance, not iterations. The error may be null. Re-entrant.
  On a Cortex-M3, rigid body, at most 1751 instructions and 800 bytes of stack.
- On a Cortex-M3, contact, at most 14941626 instructions and 2272 bytes of stack.
+ On a Cortex-M3, contact, at most 14941698 instructions and 2272 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -971,7 +985,8 @@ MicroimpactStatus microimpact_contact_init(const struct MicroimpactContactScene 
 /*
  Simulates `count` impacts into a buffer with room for `capacity` results, in the order of the motions, and writes how many
  there are, of those before the first that fails. The error may be null. Re-entrant.
- On a Cortex-M3, at most 623576 instructions and 1648 bytes of stack.
+ On a Cortex-M3, at most 623576 instructions and 1656 bytes of stack.
+ On a Cortex-M3, the shared grid, at most 10474002 instructions and 2016 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, the motions to `count` of them and the results to room for
@@ -1117,10 +1132,73 @@ MicroimpactStatus microimpact_sphere_coated(float radius,
                                             struct MicroimpactError *error);
 
 /*
- Makes a boundary table of the material and the surface of a scene, whose radius and friction do not count, from a radius on
- (m), in cells of the caller, which the table keeps pointing to. Where it fails, the cells hold no table. The error may be
+ Begins a boundary table as microimpact_boundary_make makes it, in cells of the caller, which the maker keeps pointing to: until the
+ table is complete, they belong to it. The scene is copied. Nothing is computed as yet. The error may be null. Re-entrant.
+ On a Cortex-M3, 12 cells, at most 1260 instructions and 496 bytes of stack.
+
+ # Safety
+ Each pointer is null or points to what its type says, the cells to room for `count` of them, and nobody else uses them
+ during the call.
+ */
+MicroimpactStatus microimpact_boundary_begin(const struct MicroimpactContactScene *scene,
+                                             float smallest_radius,
+                                             int32_t (*cells)[4],
+                                             size_t count,
+                                             struct MicroimpactBoundaryMaker *maker,
+                                             struct MicroimpactError *error);
+
+/*
+ Goes on with a boundary table by at most `budget` critical speeds, of which a table takes seven for each cell, and writes how many
+ remain. Where none remains, the table is written: the one of microimpact_boundary_make to the last bit. A critical speed is the
+ least that a step computes; the figures are those of one. Where a step fails, the next one tries the same critical speed again. The
+ error may be null. Re-entrant.
+ On a Cortex-M3, a critical speed of 12 cells, at most 27681498 instructions and 2488 bytes of stack.
+
+ # Safety
+ Each pointer is null or points to what its type says, and nobody else uses it during the call; so do the cells given to
+ microimpact_boundary_begin.
+ */
+MicroimpactStatus microimpact_boundary_step(struct MicroimpactBoundaryMaker *maker,
+                                            size_t budget,
+                                            struct MicroimpactBoundaryTable *table,
+                                            size_t *remaining,
+                                            struct MicroimpactError *error);
+
+/*
+ Begins a restitution table as microimpact_restitution_make makes it. The scene is copied. Nothing is computed as yet. The error may be
  null. Re-entrant.
- On a Cortex-M3, 12 cells, at most 1037333163 instructions and 2416 bytes of stack.
+ On a Cortex-M3, at most 1287 instructions and 496 bytes of stack.
+
+ # Safety
+ Each pointer is null or points to what its type says, and nobody else uses it during the call.
+ */
+MicroimpactStatus microimpact_restitution_begin(const struct MicroimpactContactScene *scene,
+                                                float smallest_radius,
+                                                float speed_ratio,
+                                                struct MicroimpactRestitutionMaker *maker,
+                                                struct MicroimpactError *error);
+
+/*
+ Goes on with a restitution table by at most `budget` critical speeds or simulations, of which the table takes 56 and then 336, and
+ writes how many remain. Where none remains, the table is written: the one of microimpact_restitution_make to the last bit. One critical speed or
+ one simulation is the least that a step computes; the figures are those of a critical speed. Where a step fails, the next one tries
+ the same again. The error may be null. Re-entrant.
+ On a Cortex-M3, a critical speed or a simulation, at most 27681482 instructions and 3672 bytes of stack.
+
+ # Safety
+ Each pointer is null or points to what its type says, and nobody else uses it during the call.
+ */
+MicroimpactStatus microimpact_restitution_step(struct MicroimpactRestitutionMaker *maker,
+                                               size_t budget,
+                                               struct MicroimpactRestitutionTable *table,
+                                               size_t *remaining,
+                                               struct MicroimpactError *error);
+
+/*
+ Makes a boundary table of the material and the surface of a scene, whose radius and friction do not count, from a radius on
+ (m), in cells of the caller, which the table keeps pointing to. Where it fails, the cells hold no table. It takes seven critical
+ speeds for each cell; microimpact_boundary_step makes as many of them as you allow. The error may be null. Re-entrant.
+ On a Cortex-M3, 12 cells, at most 1037338321 instructions and 2408 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, the cells to room for `count` of them, and nobody else uses them
@@ -1159,9 +1237,10 @@ MicroimpactStatus microimpact_boundary_classify(const struct MicroimpactBoundary
 
 /*
  Makes a restitution table of the material, the surface and the friction of a scene, whose radius does not count: over two
- octaves of radii from one on (m), and up to `speed_ratio` times the critical speed. If it fails, the room keeps what it held. The
- error may be null. Re-entrant.
- On a Cortex-M3, at most 904642250 instructions and 3960 bytes of stack.
+ octaves of radii from one on (m), and up to `speed_ratio` times the critical speed. If it fails, the room keeps what it held. It
+ takes hundreds of simulations; microimpact_restitution_step makes as many of them as you allow. The error may be null.
+ Re-entrant.
+ On a Cortex-M3, at most 904929319 instructions and 3880 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1237,7 +1316,7 @@ MicroimpactStatus microimpact_compliant_init(const struct MicroimpactCompliantSc
  Simulates impacts with compliance along the surface, as microimpact_simulate does without. microimpact_wall_after and
  microimpact_pair_after take the restitution and the tangential velocity of the results. For microimpact_pair_incidence, initialise
  the contact of the scene with the radius and the density of the reduced sphere. Re-entrant.
- On a Cortex-M3, at most 35306475 instructions and 2128 bytes of stack.
+ On a Cortex-M3, at most 35306535 instructions and 2136 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, the motions to `count` of them and the results to room for
@@ -1257,7 +1336,7 @@ MicroimpactStatus microimpact_simulate_compliant(const struct MicroimpactComplia
  samples are left out evenly over time; first touch, peak, beginning of rolling and end are always there. In less than
  MICROIMPACT_SMALLEST_TRAJECTORY there is no trajectory. Where this fails, there are no samples and no result. The error may
  be null. Re-entrant.
- On a Cortex-M3, at most 1460980 instructions and 10408 bytes of stack.
+ On a Cortex-M3, at most 1460983 instructions and 10408 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, the samples to room for `capacity` of them, and nobody else uses them

@@ -11,6 +11,7 @@ use crate::scene::{SceneConfig, SceneImpact};
 use crate::simulation::{Contact, ContactScene};
 use crate::space::{Pair, SpatialMotion, Wall};
 use crate::status::{Class, Motion};
+use crate::table_steps::{BoundaryMaker, RestitutionMaker};
 use crate::tables::{BoundaryTable, RestitutionTable, TableReading};
 use crate::tally::{Tally, TallyReport};
 use crate::tangential::{CompliantContact, CompliantScene};
@@ -26,7 +27,7 @@ pub const VERSION: u32 = 100;
 const FACTOR: u32 = 31;
 
 /// Sizes of all structures, in the order of the macro MICROIMPACT_LAYOUT.
-const SIZES: [usize; 27] = [
+const SIZES: [usize; 28] = [
     size_of::<Error>(),
     size_of::<Class>(),
     size_of::<Motion>(),
@@ -54,6 +55,7 @@ const SIZES: [usize; 27] = [
     size_of::<UncertainMotion>() + size_of::<UncertainClass>(),
     size_of::<MeasuredImpact>() + size_of::<FitRoom>(),
     size_of::<Fit>(),
+    size_of::<BoundaryMaker>() + size_of::<RestitutionMaker>(),
 ];
 
 const LAYOUT: u32 = {

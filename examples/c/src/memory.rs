@@ -21,6 +21,15 @@ pub(crate) unsafe fn follow<'a, T: Copy>(pointer: *const T) -> Option<&'a T> {
     usable(pointer).then(|| unsafe { &*pointer })
 }
 
+/// The same of what is written to.
+///
+/// # Safety
+/// As for [`follow`], and nobody else uses it while there is the reference.
+pub(crate) unsafe fn follow_mut<'a, T: Copy>(pointer: *mut T) -> Option<&'a mut T> {
+    // SAFETY: neither null nor misaligned, and by the contract of this function there is a `T` for this reference alone.
+    usable(pointer).then(|| unsafe { &mut *pointer })
+}
+
 /// An array of C; `None` if its pointer is null or misaligned, or if no memory could hold so many.
 ///
 /// # Safety
@@ -44,6 +53,16 @@ pub(crate) unsafe fn zeroed<'a, T: Copy>(array: *mut T, count: usize) -> Option<
             slice::from_raw_parts_mut(array, count)
         }
     })
+}
+
+/// Such an array that is written to.
+///
+/// # Safety
+/// As for [`follow_mut`], of all elements.
+pub(crate) unsafe fn slice_mut<'a, T: Copy>(array: *mut T, count: usize) -> Option<&'a mut [T]> {
+    let usable = usable(array) && fits::<T>(count);
+    // SAFETY: neither null nor misaligned, of a possible size, and by the contract of this function all elements are there.
+    usable.then(|| unsafe { slice::from_raw_parts_mut(array, count) })
 }
 
 /// Whether there is room for a result; `None` if the pointer to it is null or misaligned.

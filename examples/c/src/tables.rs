@@ -49,8 +49,8 @@ pub struct BoundaryTable {
 }
 
 /// Makes a boundary table of the material and the surface of a scene, whose radius and friction do not count, from a radius on
-/// (m), in cells of the caller, which the table keeps pointing to. Where it fails, the cells hold no table. The error may be
-/// null. Re-entrant.
+/// (m), in cells of the caller, which the table keeps pointing to. Where it fails, the cells hold no table. It takes seven critical
+/// speeds for each cell; microimpact_boundary_step makes as many of them as you allow. The error may be null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, the cells to room for `count` of them, and nobody else uses them
@@ -132,7 +132,7 @@ pub struct RestitutionTable {
 
 /// What is in the room.
 #[derive(Clone, Copy)]
-struct Made {
+pub(crate) struct Made {
     mark: u32,
     /// Eight cells of radii, and nodes at six radii and ten speeds.
     table: table::RestitutionTable<f32, 8, 6, 10>,
@@ -147,8 +147,9 @@ const _: () = assert!(size_of::<Made>() == size_of::<RestitutionTable>());
 const _: () = assert!(align_of::<Made>() == align_of::<RestitutionTable>());
 
 /// Makes a restitution table of the material, the surface and the friction of a scene, whose radius does not count: over two
-/// octaves of radii from one on (m), and up to `speed_ratio` times the critical speed. If it fails, the room keeps what it held. The
-/// error may be null. Re-entrant.
+/// octaves of radii from one on (m), and up to `speed_ratio` times the critical speed. If it fails, the room keeps what it held. It
+/// takes hundreds of simulations; microimpact_restitution_step makes as many of them as you allow. The error may be null.
+/// Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -172,20 +173,37 @@ pub unsafe extern "C" fn microimpact_restitution_make(
 
 impl Made {
     fn new(scene: ContactScene, smallest_radius: f32, speed_ratio: f32) -> Result<Self, InputError> {
-        let friction = Coulomb::new(scene.friction)?;
-        let gyration_ratio = Sphere::solid(smallest_radius, scene.density)?.gyration_ratio();
+        let material = scene.of_spheres(smallest_radius)?;
         let boundary = table::BoundaryTable::new(smallest_radius, |radius| scene.critical_speed(radius))?;
-        let table = table::RestitutionTable::new(boundary, speed_ratio, |radius, speed| {
-            // Friction of one takes the impulse of the elastic force from a velocity with which the sphere slides throughout: no
-            // other solver than that of the simulation.
-            let (scene, method) = ContactScene { radius, friction: 1.0, ..scene }.check()?;
-            let along = 10.0 * speed;
-            let motion = Motion { approach: speed, tangential: along, peripheral: 0.0 }.check()?;
-            let impact = scene.solve(&motion, &method)?;
-            let impulse = (along - impact.tangential.velocity()) / speed;
-            Ok(TableRebound { restitution: impact.normal.overall_restitution(), impulse })
-        })?;
-        Ok(Self { mark: MARK, table, friction, gyration_ratio })
+        let rebound = |radius, speed| scene.rebound(radius, speed);
+        Ok(Self::of(material, table::RestitutionTable::new(boundary, speed_ratio, rebound)?))
+    }
+
+    /// With friction and gyration ratio of the material.
+    pub(crate) fn of(
+        (friction, gyration_ratio): (Coulomb<f32>, f32),
+        table: table::RestitutionTable<f32, 8, 6, 10>,
+    ) -> Self {
+        Self { mark: MARK, table, friction, gyration_ratio }
+    }
+}
+
+impl ContactScene {
+    /// Friction and gyration ratio of all spheres of the material.
+    pub(crate) fn of_spheres(&self, radius: f32) -> Result<(Coulomb<f32>, f32), InputError> {
+        Ok((Coulomb::new(self.friction)?, Sphere::solid(radius, self.density)?.gyration_ratio()))
+    }
+
+    /// What a restitution table holds of a sphere of the same material.
+    pub(crate) fn rebound(&self, radius: f32, speed: f32) -> Result<TableRebound<f32>, InputError> {
+        // Friction of one takes the impulse of the elastic force from a velocity with which the sphere slides throughout: no
+        // other solver than that of the simulation.
+        let (scene, method) = Self { radius, friction: 1.0, ..*self }.check()?;
+        let along = 10.0 * speed;
+        let motion = Motion { approach: speed, tangential: along, peripheral: 0.0 }.check()?;
+        let impact = scene.solve(&motion, &method)?;
+        let impulse = (along - impact.tangential.velocity()) / speed;
+        Ok(TableRebound { restitution: impact.normal.overall_restitution(), impulse })
     }
 }
 

@@ -17,6 +17,12 @@ pub const FOLDER: &str = "examples/firmware";
 /// The place of a law of contact among all of them, for a firmware with this law alone.
 const LAW: &str = "MICROIMPACT_LAW";
 
+/// The file with a grid of impacts, for a firmware that runs them.
+const GRID: &str = "MICROIMPACT_GRID";
+
+/// The feature of that firmware.
+const WORST: &str = "worst";
+
 /// The feature of the probes, which changes nothing in the other binaries.
 pub const PROBE: &str = "probe";
 
@@ -38,7 +44,18 @@ pub fn build_small(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> R
 
 /// The same with one law of contact.
 pub fn build_law(toolchain: &Toolchain, board: &Board, place: usize, binaries: &[&str]) -> Result<PathBuf, String> {
-    build_in(repository(), toolchain, board, "release", Some(PROBE), Some(place), binaries)
+    build_in(repository(), toolchain, board, "release", Some(PROBE), Some((LAW, place.to_string())), binaries)
+}
+
+/// The same with a grid of impacts, which is in a file.
+pub fn build_with_grid(
+    toolchain: &Toolchain,
+    board: &Board,
+    grid: &Path,
+    binaries: &[&str],
+) -> Result<PathBuf, String> {
+    let variable = (GRID, grid.display().to_string());
+    build_in(repository(), toolchain, board, "release", Some(WORST), Some(variable), binaries)
 }
 
 /// The same with a feature.
@@ -62,11 +79,11 @@ fn build_in(
     board: &Board,
     profile: &str,
     feature: Option<&str>,
-    law: Option<usize>,
+    variable: Option<(&str, String)>,
     binaries: &[&str],
 ) -> Result<PathBuf, String> {
     let what = format!("{}: building {}", board.core, binaries.join(", "));
-    run_cargo(repository, toolchain, board, profile, feature, law, binaries)?.succeeded(&what, 40)?;
+    run_cargo(repository, toolchain, board, profile, feature, variable, binaries)?.succeeded(&what, 40)?;
     Ok(target_folder(toolchain, board).join(board.triple).join(profile))
 }
 
@@ -76,7 +93,7 @@ fn run_cargo(
     board: &Board,
     profile: &str,
     feature: Option<&str>,
-    law: Option<usize>,
+    variable: Option<(&str, String)>,
     binaries: &[&str],
 ) -> Result<Finished, String> {
     let mut cargo = toolchain.cargo(board.triple);
@@ -85,8 +102,8 @@ fn run_cargo(
     if let Some(feature) = feature {
         cargo.args(["--features", feature]);
     }
-    if let Some(place) = law {
-        cargo.env(LAW, place.to_string());
+    if let Some((name, value)) = variable {
+        cargo.env(name, value);
     }
     for binary in binaries {
         cargo.args(["--bin", binary]);

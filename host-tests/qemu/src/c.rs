@@ -7,8 +7,9 @@ use std::process::Command;
 use std::time::Duration;
 
 use reference::c_results;
+use reference::grids::Impact;
 
-use crate::costs;
+use crate::{costs, worst};
 
 use boards::C_BOARD as BOARD;
 use boards::emulator;
@@ -39,9 +40,12 @@ pub(crate) fn compare(choice: Choice, permission: Permission, overwrite: bool) -
         done("the static library", process::run(&mut cargo, LIMIT))?;
     }
     panics_are_left_out(&target.join(BOARD.triple))?;
-    let [results, costs] = ["results", "costs"].map(|program| folder.join(program));
+    let [results, costs, grid] = ["results", "costs", "grid.h"].map(|file| folder.join(file));
+    fs::write(&grid, rows()).map_err(|error| format!("cannot write {}: {error}", grid.display()))?;
     for (program, executable) in [("results.c", &results), ("costs.c", &costs)] {
-        done(program, process::run(&mut link(&sources, program, &folder, executable), LIMIT))?;
+        let mut compiler = link(&sources, program, &folder, executable);
+        compiler.arg(format!("-DGRID_FILE=\"{}\"", grid.display()));
+        done(program, process::run(&mut compiler, LIMIT))?;
     }
 
     eprintln!("running on {} ({}) ...", BOARD.core, BOARD.machine);
@@ -62,6 +66,12 @@ pub(crate) fn compare(choice: Choice, permission: Permission, overwrite: bool) -
     let (page, header) = (sources.join("README.md"), sources.join("include/microimpact.h"));
     failures.extend(costs::compare(&page, &header, &toolchain.compiler, &printed, overwrite)?);
     Ok(failures)
+}
+
+/// The shared grid as rows of an array in C.
+fn rows() -> String {
+    let row = |impact: &Impact| worst::numbers(impact).map(|number| format!("{number:e}f")).join(", ");
+    worst::grid().iter().map(|impact| format!("{{{}}},\n", row(impact))).collect()
 }
 
 fn link(sources: &Path, program: &str, folder: &Path, executable: &Path) -> Command {

@@ -28,6 +28,7 @@ mod limits;
 mod panics;
 mod report;
 mod session;
+mod worst;
 
 /// Runs the firmware on an emulated Cortex-M4F, or on Cortex-M0, M3, M4F, M7, M33 and RISC-V, and
 /// says whether every class is the host's, what a classification takes at most, and whether a panicking
@@ -75,6 +76,8 @@ enum Command {
     C,
     /// Puts the instrument on trial: full speed, damaged frames, a full queue and a reset
     Load(instrument::Load),
+    /// Runs every method over a grid of impacts, and says what each takes at most, in instructions and in stack
+    Worst,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -90,6 +93,7 @@ fn main() -> ExitCode {
         None => run(&arguments, permission),
         Some(Command::Instrument(events)) => instrument::classify(events, arguments.toolchain, permission),
         Some(Command::C) => c::compare(arguments.toolchain, permission, arguments.overwrite),
+        Some(Command::Worst) => worst::compare(arguments.toolchain, permission, arguments.overwrite),
         Some(Command::Load(load)) => instrument::load(load, arguments.toolchain, permission),
     };
     let failures = match result {

@@ -7,9 +7,11 @@ use quote::ToTokens;
 use syn::{Attribute, Ident, Item, UseTree, Visibility};
 
 /// Types without serde: ends of a queue, pins, what is under way on a line, classifiers that contain functions, a tally whose cells are
-/// written one by one, and a table whose cells lie elsewhere.
-const UNWRITTEN: [&str; 15] = [
+/// written one by one, a table whose cells lie elsewhere, and tables that are not finished.
+const UNWRITTEN: [&str; 18] = [
     "BoundarySlice",
+    "BoundarySliceMaker",
+    "BoundaryTableMaker",
     "ClassLines",
     "Confident",
     "Decoder",
@@ -21,6 +23,7 @@ const UNWRITTEN: [&str; 15] = [
     "PerParticle",
     "Queue",
     "Receiver",
+    "RestitutionTableMaker",
     "Sender",
     "SizedTally",
     "Station",

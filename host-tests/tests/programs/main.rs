@@ -21,6 +21,7 @@ mod population;
 mod report;
 mod report_cost;
 mod space;
+mod steps;
 mod tables;
 mod templates;
 mod uncertain;

@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod bounds;
+mod budgets;
 mod captured;
 mod checking;
 mod chosen;

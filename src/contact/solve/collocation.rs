@@ -1,5 +1,6 @@
 //! Collocation of the motion in intervals, as many as a tolerance needs.
 
+use super::budgeted::Budgeted;
 use super::critical::Trial;
 use super::interval::Control;
 use super::nodes::Nodes;
@@ -91,6 +92,34 @@ impl<const N: usize, T: Real> Collocation<N, T> {
     /// ```
     pub const MOST_INTERVALS: u32 = MOST_INTERVALS;
 
+    /// The same method with a budget of so many intervals, refused ones included, instead of [`MOST_INTERVALS`](Self::MOST_INTERVALS);
+    /// a larger budget is that number.
+    ///
+    /// An interval takes at most 50 evaluations of the forces at each of its nodes, and a few where it converges soon. A run that
+    /// spends its budget has the status [`BudgetSpent`](crate::contact::Status::BudgetSpent) and no outcome, or the outcome
+    /// [`Undecided`](crate::Outcome::Undecided) where no more than that can be told; any other outcome is the one
+    /// without a budget, with the same digits.
+    ///
+    /// ```
+    /// use microimpact::contact::{Collocation, Contact, Status};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(5.06e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+    ///     .with_damping(10.5)?
+    ///     .with_ring(250.0, 6.25)?;
+    /// let (motion, method) = (NormalMotion::new(2.8)?, Collocation::<9, f64>::new(1e-9)?);
+    /// let whole = scene.solve(&motion, &method)?;
+    /// let taken = whole.run.steps + whole.run.refused;
+    /// assert_eq!(scene.solve(&motion, &method.with_budget(taken + 1))?.normal, whole.normal);
+    /// let spent = scene.solve(&motion, &method.with_budget(2))?;
+    /// assert_eq!((spent.run.status, spent.normal.outcome()), (Status::BudgetSpent, None));
+    /// assert!(spent.run.evaluations < whole.run.evaluations);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub const fn with_budget(self, intervals: u32) -> Budgeted<Self> {
+        Budgeted::new(self, if intervals < MOST_INTERVALS { intervals } else { MOST_INTERVALS })
+    }
+
     pub(super) fn control(&self, timed: bool) -> Control<T> {
         let times = if timed { T::constant(TIMED) } else { T::constant(UNTIMED) };
         let converged = (T::constant(CONVERGED) * self.tolerance).max(T::constant(LEAST_CHANGE) * T::EPSILON);
@@ -129,9 +158,21 @@ fn refused<T: Real>(tolerance: T, fault: Fault) -> InputError {
 
 impl<T: Nodes<N>, const N: usize> Method<T> for Collocation<N, T> {
     fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
+        self.solve_within(MOST_INTERVALS, law, energy, observer)
+    }
+}
+
+impl<T: Nodes<N>, const N: usize> Collocation<N, T> {
+    /// The motion, if it takes no more than so many intervals.
+    pub(super) fn solve_within<L, O>(&self, intervals: u32, law: &L, energy: T, observer: &mut O) -> NormalPath<T>
+    where
+        L: ContactLaw<T>,
+        O: Observer<T>,
+    {
         let mut follower = Follower::arriving(law, energy, self.control(O::TIMED), observer);
+        follower.most_intervals = intervals;
         let mut path = follower.contact::<N>(O::TO_TURNING_POINT);
-        if path.statistics.intervals + path.statistics.refused >= MOST_INTERVALS && path.end != End::Undecided {
+        if path.statistics.intervals + path.statistics.refused >= intervals && path.end != End::Undecided {
             // Of a capture, peak or turning point are still out of sight.
             path.end = End::Budget;
         }

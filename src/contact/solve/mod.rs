@@ -1,6 +1,7 @@
 //! Methods that solve the normal motion. They know a law of contact by its functions alone.
 
 mod adaptive;
+mod budgeted;
 mod collocation;
 pub(super) mod critical;
 mod fixed_cost;
@@ -18,6 +19,7 @@ mod split;
 mod well;
 
 pub use adaptive::{Adaptive, AdaptiveNodes};
+pub use budgeted::Budgeted;
 pub use collocation::{Collocation, ErrorControl};
 pub use fixed_cost::FixedCost;
 pub use gill::RungeKuttaGill;

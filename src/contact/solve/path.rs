@@ -115,7 +115,7 @@ impl<T: Real> Statistics<T> {
     }
 }
 
-/// Intervals that a motion may take, refused ones included.
+/// Intervals that a motion may take where no smaller budget is given, refused ones included.
 pub(crate) const MOST_INTERVALS: u32 = 320;
 
 /// First length of an interval: half the way from first contact to the undamped peak.
@@ -239,6 +239,8 @@ pub(crate) struct Follower<'a, T, L, O> {
     kinetic: T,
     /// Largest kinetic energy so far.
     largest: T,
+    /// Intervals that the motion may take, refused ones included.
+    pub(super) most_intervals: u32,
     pub(crate) statistics: Statistics<T>,
 }
 
@@ -246,7 +248,8 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     pub(crate) fn from(law: &'a L, control: Control<T>, observer: &'a mut O, at: Point<T>) -> Self {
         let kinetic = T::constant(0.5) * at.speed_squared;
         let (barrier, statistics) = ((law.end(), T::ZERO), Statistics::NONE);
-        Self { law, control, observer, at, barrier, in_front_of: None, kinetic, largest: kinetic, statistics }
+        let (in_front_of, largest, most_intervals) = (None, kinetic, MOST_INTERVALS);
+        Self { law, control, observer, at, barrier, in_front_of, kinetic, largest, most_intervals, statistics }
     }
 
     /// At first contact, with a kinetic energy.
@@ -784,7 +787,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             self.largest = self.largest.max(T::constant(0.5) * largest);
             self.at = interval.end;
         }
-        if self.statistics.intervals + self.statistics.refused >= MOST_INTERVALS {
+        if self.statistics.intervals + self.statistics.refused >= self.most_intervals {
             return Err(self.stuck(course));
         }
         Ok(interval.accepted)

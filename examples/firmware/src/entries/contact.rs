@@ -84,6 +84,9 @@ fn with_every_term<const N: usize, T: Nodes<N>>(scene: &Elastic<T>) -> Result<()
     let method = Collocation::<N, T>::new(any())?;
     let (_, _, motion) = motions(scene.sphere())?;
     contact(&planar.solve_normal(&motion, &method)?);
+    let budgeted = method.with_budget(black_box(20));
+    keep(budgeted.intervals());
+    contact(&planar.solve_normal(&motion, &budgeted)?);
     keep(normal.critical_speed(&method)?);
     everything(&planar, &motion, &method)
 }

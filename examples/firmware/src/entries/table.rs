@@ -2,7 +2,10 @@
 
 use core::hint::black_box;
 
-use microimpact::table::{BoundarySlice, BoundaryTable, Lookup, RestitutionTable, Single, TableRebound};
+use microimpact::table::{
+    BoundarySlice, BoundarySliceMaker, BoundaryTable, BoundaryTableMaker, Lookup, RestitutionTable,
+    RestitutionTableMaker, Single, TableRebound,
+};
 use microimpact::{Coulomb, CriticalSpeed, InputError, NormalMotion, Sphere};
 
 use super::{any, keep, motions};
@@ -14,6 +17,8 @@ pub(super) fn call_all<T: Single>() -> Result<(), InputError> {
     boundary::<1, T>()?;
     boundary::<31, T>()?;
     remade()?;
+    boundary_steps::<12, T>()?;
+    restitution_steps::<12, 7, 10, T>()?;
     restitution::<1, 3, 4, T>()?;
     restitution::<12, 7, 10, T>()
 }
@@ -57,6 +62,25 @@ fn restitution<const N: usize, const R: usize, const S: usize, T: Single>() -> R
             keep(rebound.separation(&friction, any(), &planar));
         }
     }
+    Ok(())
+}
+
+fn boundary_steps<const N: usize, T: Single>() -> Result<(), InputError> {
+    let source = |_| Ok(black_box(CriticalSpeed::At(any::<T>())));
+    let mut maker = black_box(BoundaryTableMaker::<N>::new(any::<T>())?);
+    keep(maker.step(black_box(1), source)?);
+    keep(maker.calls());
+    let (mut maker, mut cells) = (black_box(BoundarySliceMaker::new(any::<T>())?), [[0; 4]; N]);
+    keep(maker.step(black_box(&mut cells[..]), black_box(1), source)?.map(|table| table.parts().0));
+    keep(maker.calls());
+    Ok(())
+}
+
+fn restitution_steps<const N: usize, const R: usize, const S: usize, T: Single>() -> Result<(), InputError> {
+    let boundary = BoundaryTable::<N>::new(any::<T>(), |_| Ok(black_box(CriticalSpeed::At(any::<T>()))))?;
+    let mut maker = black_box(RestitutionTableMaker::<T, N, R, S>::new(boundary, any())?);
+    keep(maker.step(black_box(1), |_, _| Ok(TableRebound { restitution: any::<T>(), impulse: any() }))?);
+    keep(maker.calls());
     Ok(())
 }
 
