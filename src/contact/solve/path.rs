@@ -129,7 +129,7 @@ const PULL_FRACTION: f64 = 0.5;
 const PULL_SHRINK: f64 = 0.4;
 
 /// Largest loss of the first interval, over the speed: beyond it damping stops the sphere at once.
-const FIRST_DRAG: f64 = 2.0;
+const FIRST_DRAG: f64 = 4.0;
 
 /// Factor on the first length where damping is stronger.
 const FIRST_DRAG_SHRINK: f64 = 0.7;
