@@ -200,7 +200,7 @@ static void probabilities(void)
         /* So much of this distribution is negative that no class has a known probability. */
         motion.approach.standard_error = critical;
         assert(microimpact_scene_probabilities(&scene, &motion, 0.9f, &found, &error) == MICROIMPACT_STATUS_INPUT);
-        assert(error.value == (double)critical && error.fault == MICROIMPACT_FAULT_TOO_LARGE);
+        assert(error.value == 2.0 * (double)critical && error.fault == MICROIMPACT_FAULT_TOO_UNCERTAIN);
         motion.approach.standard_error = 0.02f * critical;
     }
     assert(fabsf(sum - 2.0f) < 1e-5f);
