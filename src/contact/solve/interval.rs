@@ -180,8 +180,8 @@ const UNDAMPED_STEPS: u32 = 8;
 /// Relative step at which they end.
 const UNDAMPED_ACCURACY: f64 = 0.02;
 
-/// Least square of the first speed of Newton's method, over that without losses.
-const LEAST_FIRST_SQUARE: f64 = 0.01;
+/// Losses so far over the loss at a node, in the first value of Newton's method: between those at early and late nodes.
+const NEWTON_START: f64 = 0.3;
 
 /// Factor on the estimated error where times are asked for and Newton's method was needed: there errors of times are no longer
 /// squares.
@@ -655,15 +655,16 @@ fn solve_strongly_damped<T: Nodes<N>, const N: usize>(
     control: &Control<T>,
 ) -> bool {
     let speed = &mut state.speed;
-    // From node to node: y^2 + 2 h y = rest, as if the losses since the node before were at the speed of this one.
-    let mut lost = T::ZERO;
     for j in 0..N {
-        let h = T::constant(0.5) * T::WEIGHTS[j] * loss[j];
-        let rest = (free[j] - lost).max(T::constant(LEAST_FIRST_SQUARE) * free[j]);
-        let root = (h * h + rest).max(T::SMALLEST).sqrt();
-        // The form that does not cancel.
-        speed[j] = if h > T::ZERO { rest / (root + h) } else { root - h };
-        lost = lost + (h + h) * speed[j];
+        let root = free[j].max(T::SMALLEST).sqrt();
+        // As if the loss so far had acted at this node's speed.
+        // Where the losses are gains, as if that at this node acted from the start.
+        let half = T::constant(0.5);
+        speed[j] = if loss[j] > T::ZERO {
+            root * root / (root + T::constant(NEWTON_START) * loss[j])
+        } else {
+            root - half * T::Z[j] * loss[j]
+        };
     }
     let enough = control.converged.max(T::constant(NEWTON_ROUNDING) * T::EPSILON);
     let mut converged = false;
