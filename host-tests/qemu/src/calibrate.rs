@@ -5,7 +5,9 @@ use std::fmt::{self, Display};
 
 use boards::Board;
 use boards::figures::{Figure, Quantity};
-use microimpact_scenes::calibrations::{Calibration, CalibrationVisitor, visit_calibrations};
+use microimpact_scenes::calibrations::{
+    Calibration, CalibrationVisitor, visit_calibrations, visit_double_calibrations,
+};
 use microimpact_scenes::scenes::Number;
 
 use crate::answers::{self, Code};
@@ -30,6 +32,7 @@ struct Calibrated {
 }
 
 /// All that a board said.
+#[derive(Default)]
 pub(crate) struct Protocol {
     calibrated: Vec<Calibrated>,
     pub(crate) code: Vec<Code>,
@@ -51,6 +54,12 @@ impl Protocol {
             Ok(kind == "calibration")
         })?;
         Ok(Self { calibrated, code })
+    }
+
+    /// Takes in what another binary printed.
+    pub(crate) fn append(&mut self, mut other: Self) {
+        self.calibrated.append(&mut other.calibrated);
+        self.code.append(&mut other.code);
     }
 
     /// Every difference from what the host expects.
@@ -99,6 +108,7 @@ fn numbers(text: &str) -> Result<Vec<f64>, String> {
 pub(crate) fn expected() -> Result<BTreeMap<Case, Vec<f64>>, String> {
     let mut host = Host { found: BTreeMap::new(), refused: Vec::new() };
     visit_calibrations(&mut host);
+    visit_double_calibrations(&mut host);
     if host.refused.is_empty() {
         Ok(host.found)
     } else {

@@ -259,13 +259,21 @@ fn run_binary(board: &Board, firmware: &Path, all: &mut Protocol) -> Result<Vec<
     Ok(figures)
 }
 
+/// The binaries that calibrate.
+const CALIBRATING: [&str; 2] = ["calibrate", "double_calibrate"];
+
 /// The same of calibrations.
 fn run_calibrations(toolchain: &Toolchain, board: &Board) -> Result<(calibrate::Protocol, Vec<Figure>), String> {
-    let firmware = built(toolchain, board, firmware::PROBE, &["calibrate"])?.join("calibrate");
-    let protocol = calibrate::Protocol::parse(&emulator::run(board, &firmware)?)
-        .map_err(|error| format!("{}, calibrate: {error}", board.core))?;
-    let figures = needs(board, &firmware, &protocol.code)?;
-    Ok((protocol, figures))
+    let folder = built(toolchain, board, firmware::PROBE, &CALIBRATING)?;
+    let (mut all, mut figures) = (calibrate::Protocol::default(), Vec::new());
+    for binary in CALIBRATING {
+        let firmware = folder.join(binary);
+        let protocol = calibrate::Protocol::parse(&emulator::run(board, &firmware)?)
+            .map_err(|error| format!("{}, {binary}: {error}", board.core))?;
+        figures.extend(needs(board, &firmware, &protocol.code)?);
+        all.append(protocol);
+    }
+    Ok((all, figures))
 }
 
 /// The folder in which binaries for a board are, which then run.

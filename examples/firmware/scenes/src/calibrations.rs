@@ -241,9 +241,13 @@ pub trait CalibrationVisitor {
     fn visit<T: Number, C: Calibration<T>>(&mut self);
 }
 
-/// Goes through all calibrations in both number types.
+/// Goes through all calibrations in single precision.
 pub fn visit_calibrations(visitor: &mut impl CalibrationVisitor) {
     visit_calibrations_of::<f32, Collocation<7, f32>>(visitor);
+}
+
+/// The same in double precision.
+pub fn visit_double_calibrations(visitor: &mut impl CalibrationVisitor) {
     visit_calibrations_of::<f64, Collocation<9, f64>>(visitor);
 }
 

@@ -1,87 +1,12 @@
-//! Runs every calibration and prints one line for each, with what it found and what that took:
-//! `calibration key=value key=value ...`.
-//!
-//! Counts are instructions, not cycles: a division or a square root counts 1, and there are no wait states. Runs in QEMU,
-//! with `-icount`.
+//! Measures the calibrations in single precision.
 
 #![no_std]
 #![no_main]
 
-use core::fmt::{self, Display, LowerExp};
-use core::hint::black_box;
-
-use microimpact::measure::CalibrationError;
-use microimpact_firmware::calibrations::{Calibration, CalibrationVisitor, visit_calibrations};
+use microimpact_firmware::calibrations::visit_calibrations;
 use microimpact_firmware::entry;
-use microimpact_firmware::scenes::Number;
-
-use measurement::{Measurement, fail, hprintln, stack};
 
 #[entry]
 fn main() -> ! {
-    measurement::run(|measurement| visit_calibrations(&mut Measured(measurement)))
-}
-
-/// Measures every calibration.
-struct Measured<'a>(&'a mut Measurement);
-
-impl CalibrationVisitor for Measured<'_> {
-    fn visit<T: Number, C: Calibration<T>>(&mut self) {
-        let Some(measured) = set_up::<T, C>() else {
-            fail(C::NAME);
-        };
-        let work = || {
-            black_box(&calibrate(black_box(&measured)));
-        };
-        let Ok(answer) = calibrate(&measured) else {
-            fail(C::NAME);
-        };
-        let Some(bytes) = stack::used(work) else {
-            fail("a calibration needs more stack than can be measured");
-        };
-        hprintln!(
-            "calibration scene={} scalar={} values={} instructions={} stack={}",
-            C::NAME,
-            T::NAME,
-            Values(answer.as_ref()),
-            self.0.counter.count(work),
-            bytes,
-        );
-        let code: fn() = code::<T, C>;
-        hprintln!("code scene={} scalar={} address={}", C::NAME, T::NAME, black_box(code) as usize);
-    }
-}
-
-/// Never called: what it refers to is the code of a calibration.
-#[inline(never)]
-fn code<T: Number, C: Calibration<T>>() {
-    if let Some(measured) = set_up::<T, C>() {
-        black_box(&calibrate(black_box(&measured)));
-    }
-}
-
-#[inline(never)]
-fn set_up<T: Number, C: Calibration<T>>() -> Option<C> {
-    C::new()
-}
-
-// Not inlined: a call, as an instrument's firmware would make it, is part of the count.
-#[inline(never)]
-fn calibrate<T: Number, C: Calibration<T>>(measured: &C) -> Result<C::Answer, CalibrationError> {
-    measured.calibrate()
-}
-
-/// Numbers with all their digits.
-struct Values<'a, T>(&'a [T]);
-
-impl<T: LowerExp> Display for Values<'_, T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, value) in self.0.iter().enumerate() {
-            if index > 0 {
-                f.write_str(",")?;
-            }
-            value.fmt(f)?;
-        }
-        Ok(())
-    }
+    measurement::run(visit_calibrations)
 }
