@@ -276,8 +276,12 @@ fn chosen_methods_agree_with_their_types() -> Result<(), Refusal> {
             let sphere = Sphere::solid(radius[row], 2600.0)?;
             let before = NormalMotion::new(speed[row])?.with_tangential(3.0)?.with_spin(&sphere, 1e5)?;
             let hertz = Contact::hertz(sphere, Stiffness::new(7.5e10)?).with_damping(10.5)?;
-            let scene = hertz.with_ring(250.0, 6.25)?.with_friction(0.1)?.with_peeling(0.0)?;
-            let (impact, ((times, ..), _)) = scene.solve_for(&before, method, OUTPUTS)?;
+            let scene = hertz.with_ring(250.0, 6.25)?.with_friction(0.1)?;
+            // By the method that is compiled for it too, a scene without a moment.
+            let (impact, ((times, ..), _)) = match choice {
+                MethodChoice::Adaptive { .. } => scene.solve_for(&before, method, OUTPUTS)?,
+                _ => scene.with_peeling(0.0)?.solve_for(&before, method, OUTPUTS)?,
+            };
             assert_eq!(impacts.class[row], impact.class(), "{choice:?}, row {row}");
             let Some(time) = times.contact else { continue };
             rebounds += 1;

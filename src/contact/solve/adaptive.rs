@@ -228,6 +228,8 @@ const UNDECIDED: f64 = 4.0;
 
 /// Both phases by `N` nodes and their outputs by `M`, unless the motion is not suited to it or the estimated error is too
 /// large.
+// Not inlined: intervals, which follow where it fails, would have its stack beneath theirs.
+#[inline(never)]
 fn phases<T, L, O, const N: usize, const M: usize>(
     law: &L,
     energy: T,

@@ -9,7 +9,8 @@
 //! let scene = scene.with_friction(0.1)?;
 //! let simulator = MethodChoice::Collocation { nodes: 9, tolerance: 1e-9 }.simulator(Times)?;
 //! let peeling_moment = 0.0;
-//! let (impact, _) = simulator.simulate(&scene, peeling_moment, &NormalMotion::new(1.0)?.with_tangential(1.0)?)?;
+//! let before = NormalMotion::new(1.0)?.with_tangential(1.0)?.with_spin(scene.sphere(), 0.0)?;
+//! let (impact, _) = simulator.simulate(&scene, peeling_moment, &before)?;
 //! assert!((impact.normal.overall_restitution() - 1.0_f64).abs() < 1e-9);
 //!
 //! let refused = MethodChoice::Collocation { nodes: 4, tolerance: 1e-9 }.simulator(Times);

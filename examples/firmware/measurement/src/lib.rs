@@ -21,7 +21,6 @@ use riscv32 as processor;
 
 #[cfg(target_arch = "arm")]
 mod arm;
-mod calibrations;
 #[cfg(target_arch = "riscv32")]
 mod riscv32;
 pub mod stack;

@@ -3,13 +3,15 @@
 use core::fmt::{self, Display, LowerExp};
 use core::hint::black_box;
 
+use measurement::{Measurement, fail, hprintln, stack};
 use microimpact::measure::CalibrationError;
-use microimpact_scenes::calibrations::{Calibration, CalibrationVisitor};
-use microimpact_scenes::scenes::Number;
+use microimpact_firmware::calibrations::{Calibration, CalibrationVisitor};
+use microimpact_firmware::scenes::Number;
 
-use crate::{Measurement, fail, hprintln, stack};
+/// Measures every calibration.
+pub(crate) struct Measured<'a>(pub(crate) &'a mut Measurement);
 
-impl CalibrationVisitor for Measurement {
+impl CalibrationVisitor for Measured<'_> {
     fn visit<T: Number, C: Calibration<T>>(&mut self) {
         let Some(measured) = set_up::<T, C>() else {
             fail(C::NAME);
@@ -28,7 +30,7 @@ impl CalibrationVisitor for Measurement {
             C::NAME,
             T::NAME,
             Values(answer.as_ref()),
-            self.counter.count(work),
+            self.0.counter.count(work),
             bytes,
         );
         let code: fn() = code::<T, C>;
