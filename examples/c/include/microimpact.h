@@ -127,6 +127,8 @@ enum {
   MICROIMPACT_FAULT_RECEDING,
   /* An index beyond the end of a table. */
   MICROIMPACT_FAULT_NOT_IN_TABLE,
+  /* A standard error above three tenths of the value. */
+  MICROIMPACT_FAULT_TOO_UNCERTAIN,
   /* Any other fault. */
   MICROIMPACT_FAULT_OTHER
 };
@@ -843,7 +845,8 @@ MicroimpactStatus microimpact_fixed_classify(const struct MicroimpactFixedBody *
  Probabilities of the classes of an uncertain motion, and the class if one reaches the confidence, 0.5 to 1. The scene is that of
  microimpact_scene_init, whose radius does not count; a contact needs a tolerance, not iterations. A rigid body takes 12 thousand
  instructions in single precision on a Cortex-M4F, and a contact millions. With standard errors of up to 10 % the error of a
- probability is below 0.01, and below 0.03 for few motions that are close to capture and to the limit of slip at once; above three tenths of the approach speed or of the radius they are refused. The error may be null.
+ probability is below 0.01, and below 0.04 for few motions that are close to capture and to the limit of slip at once, or
+ whose standard errors reach 30 %. Errors above three tenths of the approach speed or of the radius are refused. The error may be null.
  Re-entrant.
  On a Cortex-M3, rigid body, at most 237340 instructions and 3528 bytes of stack.
  On a Cortex-M3, contact, at most 181130397 instructions and 5600 bytes of stack.
