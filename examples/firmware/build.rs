@@ -18,8 +18,17 @@ MEMORY
 const MAPS: [(&str, &str); 2] = [("thumbv8m", "maps/mps2-an505.x"), ("riscv32", "maps/virt.x")];
 
 /// Binaries whose scenes are measured, the flash of each by what its code refers to: relocations and a map say that.
-const MEASURED: [&str; 8] =
-    ["classify", "contacts", "double_contacts", "variants", "collocations", "recordings", "law", "calibrate"];
+const MEASURED: [&str; 9] = [
+    "classify",
+    "contacts",
+    "double_contacts",
+    "variants",
+    "collocations",
+    "recordings",
+    "law",
+    "calibrate",
+    "double_calibrate",
+];
 
 /// Binaries with so many methods in them that only the largest boards hold them, and their map.
 const LARGE: ([&str; 2], &str) = (["methods", "worst"], "maps/mps2.x");

@@ -8,7 +8,7 @@
 //!
 //! * nothing panics, and the exit status is 0, 1 or 2;
 //! * a text that is read gives one row of CSV for each of its rows that has a cell, each with a result or an error; a comment, a
-//!   `sep=` and a row of units are no rows;
+//!   `sep=`, a title and a row of units are no rows;
 //! * the exit status says whether a row has an error, and a file that is refused is refused in words.
 #![no_main]
 
@@ -45,30 +45,38 @@ fuzz_target!(|data: &[u8]| {
         assert!(!errors.is_empty(), "{command} fails without a word");
         return;
     }
-    let body = body(&output);
-    // The file may state any mark in `sep=`.
-    let mut marks = [b'\t', b';', b','].into_iter().chain(0..128);
-    let delimiter = marks.find(|&delimiter| delimiter != b'\n' && table(body, delimiter).is_computed());
-    let delimiter = delimiter.unwrap_or_else(|| panic!("no column `error`: {}", String::from_utf8_lossy(&output)));
-    let computed = table(body, delimiter);
-    let what = || format!("{command} {options:?}: {}", String::from_utf8_lossy(&output));
-    if is_plain(file) {
-        let filled = |row: &&ByteRecord| row.iter().any(|cell| !cell.trim_ascii().is_empty());
-        let given = table(self::body(file), delimiter).rows.iter().filter(filled).count();
-        let units = given.saturating_sub(computed.rows.len());
-        assert!(units <= 1 && given >= computed.rows.len(), "{given} rows: {}", what());
-    }
-    let place = computed.header.iter().rposition(|name| name == column.as_bytes()).expect("the column is written");
-    let mut bad = 0;
-    for row in &computed.rows {
-        let (result, error) = (&row[place], &row[row.len() - 1]);
-        assert_eq!(row.len(), computed.header.len(), "{}", what());
-        // A row may have the result of one model and the error of the other.
-        assert!(!result.is_empty() || !error.is_empty(), "{}", what());
-        bad += usize::from(!error.is_empty());
-    }
-    assert_eq!(status, u8::from(bad > 0), "{}", what());
+    // The result repeats the lines above its header, so that any of its lines may be the header, and any mark may separate cells.
+    let mut lines = 0..=output.iter().filter(|byte| **byte == b'\n').count();
+    assert!(
+        lines.any(|above| {
+            let (result, given) = (below(&output, above), below(file, above));
+            (0..128).filter(|mark| *mark != b'\n').any(|mark| is_answer(result, given, mark, column, status))
+        }),
+        "{command} {options:?}, status {status}: {}",
+        String::from_utf8_lossy(&output)
+    );
 });
+
+/// Whether a result, read with this mark between its cells, is what a command must write for a file: its last column is that of
+/// errors, each row of the file that has a cell has a row with a result or an error, and the exit status says whether there is an
+/// error.
+fn is_answer(result: &[u8], file: &[u8], mark: u8, column: &str, status: u8) -> bool {
+    let computed = table(result, mark);
+    if computed.header.len() < 2 || computed.header.last().is_none_or(|name| name != b"error") {
+        return false;
+    }
+    let Some(place) = computed.header.iter().rposition(|name| name == column.as_bytes()) else {
+        return false;
+    };
+    let given = table(file, mark).rows;
+    let given = given.iter().filter(|row| row.iter().any(|cell| !cell.trim_ascii().is_empty())).count();
+    // One may state the units.
+    let are_all = !is_plain(file) || (computed.rows.len()..=computed.rows.len() + 1).contains(&given);
+    let has_error = |row: &ByteRecord| !row[row.len() - 1].is_empty();
+    // A row may have the result of one model and the error of the other.
+    let is_whole = |row: &ByteRecord| row.len() == computed.header.len() && (!row[place].is_empty() || has_error(row));
+    are_all && computed.rows.iter().all(is_whole) && (status == 1) == computed.rows.iter().any(has_error)
+}
 
 /// What a command wrote, and its exit status.
 struct Output {
@@ -91,18 +99,16 @@ fn is_plain(file: &[u8]) -> bool {
     std::str::from_utf8(file).is_ok() && !file.contains(&0) && !file.starts_with(b"PK")
 }
 
-/// A table from its header on: without comments, `sep=` and empty lines before it.
-fn body(table: &[u8]) -> &[u8] {
+/// A table below some lines that are not blank, and the blank ones after them.
+fn below(table: &[u8], mut lines: usize) -> &[u8] {
     let mut rest = table.strip_prefix("\u{feff}".as_bytes()).unwrap_or(table);
     loop {
         let end = rest.iter().position(|byte| *byte == b'\n').map_or(rest.len(), |end| end + 1);
-        let line = rest[..end].trim_ascii_start();
-        let line = line.strip_prefix(b"\"").unwrap_or(line);
-        let is_blank = line.iter().all(|byte| byte.is_ascii_whitespace() || b"\t;,\"".contains(byte));
-        let is_separator = line.len() > 4 && line[..4].eq_ignore_ascii_case(b"sep=");
-        if end == 0 || !(is_blank || is_separator || line.starts_with(b"#")) {
+        let is_blank = rest[..end].iter().all(|byte| byte.is_ascii_whitespace() || b"\t;,\"-=".contains(byte));
+        if end == 0 || (lines == 0 && !is_blank) {
             return rest;
         }
+        lines -= usize::from(!is_blank);
         rest = &rest[end..];
     }
 }
@@ -118,11 +124,4 @@ fn table(file: &[u8], delimiter: u8) -> Table {
     let header = reader.byte_headers().map(|header| header.iter().map(<[u8]>::to_vec).collect());
     let rows = reader.byte_records().collect::<Result<_, _>>();
     Table { header: header.unwrap_or_default(), rows: rows.unwrap_or_default() }
-}
-
-impl Table {
-    /// Whether its last column is that of errors.
-    fn is_computed(&self) -> bool {
-        self.header.len() > 1 && self.header.last().is_some_and(|name| name == b"error")
-    }
 }

@@ -3,9 +3,10 @@
 #![no_std]
 #![no_main]
 
-mod measured;
+#[path = "../calibration.rs"]
+mod calibration;
 
-use measured::Measured;
+use calibration::Measured;
 use microimpact_firmware::calibrations::visit_calibrations;
 use microimpact_firmware::entry;
 
