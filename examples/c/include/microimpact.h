@@ -761,7 +761,7 @@ size_t microimpact_parameter_unit(uint32_t parameter, char *buffer, size_t capac
  Writes an error in words, from its parameter and its fault, and a zero byte to a buffer, as "approach speed (m/s): below the smallest
  valid value", cut off where it is too small, and returns the length of the whole text, zero if there is no error. MICROIMPACT_LARGEST_TEXT bytes are always enough.
  The numbers are in the error: printf("%s: %g, not %g to %g", text, error.value, error.smallest, error.largest). Re-entrant.
- On a Cortex-M3, at most 2128 instructions and 152 bytes of stack.
+ On a Cortex-M3, at most 2130 instructions and 152 bytes of stack.
 
  # Safety
  The buffer is null or has room for `capacity` bytes.
@@ -804,7 +804,7 @@ MicroimpactStatus microimpact_fit_restitution(const struct MicroimpactMeasuredIm
 /*
  Writes the strength zeta_H of hysteretic damping with which a scene without adhesion rebounds with a measured restitution at a speed,
  m/s. Of the scene, radius, density, stiffness and tolerance count. The error may be null. Re-entrant.
- On a Cortex-M3, at most 3293560 instructions and 2040 bytes of stack.
+ On a Cortex-M3, at most 3293593 instructions and 2024 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -848,8 +848,8 @@ MicroimpactStatus microimpact_fixed_classify(const struct MicroimpactFixedBody *
  probability is below 0.01, and below 0.04 for few motions that are close to capture and to the limit of slip at once, or
  whose standard errors reach 30 %. Errors above three tenths of the approach speed or of the radius are refused. The error may be null.
  Re-entrant.
- On a Cortex-M3, rigid body, at most 237340 instructions and 3528 bytes of stack.
- On a Cortex-M3, contact, at most 181130397 instructions and 5600 bytes of stack.
+ On a Cortex-M3, rigid body, at most 237575 instructions and 3512 bytes of stack.
+ On a Cortex-M3, contact, at most 181131472 instructions and 5576 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -946,9 +946,9 @@ MicroimpactStatus microimpact_scene_init(const struct MicroimpactSceneConfig *pa
  What becomes of a sphere of a scene. A contact for which the method does not come to an end, or whose error the method of fixed
  cost cannot bound, is MICROIMPACT_STATUS_UNSOLVED. The error may be null. Re-entrant.
  On a Cortex-M3, rigid body, at most 3360 instructions and 1296 bytes of stack.
- On a Cortex-M3, tolerance, at most 623785 instructions and 2104 bytes of stack.
+ On a Cortex-M3, tolerance, at most 623789 instructions and 2080 bytes of stack.
  On a Cortex-M3, 3 iterations, at most 196840 instructions and 1272 bytes of stack.
- On a Cortex-M3, tolerance on the shared grid, at most 10474211 instructions and 2464 bytes of stack.
+ On a Cortex-M3, tolerance on the shared grid, at most 10474354 instructions and 2440 bytes of stack.
  On a Cortex-M3, 3 iterations on the shared grid, at most 196979 instructions and 1272 bytes of stack.
 
  # Safety
@@ -963,7 +963,7 @@ MicroimpactStatus microimpact_scene_classify(const struct MicroimpactSceneConfig
  Writes the speed below which the surface holds a sphere of a scene, m/s: zero if it never does, a negative number if it always
  does. A contact needs a tolerance, not iterations. The error may be null. Re-entrant.
  On a Cortex-M3, rigid body, at most 1751 instructions and 800 bytes of stack.
- On a Cortex-M3, contact, at most 14941698 instructions and 2272 bytes of stack.
+ On a Cortex-M3, contact, at most 14941750 instructions and 2272 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -988,8 +988,8 @@ MicroimpactStatus microimpact_contact_init(const struct MicroimpactContactScene 
 /*
  Simulates `count` impacts into a buffer with room for `capacity` results, in the order of the motions, and writes how many
  there are, of those before the first that fails. The error may be null. Re-entrant.
- On a Cortex-M3, at most 623576 instructions and 1656 bytes of stack.
- On a Cortex-M3, the shared grid, at most 10474002 instructions and 2016 bytes of stack.
+ On a Cortex-M3, at most 623580 instructions and 1632 bytes of stack.
+ On a Cortex-M3, the shared grid, at most 10474145 instructions and 1992 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, the motions to `count` of them and the results to room for
@@ -1155,7 +1155,7 @@ MicroimpactStatus microimpact_boundary_begin(const struct MicroimpactContactScen
  remain. Where none remains, the table is written: the one of microimpact_boundary_make to the last bit. A critical speed is the
  least that a step computes; the figures are those of one. Where a step fails, the next one tries the same critical speed again. The
  error may be null. Re-entrant.
- On a Cortex-M3, a critical speed of 12 cells, at most 27681498 instructions and 2488 bytes of stack.
+ On a Cortex-M3, a critical speed of 12 cells, at most 27681583 instructions and 2488 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call; so do the cells given to
@@ -1186,7 +1186,7 @@ MicroimpactStatus microimpact_restitution_begin(const struct MicroimpactContactS
  writes how many remain. Where none remains, the table is written: the one of microimpact_restitution_make to the last bit. One critical speed or
  one simulation is the least that a step computes; the figures are those of a critical speed. Where a step fails, the next one tries
  the same again. The error may be null. Re-entrant.
- On a Cortex-M3, a critical speed or a simulation, at most 27681482 instructions and 3672 bytes of stack.
+ On a Cortex-M3, a critical speed or a simulation, at most 27681567 instructions and 3672 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1201,7 +1201,7 @@ MicroimpactStatus microimpact_restitution_step(struct MicroimpactRestitutionMake
  Makes a boundary table of the material and the surface of a scene, whose radius and friction do not count, from a radius on
  (m), in cells of the caller, which the table keeps pointing to. Where it fails, the cells hold no table. It takes seven critical
  speeds for each cell; microimpact_boundary_step makes as many of them as you allow. The error may be null. Re-entrant.
- On a Cortex-M3, 12 cells, at most 1037338321 instructions and 2408 bytes of stack.
+ On a Cortex-M3, 12 cells, at most 1037341916 instructions and 2408 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, the cells to room for `count` of them, and nobody else uses them
@@ -1243,7 +1243,7 @@ MicroimpactStatus microimpact_boundary_classify(const struct MicroimpactBoundary
  octaves of radii from one on (m), and up to `speed_ratio` times the critical speed. If it fails, the room keeps what it held. It
  takes hundreds of simulations; microimpact_restitution_step makes as many of them as you allow. The error may be null.
  Re-entrant.
- On a Cortex-M3, at most 904929319 instructions and 3880 bytes of stack.
+ On a Cortex-M3, at most 904932258 instructions and 3880 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -1319,7 +1319,7 @@ MicroimpactStatus microimpact_compliant_init(const struct MicroimpactCompliantSc
  Simulates impacts with compliance along the surface, as microimpact_simulate does without. microimpact_wall_after and
  microimpact_pair_after take the restitution and the tangential velocity of the results. For microimpact_pair_incidence, initialise
  the contact of the scene with the radius and the density of the reduced sphere. Re-entrant.
- On a Cortex-M3, at most 35306535 instructions and 2136 bytes of stack.
+ On a Cortex-M3, at most 35306555 instructions and 2128 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, the motions to `count` of them and the results to room for
@@ -1339,7 +1339,7 @@ MicroimpactStatus microimpact_simulate_compliant(const struct MicroimpactComplia
  samples are left out evenly over time; first touch, peak, beginning of rolling and end are always there. In less than
  MICROIMPACT_SMALLEST_TRAJECTORY there is no trajectory. Where this fails, there are no samples and no result. The error may
  be null. Re-entrant.
- On a Cortex-M3, at most 1460983 instructions and 10408 bytes of stack.
+ On a Cortex-M3, at most 1460992 instructions and 10400 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, the samples to room for `capacity` of them, and nobody else uses them
