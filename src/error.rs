@@ -212,6 +212,10 @@ parameters! {
         /// Any other velocity divided by the unit of speed, in fixed point. For a work of adhesion, it is the rebound speed
         /// whose energy equals that work.
         VelocityInUnits: "velocity over the unit of speed", "1", -8.0 to 8.0;
+        /// Approach speed of a simulated contact divided by the unit of speed, in fixed point.
+        ContactSpeedInUnits: "approach speed of a contact over the unit of speed", "1", 0.1 to 8.0;
+        /// A velocity along the surface divided by the largest normal one, in fixed point.
+        VelocityRatio: "velocity along the surface over the normal one", "1", -50.0 to 50.0;
         /// Speed k of the restitution law divided by the unit of speed, in fixed point.
         RestitutionSpeedInUnits: "restitution speed over the unit of speed", "1", 0.01 to 100.0;
         /// Coulomb's friction coefficient in fixed point.

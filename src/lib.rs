@@ -32,7 +32,7 @@ pub use error::{Fault, ImpactError, InputError, Parameter};
 pub use motion::{Approach, NormalMotion, Oblique, ObliqueMotion, Planar, PlanarMotion};
 pub use numbers::{Dual, Real};
 #[cfg(feature = "fixed")]
-pub use numbers::{FixedPoint, InFixedPoint};
+pub use numbers::{FixedPoint, FixedPointTerm, InFixedPoint};
 pub use rigid::{
     ConstantRestitution, Impact, NormalImpact, RestitutionLaw, RigidBody, SpeedRestitution, TangentialImpact,
 };

@@ -59,6 +59,8 @@ pub use along::{
 pub use dimensionless::{DimensionlessContact, DimensionlessImpact};
 pub use force::ContactForce;
 pub use lanes::{OutputInLanes, SurfaceInLanes};
+#[cfg(feature = "fixed")]
+pub(crate) use law::unit_damping;
 pub use law::{
     AnyDamping, AnyForce, AnyLaw, Attraction, ConstantDamping, ConstantForce, ContactLaw, Damping, Dmt, Fraction,
     Groups, HertzLaw, HystereticDamping, JkrEnd, JkrLaw, NoDamping, NoForce, NoTension, ProportionalDamping, Ring,

@@ -43,8 +43,8 @@ use crate::{
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Contact<T, L, S = NoFriction> {
-    sphere: Sphere<T>,
-    law: L,
+    pub(crate) sphere: Sphere<T>,
+    pub(crate) law: L,
     pub(crate) surface: S,
 }
 

@@ -13,7 +13,7 @@ mod tables;
 pub(crate) use cube_root::cube_root;
 pub use dual::Dual;
 #[cfg(feature = "fixed")]
-pub use fixed::{FixedPoint, InFixedPoint};
+pub use fixed::{FixedPoint, FixedPointTerm, InFixedPoint};
 pub(crate) use inverse::{inverse, power};
 pub(crate) use norm::norm;
 pub use real::Real;

@@ -42,6 +42,9 @@ pub trait Real:
     /// Smallest positive number with full accuracy.
     const SMALLEST: Self;
 
+    /// Whether the numbers of this type lie at equal distances. What should be near one is then checked more narrowly.
+    const IS_FIXED_POINT: bool = false;
+
     /// Converts a constant to the nearest number. A constant outside the range of the type becomes the closest bound.
     fn constant(value: f64) -> Self;
 

@@ -50,12 +50,16 @@ pub(crate) fn of(scene: &str, quantity: Quantity) -> Option<f64> {
         Quantity::Classify if scene == "simulation/fixed-oblique-1e-5" => Some(3100.0),
         Quantity::Classify if scene == "simulation/fixed-oblique-1e-6" => Some(4100.0),
         Quantity::Classify if scene == "simulation/fixed-point" => Some(9000.0),
+        Quantity::Classify if scene == "simulation/fixed-point-oblique" => Some(23e3),
+        Quantity::Stack if scene == "simulation/fixed-point-oblique" => Some(768.0),
         Quantity::Classify if is_fixed_point(scene) => Some(750.0),
         Quantity::Stack if scene.starts_with("simulation/fixed") => Some(544.0),
         Quantity::Flash if scene == "small/fixed-oblique-1e-5" => Some(7.0 * 1024.0),
         Quantity::Flash if is_small(scene) => None,
         Quantity::StaticMemory | Quantity::AbsentTerms => Some(0.0),
-        Quantity::Error if scene == "simulation/fixed-class" || scene == "simulation/fixed-point" => Some(1e-4),
+        Quantity::Error if scene == "simulation/fixed-class" || scene.starts_with("simulation/fixed-point") => {
+            Some(1e-4)
+        }
         Quantity::Error if scene == "simulation/fixed-1e-5" => Some(1e-5),
         // One of the impacts lies closer to the critical speed than the scenes for which the method promises 1e-6.
         Quantity::Error if scene == "simulation/fixed-1e-6" => Some(2e-6),
@@ -75,10 +79,12 @@ pub(crate) fn of(scene: &str, quantity: Quantity) -> Option<f64> {
 }
 
 /// Limits without a floating-point unit.
-const ELSEWHERE: [(&str, &str, f64); 3] = [
+const ELSEWHERE: [(&str, &str, f64); 5] = [
     ("Cortex-M0", "table/boundary", 250.0),
     ("Cortex-M0", "simulation/fixed-point", 50e3),
     ("Cortex-M3", "simulation/fixed-point", 9e3),
+    ("Cortex-M0", "simulation/fixed-point-oblique", 85e3),
+    ("Cortex-M3", "simulation/fixed-point-oblique", 23.5e3),
 ];
 
 /// The figures of the scenes for use: the worst of each scene and quantity.

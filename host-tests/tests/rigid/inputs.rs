@@ -194,8 +194,8 @@ fn beyond(bound: f64, outwards: bool) -> f64 {
 }
 
 /// Parameters that follow from others, or are counted: tested one by one below, the margin with its tables, what fixed
-/// point holds with the rigid body in it, and the last five with the instrument and its sensors.
-const DERIVED: [Parameter; 15] = [
+/// point holds with the scenes in it, and the last five with the instrument and its sensors.
+const DERIVED: [Parameter; 17] = [
     Parameter::AdhesionRatio,
     Parameter::ForceRatio,
     Parameter::DampingRatio,
@@ -203,6 +203,8 @@ const DERIVED: [Parameter; 15] = [
     Parameter::TurningPoints,
     Parameter::BoundaryMargin,
     Parameter::SpeedInUnits,
+    Parameter::ContactSpeedInUnits,
+    Parameter::VelocityRatio,
     Parameter::VelocityInUnits,
     Parameter::RestitutionSpeedInUnits,
     Parameter::FixedPointFriction,

@@ -6,7 +6,7 @@ use microimpact::contact::{
     Status,
 };
 use microimpact::{
-    Fault, FixedPoint, InFixedPoint, InputError, NormalMotion, Outcome, Parameter, Real, Sphere, Stiffness,
+    Fault, FixedPoint, FixedPointTerm, InputError, NormalMotion, Outcome, Parameter, Real, Sphere, Stiffness,
 };
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -208,8 +208,8 @@ fn check_law<D, A, E, B>(
     speed: f64,
 ) -> bool
 where
-    D: Damping<f64> + InFixedPoint<f64, Fixed: Damping<FixedPoint>>,
-    A: Attraction<f64> + InFixedPoint<f64, Fixed: Attraction<FixedPoint>>,
+    D: Damping<f64> + FixedPointTerm<f64, Fixed: Damping<FixedPoint>>,
+    A: Attraction<f64> + FixedPointTerm<f64, Fixed: Attraction<FixedPoint>>,
     E: Damping<Checked<EXACT>>,
     B: Attraction<Checked<EXACT>>,
 {

@@ -14,6 +14,7 @@ mod error_bounds;
 mod everything;
 mod fixed_cost;
 mod fixed_point;
+mod fixed_scene;
 mod laws;
 mod ledger;
 mod micromath;

@@ -10,7 +10,7 @@ use crate::contact::solve::observer::Observer;
 use crate::contact::solve::path::{End, NormalPath};
 use crate::contact::solve::quantities::{Quantities, Times};
 use crate::rolling::{Friction, friction_over_limit, rolling, rounding};
-use crate::{ContactClass, Coulomb, InputError, Oblique, Real, Sphere, SurfaceMotion};
+use crate::{ContactClass, Coulomb, InputError, Oblique, Parameter, Real, Sphere, SurfaceMotion};
 
 /// Velocities before contact and the impulse of the force that presses, from which those after it follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,7 +76,12 @@ impl<T: Real, P: PressingForce<T>, B: Oblique<T>> Surface<T, B> for Coulomb<T, P
         units: &Units<T>,
     ) -> Result<Self::Start, InputError> {
         let friction = self.under(self.pressing.in_units(law));
-        Ok(SlipStart::new(&friction, before, sphere, units, T::ZERO))
+        let start = SlipStart::new(&friction, before, sphere, units, T::ZERO);
+        if T::IS_FIXED_POINT {
+            Parameter::VelocityRatio.check(start.velocity)?;
+            Parameter::VelocityRatio.check(start.peripheral)?;
+        }
+        Ok(start)
     }
 
     #[inline]

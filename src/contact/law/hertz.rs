@@ -349,6 +349,16 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> HertzLaw<T, D, 
         })
     }
 
+    /// Refuses adhesion and damping, in units of an impact, that fixed point does not hold.
+    pub(crate) fn fits_fixed_point(&self) -> Result<(), InputError> {
+        let (potential, elastic) = (self.adhesion.energy(T::ONE), T::constant(1.25));
+        Parameter::DimensionlessAdhesion.check(potential + potential)?;
+        let force = self.damping.force(elastic, T::ONE, T::ONE);
+        Parameter::DimensionlessDamping.check(T::constant(0.8) * force)?;
+        Parameter::DimensionlessDamping.check(self.adhesion.damping_rate())?;
+        Ok(())
+    }
+
     /// The contact radius at a coordinate, which is that radius or, where the damping needs it, the root of it.
     #[inline]
     fn radius(&self, s: T) -> T {
@@ -432,6 +442,10 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> ContactLaw<T> f
                     (units, law) = (enlarged, in_enlarged);
                 }
             }
+        }
+        if T::IS_FIXED_POINT {
+            Parameter::ContactSpeedInUnits.check(approach)?;
+            law.fits_fixed_point()?;
         }
         Ok((law, units.units()))
     }
@@ -610,11 +624,7 @@ pub struct HertzUnits<T> {
 impl<T: Real> HertzUnits<T> {
     /// Units for a sphere that arrives with `approach` (m/s) at a contact of equilibrium indentation `equilibrium` (m).
     pub(super) fn new(sphere: &Sphere<T>, stiffness: T, equilibrium: T, approach: T) -> Result<Self, InputError> {
-        // w = v sqrt(m/(r^3 K)), where m/r^3 = 4 pi density/3: no product here leaves the range of single precision.
-        let w = approach * (T::constant(4.0 * PI / 3.0) * sphere.density() / stiffness).sqrt();
-        let root = w.two_fifths_power();
-        // C v, with C of B4: (m/(r^3 K))^(2/5) v^(4/5).
-        let damping = root * root;
+        let damping = unit_damping(sphere, stiffness, approach);
         // delta_Hertz = (5/4)^(2/5) r w^(4/5).
         let hertz = T::constant(HERTZ_PEAK) * damping * sphere.radius();
         let adhesion = Parameter::AdhesionRatio.check(T::constant(5.0 / 3.0) * equilibrium / hertz)?;
@@ -653,6 +663,14 @@ impl<T: Real> HertzUnits<T> {
             damping: self.damping * growth,
         }
     }
+}
+
+/// The damping C v of strength zeta = 1 (B4), with C v = (m v^2/(r^3 K))^(2/5).
+pub(crate) fn unit_damping<T: Real>(sphere: &Sphere<T>, stiffness: T, approach: T) -> T {
+    // m/r^3 = 4 pi density/3: no product here leaves the range of single precision.
+    let w = approach * (T::constant(4.0 * PI / 3.0) * sphere.density() / stiffness).sqrt();
+    let root = w.two_fifths_power();
+    root * root
 }
 
 /// Contact radius of Hertz's peak over that of the undamped one, the root b of b^5 + p b^2 = 1; and b^5/2, the energy

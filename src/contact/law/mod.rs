@@ -15,6 +15,8 @@ pub use damping::{ConstantDamping, Damping, HystereticDamping, NoDamping, Propor
 pub use dmt::Dmt;
 pub use force::{ConstantForce, NoForce};
 pub use fraction::Fraction;
+#[cfg(feature = "fixed")]
+pub(crate) use hertz::unit_damping;
 pub use hertz::{Attraction, Groups, HertzLaw};
 pub use jkr::{JkrEnd, JkrLaw};
 pub use ring::{Ring, RingStrength};

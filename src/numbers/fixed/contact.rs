@@ -1,62 +1,140 @@
-//! The dimensionless contact simulation in fixed point, and the tables that its solver needs.
+//! The contact simulation in fixed point, and the tables that its solver needs.
 
 // All indices are below the lengths of their arrays.
 #![allow(clippy::indexing_slicing)]
 
 use super::{FRACTION, FixedPoint, InFixedPoint};
 use crate::contact::{
-    DimensionlessImpact, Dmt, HertzLaw, HystereticDamping, NoForce, PhaseNodes, Ring, ViscoelasticDamping,
+    Attraction, Contact, ContactLaw, Damping, DimensionlessImpact, Dmt, HertzLaw, HystereticDamping, NoDamping,
+    NoForce, PhaseNodes, Ring, ViscoelasticDamping, unit_damping,
 };
-use crate::{InputError, Parameter, Real, lift_tables};
+use crate::{InputError, NoAdhesion, Parameter, Real, Sphere, lift_tables};
 
-/// A group in the range of its parameter, by a factor between the two.
-fn bounded<T: Real>(parameter: Parameter, value: T, factor: f64) -> Result<FixedPoint, InputError> {
-    parameter.check(value * T::constant(factor))?;
-    Ok(FixedPoint::nearest(value.to_f64()))
+/// Damping or adhesion of Hertz's contact that can be converted to fixed point: [`NoDamping`], [`HystereticDamping`] or
+/// [`ViscoelasticDamping`], and [`NoAdhesion`], [`Ring`] or [`Dmt`].
+pub trait FixedPointTerm<T>: Copy {
+    /// The same term in fixed point.
+    type Fixed;
+
+    /// The numbers of this term in natural units.
+    #[must_use]
+    fn in_natural_units(&self, units: &NaturalUnits<T>) -> Self;
+
+    /// The numbers of this term, as they stand.
+    fn nearest(&self) -> Self::Fixed;
 }
 
-/// In units of an impact.
-impl<T: Real> InFixedPoint<T> for HystereticDamping<T> {
+/// Units in which radius, mass and stiffness of a sphere are one. With the unit of speed U the unit of length is
+/// L = r (m U^2/(r^3 K))^(2/5), but for the radius: it enters the forces only as sqrt(r) K.
+#[derive(Clone, Copy, Debug)]
+pub struct NaturalUnits<T> {
+    stiffness: T,
+    length: T,
+    speed: T,
+    /// L/r: the damping of strength zeta = 1 at the unit of speed (B4).
+    damping: T,
+    /// Acceleration r G/m by the unit G of work of adhesion.
+    adhesion: T,
+}
+
+impl<T: Real> NaturalUnits<T> {
+    fn new(sphere: &Sphere<T>, stiffness: T, speed: T, damping: T) -> Self {
+        let length = sphere.radius() * damping;
+        Self { stiffness, length, speed, damping, adhesion: sphere.radius() / sphere.mass() }
+    }
+}
+
+/// Terms that hold no number.
+macro_rules! nothing_to_convert {
+    ($($term:ident),*) => {$(
+        impl<T> FixedPointTerm<T> for $term {
+            type Fixed = Self;
+
+            fn in_natural_units(&self, _units: &NaturalUnits<T>) -> Self {
+                *self
+            }
+
+            fn nearest(&self) -> Self {
+                *self
+            }
+        }
+    )*};
+}
+
+nothing_to_convert!(NoAdhesion, NoDamping);
+
+impl<T: Real> FixedPointTerm<T> for HystereticDamping<T> {
     type Fixed = HystereticDamping<FixedPoint>;
 
-    fn in_fixed_point(&self, _unit: T) -> Result<Self::Fixed, InputError> {
-        Ok(HystereticDamping { rate: bounded(Parameter::DimensionlessDamping, self.rate, 1.0)? })
+    fn in_natural_units(&self, units: &NaturalUnits<T>) -> Self {
+        Self { rate: self.rate * units.damping }
+    }
+
+    fn nearest(&self) -> Self::Fixed {
+        HystereticDamping { rate: nearest(self.rate) }
     }
 }
 
-/// In units of an impact.
-impl<T: Real> InFixedPoint<T> for ViscoelasticDamping<T> {
+impl<T: Real> FixedPointTerm<T> for ViscoelasticDamping<T> {
     type Fixed = ViscoelasticDamping<FixedPoint>;
 
-    fn in_fixed_point(&self, _unit: T) -> Result<Self::Fixed, InputError> {
-        // Over the elastic force at the peak, 5/4.
-        Ok(ViscoelasticDamping { time: bounded(Parameter::DimensionlessDamping, self.time, 0.8)? })
+    fn in_natural_units(&self, units: &NaturalUnits<T>) -> Self {
+        Self { time: self.time * (units.speed / units.length) }
+    }
+
+    fn nearest(&self) -> Self::Fixed {
+        ViscoelasticDamping { time: nearest(self.time) }
     }
 }
 
-/// In units of an impact.
-impl<T: Real> InFixedPoint<T> for Ring<T> {
+impl<T: Real> FixedPointTerm<T> for Ring<T> {
     type Fixed = Ring<FixedPoint>;
 
-    fn in_fixed_point(&self, _unit: T) -> Result<Self::Fixed, InputError> {
-        Ok(Ring {
-            strength: bounded(Parameter::DimensionlessAdhesion, self.strength, 1.0)?,
-            damping: bounded(Parameter::DimensionlessDamping, self.damping, 1.0)?,
-        })
+    fn in_natural_units(&self, units: &NaturalUnits<T>) -> Self {
+        Self { strength: self.strength / units.stiffness / units.length, damping: self.damping * units.damping }
+    }
+
+    fn nearest(&self) -> Self::Fixed {
+        Ring { strength: nearest(self.strength), damping: nearest(self.damping) }
     }
 }
 
-/// In units of an impact.
-impl<T: Real> InFixedPoint<T> for Dmt<T> {
+impl<T: Real> FixedPointTerm<T> for Dmt<T> {
     type Fixed = Dmt<FixedPoint>;
 
-    fn in_fixed_point(&self, _unit: T) -> Result<Self::Fixed, InputError> {
-        // The energy before the impact is one half less the strength.
-        Ok(Dmt { strength: bounded(Parameter::DimensionlessAdhesion, self.strength, 2.0)? })
+    fn in_natural_units(&self, units: &NaturalUnits<T>) -> Self {
+        Self { strength: self.strength * units.adhesion / units.speed * (units.length / units.speed) }
+    }
+
+    fn nearest(&self) -> Self::Fixed {
+        Dmt { strength: nearest(self.strength) }
     }
 }
 
-impl<T: Real, D: InFixedPoint<T>, A: InFixedPoint<T>> DimensionlessImpact<T, D, A> {
+/// The number in fixed point, or the closest bound.
+fn nearest<T: Real>(value: T) -> FixedPoint {
+    FixedPoint::nearest(value.to_f64())
+}
+
+impl<T, D, A> HertzLaw<T, D, A>
+where
+    T: Real,
+    D: Damping<T> + FixedPointTerm<T>,
+    A: Attraction<T> + FixedPointTerm<T>,
+{
+    /// The law with its numbers as they stand, which nothing but the set-up of an impact multiplies by the stiffness.
+    fn nearest(&self) -> HertzLaw<FixedPoint, D::Fixed, A::Fixed> {
+        let (damping, adhesion) = (self.damping.nearest(), self.adhesion.nearest());
+        HertzLaw { stiffness: FixedPoint::ONE, damping, adhesion, force: NoForce }
+    }
+}
+
+impl<T, D, A> DimensionlessImpact<T, D, A>
+where
+    T: Real,
+    D: Damping<T> + FixedPointTerm<T>,
+    A: Attraction<T> + FixedPointTerm<T>,
+{
     /// Converts the impact to fixed point, for [`FixedCost`](crate::contact::FixedCost). [`FixedPoint`] states the error.
     ///
     /// Hertz's contact, the ring and DMT's adhesion can be converted, with no, hysteretic or viscoelastic damping.
@@ -75,11 +153,51 @@ impl<T: Real, D: InFixedPoint<T>, A: InFixedPoint<T>> DimensionlessImpact<T, D, 
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn in_fixed_point(&self) -> Result<DimensionlessImpact<FixedPoint, D::Fixed, A::Fixed>, InputError> {
-        let HertzLaw { damping, adhesion, .. } = &self.law;
-        let adhesion = adhesion.in_fixed_point(T::ONE)?;
-        let damping = damping.in_fixed_point(T::ONE)?;
-        let law = HertzLaw { stiffness: FixedPoint::ONE, damping, adhesion, force: NoForce };
-        Ok(DimensionlessImpact { law, energy: FixedPoint::nearest(self.energy.to_f64()) })
+        self.law.fits_fixed_point()?;
+        Ok(DimensionlessImpact { law: self.law.nearest(), energy: nearest(self.energy) })
+    }
+}
+
+/// ```
+/// use microimpact::contact::{Contact, FixedCost};
+/// use microimpact::{Class, InFixedPoint, NormalMotion, Sphere, Stiffness};
+///
+/// let sphere = Sphere::solid(5.06e-6_f32, 2600.0)?;
+/// let scene = Contact::hertz(sphere, Stiffness::new(7.5e10)?)
+///     .with_damping(10.5)?
+///     .with_ring(250.0, 6.25)?
+///     .with_friction(0.1)?;
+/// let motion = NormalMotion::new(2.8)?.with_tangential(0.0)?.with_spin(&sphere, 1.454e5)?;
+///
+/// // The set-up uses floating point. The impact uses integers only.
+/// let unit = 4.0;
+/// let (scene, motion) = (scene.in_fixed_point(unit)?, motion.in_fixed_point(unit)?);
+/// let impact = scene.solve(&motion, &FixedCost::<5>::new(3)?.with_outputs::<7>())?;
+/// assert_eq!(impact.class(), Some(Class::ReboundRolling));
+/// assert!((impact.normal.overall_restitution().to_f64() - 0.746193).abs() < 1e-5);
+/// assert!((4.0 * impact.tangential.velocity().to_f64() - 0.2102).abs() < 1e-4);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+impl<T, D, A, S> InFixedPoint<T> for Contact<T, HertzLaw<T, D, A>, S>
+where
+    T: Real,
+    D: Damping<T> + FixedPointTerm<T>,
+    A: Attraction<T> + FixedPointTerm<T>,
+    S: InFixedPoint<T>,
+{
+    type Fixed = Contact<FixedPoint, HertzLaw<FixedPoint, D::Fixed, A::Fixed>, S::Fixed>;
+
+    fn in_fixed_point(&self, unit: T) -> Result<Self::Fixed, InputError> {
+        let unit = Parameter::SpeedUnit.check(unit)?;
+        let Self { sphere, law, surface } = self;
+        law.in_units(sphere, unit)?.0.fits_fixed_point()?;
+        let units = NaturalUnits::new(sphere, law.stiffness, unit, unit_damping(sphere, law.stiffness, unit));
+        let law = HertzLaw {
+            damping: law.damping.in_natural_units(&units),
+            adhesion: law.adhesion.in_natural_units(&units),
+            ..*law
+        };
+        Ok(Contact { sphere: sphere.in_fixed_point(unit)?, law: law.nearest(), surface: surface.in_fixed_point(unit)? })
     }
 }
 

@@ -3,7 +3,6 @@
 use core::f64::consts::PI;
 
 use super::FixedPoint;
-use crate::contact::NoDamping;
 use crate::rigid::{AdhesionCoefficient, WorkOfAdhesion};
 use crate::{
     ConstantRestitution, Coulomb, InputError, NoAdhesion, NoFriction, NormalMotion, ObliqueMotion, Parameter,
@@ -12,9 +11,10 @@ use crate::{
 
 /// A scene, a term or a motion that can be converted to fixed point.
 ///
-/// The units of the result are the radius and the mass of the sphere, and a speed that you choose. A unit near the speeds
-/// that occur gives the most digits. A scene and its motions must have the same unit, and the velocities of the result are in
-/// this unit. Classes, margins and coefficients have no unit. A margin above 128 becomes 128.
+/// The units of the result are the radius and the mass of the sphere, and a speed U that you choose; those of lengths along the
+/// normal are r (m U^2/(r^3 K))^(2/5). A unit near the speeds that occur gives the most digits. A scene and its motions must have the
+/// same unit, and the velocities of the result are in this unit. Classes, margins and coefficients have no unit. A margin above 128
+/// becomes 128.
 ///
 /// ```
 /// use microimpact::{Class, InFixedPoint, NormalMotion, RigidBody, Sphere, SpeedRestitution};
@@ -129,7 +129,7 @@ macro_rules! nothing_to_convert {
     )*};
 }
 
-nothing_to_convert!(NoAdhesion, NoFriction, NoDamping);
+nothing_to_convert!(NoAdhesion, NoFriction);
 
 impl<T, L, A, S> InFixedPoint<T> for RigidBody<T, L, A, S>
 where

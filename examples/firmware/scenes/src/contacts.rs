@@ -182,15 +182,20 @@ impl<T: Number> From<Result<NormalContact<T>, InputError>> for Answer<T> {
 
 impl<T: Number> From<Result<SimulatedImpact<T, TangentialVelocities<T>>, InputError>> for Answer<T> {
     fn from(verdict: Result<SimulatedImpact<T, TangentialVelocities<T>>, InputError>) -> Self {
-        let class = verdict.as_ref().map_or(REFUSED, |impact| match impact.class() {
-            Some(Class::ReboundSliding) => "rebound-sliding",
-            Some(Class::ReboundRolling) => "rebound-rolling",
-            Some(Class::CapturedSliding) => "captured-sliding",
-            Some(Class::CapturedRolling) => "captured-rolling",
-            Some(Class::CapturedResting) => "captured-resting",
-            Some(Class::Undecided) | None => UNDECIDED,
-        });
+        let class = verdict.as_ref().map_or(REFUSED, |impact| name(impact.class()));
         answer(class, verdict.ok().map(|impact| impact.normal))
+    }
+}
+
+/// Name of a class.
+pub(super) fn name(class: Option<Class>) -> &'static str {
+    match class {
+        Some(Class::ReboundSliding) => "rebound-sliding",
+        Some(Class::ReboundRolling) => "rebound-rolling",
+        Some(Class::CapturedSliding) => "captured-sliding",
+        Some(Class::CapturedRolling) => "captured-rolling",
+        Some(Class::CapturedResting) => "captured-resting",
+        Some(Class::Undecided) | None => UNDECIDED,
     }
 }
 

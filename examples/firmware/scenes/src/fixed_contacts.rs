@@ -3,16 +3,19 @@
 
 use core::hint::black_box;
 
-use microimpact::contact::{DimensionlessContact, DimensionlessImpact, FixedCost, RingScene};
+use microimpact::contact::{
+    DimensionlessContact, DimensionlessImpact, FixedCost, RingScene, SimulatedImpact, TangentialVelocities,
+};
 use microimpact::rigid::WorkOfAdhesion;
 use microimpact::{
-    Classification, ContactClass, Coulomb, FixedPoint, InFixedPoint, NormalMotion, Outcome, PlanarMotion, RigidBody,
-    SpeedRestitution,
+    Classification, ContactClass, Coulomb, FixedPoint, InFixedPoint, InputError, NormalMotion, Outcome, PlanarMotion,
+    RigidBody, SpeedRestitution,
 };
 
-use super::contacts::{exact_restitution, surface};
+use super::contacts::{REFUSED, exact_restitution, name, surface};
 use super::impacts::{CONTACTS, Impact};
-use super::scenes::{Answer, Measured, Normal, Planar, Scene, UNDECIDED, Visitor};
+use super::scenes::{Answer, Measured, Normal, Planar, Scene, UNDECIDED, Visitor, given};
+use super::table_1::FRICTION;
 
 /// Unit of speed of the rigid bodies.
 const UNIT_M_S: f32 = 4.0;
@@ -116,9 +119,67 @@ impl From<DimensionlessContact<FixedPoint>> for Answer<f32> {
     }
 }
 
+/// A simulated contact with friction and spin, in integers from the measured velocities on.
+pub struct FixedPointObliqueContacts {
+    wide: RingScene<f32, Coulomb<f32>>,
+    scene: RingScene<FixedPoint, Coulomb<FixedPoint>>,
+    method: FixedCost<4, 6>,
+}
+
+impl Scene<f32> for FixedPointObliqueContacts {
+    const NAME: &'static str = "simulation/fixed-point-oblique";
+    const PLANAR: bool = true;
+    type Motion = PlanarMotion<FixedPoint>;
+    type Verdict = Result<SimulatedImpact<FixedPoint, TangentialVelocities<FixedPoint>>, InputError>;
+
+    fn new() -> Option<Self> {
+        let wide = surface().and_then(|surface| surface.with_friction(given(FRICTION))).ok()?;
+        let scene = wide.in_fixed_point(black_box(UNIT_M_S)).ok()?;
+        Some(Self { wide, scene, method: FixedCost::new(black_box(2)).ok()?.with_outputs() })
+    }
+
+    fn motion(&self, measured: &Measured<f32>) -> Option<Self::Motion> {
+        NormalMotion::new(measured.approach_m_s)
+            .and_then(|normal| normal.with_tangential(measured.tangential_m_s))
+            .and_then(|oblique| oblique.with_spin(self.wide.sphere(), measured.spin_rad_s))
+            .and_then(|motion| motion.in_fixed_point(black_box(UNIT_M_S)))
+            .ok()
+    }
+
+    // What is counted is the library, not a second call around it.
+    #[inline(always)]
+    fn classify(&self, motion: &Self::Motion) -> Self::Verdict {
+        self.scene.solve(motion, &self.method)
+    }
+
+    fn restitution(impact: &Impact) -> Option<f64> {
+        exact_restitution(surface(), impact)
+    }
+
+    fn impacts() -> impl Iterator<Item = &'static Impact> {
+        CONTACTS.iter().filter(|impact| !impact.is_normal())
+    }
+}
+
+impl From<Result<SimulatedImpact<FixedPoint, TangentialVelocities<FixedPoint>>, InputError>> for Answer<f32> {
+    fn from(verdict: Result<SimulatedImpact<FixedPoint, TangentialVelocities<FixedPoint>>, InputError>) -> Self {
+        let Ok(impact) = verdict else {
+            return Self { class: REFUSED, speed_margin: None, friction_margin: None, restitution: None };
+        };
+        let narrow = |value: FixedPoint| value.to_f64() as f32;
+        Self {
+            class: name(impact.class()),
+            speed_margin: None,
+            friction_margin: impact.tangential.friction_over_limit().map(narrow),
+            restitution: Some(narrow(impact.normal.overall_restitution())),
+        }
+    }
+}
+
 /// Goes through the scenes.
 pub(super) fn visit_fixed_contacts(visitor: &mut impl Visitor) {
     visitor.visit::<f32, FixedPointNormal>();
     visitor.visit::<f32, FixedPointPlanar>();
     visitor.visit::<f32, FixedPointContacts>();
+    visitor.visit::<f32, FixedPointObliqueContacts>();
 }

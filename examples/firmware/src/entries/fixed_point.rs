@@ -2,11 +2,13 @@
 
 use core::hint::black_box;
 
-use microimpact::contact::{Contact, DimensionlessImpact, FixedCost, PhaseSamples};
+use microimpact::contact::{
+    Attraction, Contact, Damping, DimensionlessImpact, FixedCost, HertzLaw, PhaseSamples, Slip, Times,
+};
 use microimpact::rigid::{ReboundAdhesion, TangentialOutcome, TangentialTerm};
 use microimpact::{
-    Approach, ConstantRestitution, FixedPoint, Impact, InFixedPoint, InputError, NormalMotion, Real, RestitutionLaw,
-    RigidBody, SpeedRestitution, Sphere, Stiffness,
+    Approach, ConstantRestitution, Coulomb, FixedPoint, FixedPointTerm, Impact, InFixedPoint, InputError, NormalMotion,
+    PlanarMotion, Real, RestitutionLaw, RigidBody, SpeedRestitution, Sphere, Stiffness,
 };
 
 use super::{any, call_rigid_body, keep};
@@ -23,10 +25,14 @@ pub(super) fn call_all<T: Real + Into<f64> + PhaseSamples<5, 9>>() -> Result<(),
     let scene = Contact::hertz(sphere, Stiffness::new(any())?).with_damping(any())?.with_ring(any(), any())?;
     let impact = scene.dimensionless(&NormalMotion::new(any())?).or(DimensionlessImpact::new(any(), any(), any()))?;
     keep(impact.solve(&FixedCost::<5>::new(black_box(3))?).overall_restitution());
+    oblique_contact(&scene.with_friction(any())?)?;
     let dmt = Contact::hertz(sphere, Stiffness::new(any())?).with_dmt(any())?.with_viscoelastic_damping(any())?;
+    oblique_contact(&dmt.with_friction(any())?)?;
     let dmt = dmt.dimensionless(&NormalMotion::new(any())?)?;
     keep(dmt.in_fixed_point()?.solve(&FixedCost::<5>::new(black_box(3))?).overall_restitution());
-    let hertz = Contact::hertz(sphere, Stiffness::new(any())?).dimensionless(&NormalMotion::new(any())?)?;
+    let hertz = Contact::hertz(sphere, Stiffness::new(any())?);
+    oblique_contact(&hertz.with_friction(any())?)?;
+    let hertz = hertz.dimensionless(&NormalMotion::new(any())?)?;
     keep(hertz.in_fixed_point()?.solve(&FixedCost::<5>::new(black_box(3))?).overall_restitution());
     let impact = impact.in_fixed_point()?;
     solved::<4>(&impact)?;
@@ -42,6 +48,21 @@ where
     FixedPoint: PhaseSamples<N, 9>,
 {
     keep(impact.solve(&FixedCost::<N>::new(black_box(3))?).overall_restitution());
+    Ok(())
+}
+
+#[inline(never)]
+fn oblique_contact<T, D, A>(scene: &Contact<T, HertzLaw<T, D, A>, Coulomb<T>>) -> Result<(), InputError>
+where
+    T: Real,
+    D: Damping<T> + FixedPointTerm<T, Fixed: Damping<FixedPoint>>,
+    A: Attraction<T> + FixedPointTerm<T, Fixed: Attraction<FixedPoint>>,
+{
+    let scene = scene.in_fixed_point(any())?;
+    let motion = PlanarMotion::in_units([any(), any(), any()])?;
+    let method = FixedCost::<5>::new(black_box(3))?.with_outputs::<9>();
+    let (impact, slip) = scene.solve_for(&motion, &method, (Times, Slip))?;
+    keep((impact.class(), impact.normal.overall_restitution(), slip));
     Ok(())
 }
 

@@ -69,10 +69,19 @@ fn flash_of_the_simulation_is_current() {
 
 #[test]
 fn instructions_in_fixed_point_are_current() {
-    let count = |core: &str| measured_on(core, "simulation/fixed-point", Quantity::Classify);
-    let (larger, smaller) = (count("Cortex-M3"), count("Cortex-M0"));
-    let statement = format!("takes {larger} instructions on a Cortex-M3 and {smaller} on a Cortex-M0");
-    assert!(words(PAGE).contains(&statement), "the page lacks: {statement}");
+    let words = words(PAGE);
+    for (scene, statement) in [
+        ("simulation/fixed-point", "takes {M3} instructions on a Cortex-M3 and {M0} on a Cortex-M0"),
+        (
+            "simulation/fixed-point-oblique",
+            "with friction and spin takes {M3} and {M0}, the units of the impact included",
+        ),
+        ("simulation/fixed-oblique-1e-5", "in f32 `FixedCost<5, 7>` takes {M3} and {M0} there"),
+    ] {
+        let count = |core: &str| measured_on(core, scene, Quantity::Classify).to_string();
+        let statement = statement.replace("{M3}", &count("Cortex-M3")).replace("{M0}", &count("Cortex-M0"));
+        assert!(words.contains(&statement), "the page lacks: {statement}");
+    }
 }
 
 /// The error bound of the paper's figure 6 at 2.8 m/s, by four nodes and two iterations.
