@@ -319,7 +319,8 @@ impl Parameter {
     /// assert_eq!(Parameter::Density.check(f64::NAN).unwrap_err().fault, Fault::NotFinite);
     /// assert_eq!(Parameter::Density.check(0.0).unwrap_err().fault, Fault::TooSmall);
     /// ```
-    #[inline]
+    // A part of its caller, where the range is a constant: fixed point would convert it by floating point in software.
+    #[inline(always)]
     pub fn check<T: Real>(self, value: T) -> Result<T, InputError> {
         let (smallest, largest) = self.range();
         // If the number type rounds the lower bound to zero, it would accept zero. Then no value is valid.
