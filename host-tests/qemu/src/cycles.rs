@@ -93,12 +93,14 @@ fn followed(toolchain: &Toolchain, board: &Board, build: &'static str, folder: &
 
     let timings = Timings::of(board.core)?;
     let lines: Vec<&str> = printed.lines().filter(|line| *line != "done").collect();
-    // The first call does nothing, and those of the scenes are the last.
-    let [empty, others @ ..] = &*trace.calls else { return Err(format!("{}: no call was followed", board.core)) };
-    let first = others.len().checked_sub(lines.len()).ok_or_else(|| format!("{}: calls are missing", board.core))?;
+    // The calls of the scenes are the last. Those before are the trials of the counter, of whose loop nothing is followed, and a call
+    // that does nothing.
+    let first = trace.calls.len().checked_sub(lines.len());
+    let (trials, calls) = trace.calls.split_at(first.ok_or_else(|| format!("{}: calls are missing", board.core))?);
+    let empty = trials.iter().max_by_key(|call| call.len()).map_or(&[][..], Vec::as_slice);
     let nothing = timings.cycles(&trace, empty)?;
     let mut costs = Vec::new();
-    for (line, call) in lines.iter().zip(&others[first..]) {
+    for (line, call) in lines.iter().zip(calls) {
         let wrong = || format!("{}: the firmware printed {line:?}", board.core);
         let [scene, scalar, impact, counted] = *Vec::from_iter(line.split(';')) else { return Err(wrong()) };
         let counted: u64 = counted.parse().map_err(|_| wrong())?;
