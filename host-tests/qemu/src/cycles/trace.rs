@@ -36,7 +36,9 @@ pub(crate) fn read(log: &Path, reading: &Range<u32>) -> Result<Trace, String> {
         let line = line.map_err(unreadable)?;
         if line.starts_with("Trace ") {
             let address = executed(&line).ok_or_else(|| format!("QEMU's log has the line {line:?}"))?;
-            announced.replace(address).map(|before| calls.take(before));
+            if let Some(before) = announced.replace(address) {
+                calls.take(before);
+            }
         } else if line.starts_with("Stopped execution ") {
             // It is announced again when it is executed.
             announced = None;
@@ -44,7 +46,9 @@ pub(crate) fn read(log: &Path, reading: &Range<u32>) -> Result<Trace, String> {
             trace.instructions.insert(address, instruction);
         }
     }
-    announced.map(|last| calls.take(last));
+    if let Some(last) = announced {
+        calls.take(last);
+    }
     trace.calls = calls.ended;
     if trace.instructions.is_empty() {
         return Err("this QEMU does not disassemble; one that is built with the library Capstone does".to_owned());
