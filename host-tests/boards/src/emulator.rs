@@ -1,5 +1,6 @@
 //! QEMU, a program for each architecture: found or installed, and a firmware run in it.
 
+use std::ops::Range;
 use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
@@ -57,6 +58,34 @@ pub fn run(board: &Board, firmware: &Path) -> Result<String, String> {
 
 /// The same with a time limit of its own.
 pub fn run_within(limit: Duration, board: &Board, firmware: &Path) -> Result<String, String> {
+    run_with(&[], limit, board, firmware)
+}
+
+/// Runs a firmware to its end and writes to a file what it executes, one instruction after the other and each in words when it is
+/// met first; but not what lies in `left_out`, functions in the order of their addresses.
+pub fn trace(board: &Board, firmware: &Path, left_out: &[Range<u32>], log: &Path) -> Result<String, String> {
+    let starts = [0].into_iter().chain(left_out.iter().map(|function| function.end));
+    let ends = left_out.iter().map(|function| function.start).chain([u32::MAX]);
+    let ranges: Vec<String> = starts.zip(ends).map(|(start, end)| format!("{start:#x}..{:#x}", end - 1)).collect();
+    let one_by_one: &[&str] = match major_version(board.emulator.program) {
+        Some(version) if version >= SINGLE_STEPS_ARE_AN_ACCELERATOR => &["-accel", "tcg,one-insn-per-tb=on"],
+        _ => &["-singlestep"],
+    };
+    let (ranges, log) = (ranges.join(","), log.display().to_string());
+    let options = [one_by_one, &["-d", "in_asm,exec,nochain", "-dfilter", &ranges, "-D", &log]].concat();
+    run_with(&options, LIMIT, board, firmware)
+}
+
+/// The version of QEMU from which on single steps are asked for in another way.
+const SINGLE_STEPS_ARE_AN_ACCELERATOR: u32 = 9;
+
+/// 7 of `QEMU emulator version 7.2.22 (...)`.
+fn major_version(program: &str) -> Option<u32> {
+    let line = process::first_line(Command::new(program).arg("--version"))?;
+    line.split_once("version ")?.1.split('.').next()?.parse().ok()
+}
+
+fn run_with(more: &[&str], limit: Duration, board: &Board, firmware: &Path) -> Result<String, String> {
     let Emulator { program, instruction_time, options, .. } = board.emulator;
     let mut command = Command::new(program);
     command
@@ -64,6 +93,7 @@ pub fn run_within(limit: Duration, board: &Board, firmware: &Path) -> Result<Str
         .args(["-display", "none", "-monitor", "none", "-serial", "none"])
         .args(["-icount", instruction_time])
         .args(options)
+        .args(more)
         .args(["-semihosting-config", "enable=on,target=native"])
         .arg("-kernel")
         .arg(firmware);

@@ -63,6 +63,17 @@ pub fn build_with(toolchain: &Toolchain, board: &Board, feature: &str, binaries:
     build_in(repository(), toolchain, board, "release", Some(feature), None, binaries)
 }
 
+/// The same with a setting of the profile, as a variable for cargo.
+pub fn build_with_setting(
+    toolchain: &Toolchain,
+    board: &Board,
+    setting: (&str, &str),
+    binaries: &[&str],
+) -> Result<PathBuf, String> {
+    let (name, value) = setting;
+    build_in(repository(), toolchain, board, "release", Some(PROBE), Some((name, value.to_owned())), binaries)
+}
+
 /// Builds binaries that are allowed to fail.
 pub fn try_build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<Finished, String> {
     run_cargo(repository(), toolchain, board, "release", Some(PROBE), None, binaries)

@@ -23,6 +23,7 @@ mod c;
 mod calibrate;
 mod costs;
 mod counts;
+mod cycles;
 mod instrument;
 mod limits;
 mod panics;
@@ -78,6 +79,8 @@ enum Command {
     Load(instrument::Load),
     /// Runs every method over a grid of impacts, and says what each takes at most, in instructions and in stack
     Worst,
+    /// Models the cycles of some scenes on all cores, from the manuals' timings of every executed instruction
+    Cycles,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -94,6 +97,7 @@ fn main() -> ExitCode {
         Some(Command::Instrument(events)) => instrument::classify(events, arguments.toolchain, permission),
         Some(Command::C) => c::compare(arguments.toolchain, permission, arguments.overwrite),
         Some(Command::Worst) => worst::compare(arguments.toolchain, permission, arguments.overwrite),
+        Some(Command::Cycles) => cycles::compare(arguments.toolchain, permission, arguments.overwrite),
         Some(Command::Load(load)) => instrument::load(load, arguments.toolchain, permission),
     };
     let failures = match result {

@@ -41,6 +41,22 @@ pub struct Measurement {
     pub counter: Counter,
 }
 
+impl Measurement {
+    /// Counts the instructions of one classification, and prints them.
+    pub fn count<T: Number, S: Scene<T>>(&mut self, impact: &str) {
+        let impact = S::impacts().find(|known| known.name == impact);
+        let motion = set_up::<T, S>().zip(impact).and_then(|(scene, impact)| {
+            let motion = scene.motion(&Measured::from(impact))?;
+            Some((scene, impact, motion))
+        });
+        let Some((scene, impact, motion)) = motion else {
+            fail(S::NAME);
+        };
+        let instructions = self.counter.count(|| classify(black_box(&scene), black_box(&motion)));
+        hprintln!("{};{};{};{}", S::NAME, T::NAME, impact.name, instructions);
+    }
+}
+
 impl Visitor for Measurement {
     fn visit<T: Number, S: Scene<T>>(&mut self) {
         let Some(scene) = set_up::<T, S>() else {

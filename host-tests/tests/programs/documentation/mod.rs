@@ -1,6 +1,7 @@
 //! Numbers in README.md are those that were measured, and its commands run.
 
 mod accuracy;
+mod cycles;
 mod footprint;
 
 use std::sync::LazyLock;
