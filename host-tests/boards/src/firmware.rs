@@ -14,6 +14,9 @@ const LIMIT: Duration = Duration::from_secs(900);
 /// Where the firmware is in the repository.
 pub const FOLDER: &str = "examples/firmware";
 
+/// Where the templates are in the repository.
+const TEMPLATES: &str = "examples/firmware/templates";
+
 /// The place of a law of contact among all of them, for a firmware with this law alone.
 const LAW: &str = "MICROIMPACT_LAW";
 
@@ -32,6 +35,11 @@ pub fn repository() -> &'static Path {
     package.ancestors().nth(2).unwrap_or(package)
 }
 
+/// The package of the firmware.
+fn firmware() -> PathBuf {
+    repository().join(FOLDER)
+}
+
 /// Builds binaries of the firmware and returns the folder they are in.
 pub fn build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<PathBuf, String> {
     build_with(toolchain, board, PROBE, binaries)
@@ -39,12 +47,12 @@ pub fn build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<
 
 /// The same, for flash rather than speed.
 pub fn build_small(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<PathBuf, String> {
-    build_in(repository(), toolchain, board, "small", Some(PROBE), None, binaries)
+    build_in(&firmware(), toolchain, board, "small", Some(PROBE), None, binaries)
 }
 
 /// The same with one law of contact.
 pub fn build_law(toolchain: &Toolchain, board: &Board, place: usize, binaries: &[&str]) -> Result<PathBuf, String> {
-    build_in(repository(), toolchain, board, "release", Some(PROBE), Some((LAW, place.to_string())), binaries)
+    build_in(&firmware(), toolchain, board, "release", Some(PROBE), Some((LAW, place.to_string())), binaries)
 }
 
 /// The same with a grid of impacts, which is in a file.
@@ -55,12 +63,17 @@ pub fn build_with_grid(
     binaries: &[&str],
 ) -> Result<PathBuf, String> {
     let variable = (GRID, grid.display().to_string());
-    build_in(repository(), toolchain, board, "release", Some(WORST), Some(variable), binaries)
+    build_in(&firmware(), toolchain, board, "release", Some(WORST), Some(variable), binaries)
 }
 
 /// The same with a feature.
 pub fn build_with(toolchain: &Toolchain, board: &Board, feature: &str, binaries: &[&str]) -> Result<PathBuf, String> {
-    build_in(repository(), toolchain, board, "release", Some(feature), None, binaries)
+    build_in(&firmware(), toolchain, board, "release", Some(feature), None, binaries)
+}
+
+/// Builds a binary of the templates by its feature and returns the folder it is in.
+pub fn build_template(toolchain: &Toolchain, board: &Board, feature: &str, binary: &str) -> Result<PathBuf, String> {
+    build_in(&repository().join(TEMPLATES), toolchain, board, "release", Some(feature), None, &[binary])
 }
 
 /// The same with a setting of the profile, as a variable for cargo.
@@ -76,16 +89,16 @@ pub fn build_with_setting(
 
 /// Builds binaries that are allowed to fail.
 pub fn try_build(toolchain: &Toolchain, board: &Board, binaries: &[&str]) -> Result<Finished, String> {
-    run_cargo(repository(), toolchain, board, "release", Some(PROBE), None, binaries)
+    run_cargo(&firmware(), toolchain, board, "release", Some(PROBE), None, binaries)
 }
 
 /// Builds binaries of a copy of the repository and returns the folder they are in.
 pub fn build_copy(toolchain: &Toolchain, board: &Board, copy: &Path, binaries: &[&str]) -> Result<PathBuf, String> {
-    build_in(copy, toolchain, board, "release", None, None, binaries)
+    build_in(&copy.join(FOLDER), toolchain, board, "release", None, None, binaries)
 }
 
 fn build_in(
-    repository: &Path,
+    package: &Path,
     toolchain: &Toolchain,
     board: &Board,
     profile: &str,
@@ -94,12 +107,12 @@ fn build_in(
     binaries: &[&str],
 ) -> Result<PathBuf, String> {
     let what = format!("{}: building {}", board.core, binaries.join(", "));
-    run_cargo(repository, toolchain, board, profile, feature, variable, binaries)?.succeeded(&what, 40)?;
+    run_cargo(package, toolchain, board, profile, feature, variable, binaries)?.succeeded(&what, 40)?;
     Ok(target_folder(toolchain, board).join(board.triple).join(profile))
 }
 
 fn run_cargo(
-    repository: &Path,
+    package: &Path,
     toolchain: &Toolchain,
     board: &Board,
     profile: &str,
@@ -108,7 +121,7 @@ fn run_cargo(
     binaries: &[&str],
 ) -> Result<Finished, String> {
     let mut cargo = toolchain.cargo(board.triple);
-    cargo.current_dir(repository.join(FOLDER)).args(["--profile", profile]);
+    cargo.current_dir(package).args(["--profile", profile]);
     cargo.arg("--target-dir").arg(target_folder(toolchain, board));
     if let Some(feature) = feature {
         cargo.args(["--features", feature]);

@@ -29,6 +29,7 @@ mod limits;
 mod panics;
 mod report;
 mod session;
+mod templates;
 mod worst;
 
 /// Runs the firmware on an emulated Cortex-M4F, or on Cortex-M0, M3, M4F, M7, M33 and RISC-V, and
@@ -77,6 +78,8 @@ enum Command {
     C,
     /// Puts the instrument on trial: full speed, damaged frames, a full queue and a reset
     Load(instrument::Load),
+    /// Runs the templates, without a framework, within RTIC and within Embassy, and compares their counts with the host's
+    Templates,
     /// Runs every method over a grid of impacts, and says what each takes at most, in instructions and in stack
     Worst,
     /// Models the cycles of some scenes on all cores, from the manuals' timings of every executed instruction
@@ -98,6 +101,7 @@ fn main() -> ExitCode {
         Some(Command::C) => c::compare(arguments.toolchain, permission, arguments.overwrite),
         Some(Command::Worst) => worst::compare(arguments.toolchain, permission, arguments.overwrite),
         Some(Command::Cycles) => cycles::compare(arguments.toolchain, permission, arguments.overwrite),
+        Some(Command::Templates) => templates::compare(arguments.toolchain, permission),
         Some(Command::Load(load)) => instrument::load(load, arguments.toolchain, permission),
     };
     let failures = match result {
