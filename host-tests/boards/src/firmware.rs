@@ -84,7 +84,7 @@ pub fn build_with_setting(
     binaries: &[&str],
 ) -> Result<PathBuf, String> {
     let (name, value) = setting;
-    build_in(repository(), toolchain, board, "release", Some(PROBE), Some((name, value.to_owned())), binaries)
+    build_in(&firmware(), toolchain, board, "release", Some(PROBE), Some((name, value.to_owned())), binaries)
 }
 
 /// Builds binaries that are allowed to fail.
