@@ -218,6 +218,8 @@ parameters! {
         VelocityRatio: "velocity along the surface over the normal one", "1", -50.0 to 50.0;
         /// Speed k of the restitution law divided by the unit of speed, in fixed point.
         RestitutionSpeedInUnits: "restitution speed over the unit of speed", "1", 0.01 to 100.0;
+        /// Gyration ratio in fixed point.
+        FixedPointGyration: "gyration ratio in fixed point", "1", 0.2 to 1.0;
         /// Coulomb's friction coefficient in fixed point.
         FixedPointFriction: "friction coefficient in fixed point", "1", 0.0 to 7.0;
         /// Unit of speed for fixed point.
@@ -490,6 +492,12 @@ impl InputError {
             Parameter::NormalLength if self.value > 0.0 => write!(f, "; divide each component by {value}"),
             Parameter::NormalLength => f.write_str("; give the direction of the normal"),
             Parameter::AdhesionRatio => f.write_str("; the approach speed is too small for this adhesion"),
+            Parameter::DimensionlessAdhesion => {
+                f.write_str("; fixed point needs faster impacts, or a larger unit of speed")
+            }
+            Parameter::DimensionlessDamping => {
+                f.write_str("; fixed point needs slower impacts, or a smaller unit of speed")
+            }
             Parameter::ForceRatio => f.write_str("; the approach speed is too small for this external force"),
             Parameter::Radius | Parameter::Thickness
                 if self.fault == Fault::TooLarge && (0.0..1e4).contains(&self.value) =>

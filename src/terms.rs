@@ -61,7 +61,8 @@ impl<T: Real> Coulomb<T> {
     /// ```
     #[inline]
     pub fn new(coefficient: T) -> Result<Self, InputError> {
-        Ok(Self { coefficient: Parameter::Friction.check(coefficient)?, pressing: ElasticForce })
+        let parameter = if T::IS_FIXED_POINT { Parameter::FixedPointFriction } else { Parameter::Friction };
+        Ok(Self { coefficient: parameter.check(coefficient)?, pressing: ElasticForce })
     }
 }
 

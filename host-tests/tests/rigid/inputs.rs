@@ -195,7 +195,7 @@ fn beyond(bound: f64, outwards: bool) -> f64 {
 
 /// Parameters that follow from others, or are counted: tested one by one below, the margin with its tables, what fixed
 /// point holds with the scenes in it, and the last five with the instrument and its sensors.
-const DERIVED: [Parameter; 17] = [
+const DERIVED: [Parameter; 18] = [
     Parameter::AdhesionRatio,
     Parameter::ForceRatio,
     Parameter::DampingRatio,
@@ -207,6 +207,7 @@ const DERIVED: [Parameter; 17] = [
     Parameter::VelocityRatio,
     Parameter::VelocityInUnits,
     Parameter::RestitutionSpeedInUnits,
+    Parameter::FixedPointGyration,
     Parameter::FixedPointFriction,
     Parameter::MaterialIndex,
     Parameter::DeadFraction,

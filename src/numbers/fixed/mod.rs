@@ -20,21 +20,26 @@ pub use rigid::InFixedPoint;
 /// becomes the closest bound; it never wraps. The conversion from floating point can take place at start-up or on the host.
 /// It returns an error, which names the quantity, for a value that does not fit.
 ///
-/// * [`InFixedPoint`] converts the rigid-body model. Approach speeds may be 0.004 to 8 units, other velocities up to 8 units
-///   and friction coefficients up to 7. For gyration ratios from 0.2, the error of velocities is below 1e-5 units, and a
-///   rebound slower than 1e-6 units may be classified as a capture. The relative error of the speed margin is below 1e-4, for
-///   critical speeds from 0.1 to 8 units and R above 0.1. For a slip above 0.1 units, the error of a friction margin m is
-///   below 1e-5 (1 + m).
-/// * It also converts scenes of the simulation: Hertz's contact, alone or with a ring or DMT's adhesion, with no, hysteretic or
-///   viscoelastic damping, with or without Coulomb's friction. Their impacts are in integers throughout, by the method
-///   [`FixedCost`](crate::contact::FixedCost) with four to nine nodes. Approach speeds may be 0.1 to 8 units, other velocities up to 8
-///   units and up to 50 times the largest normal velocity. The strength of adhesion may be up to 0.999 (above that, hardly any energy
-///   remains to resolve), and the dampings up to 0.5 of the force at the peak; other values are refused, those of the scene at the unit
-///   of speed and those of an impact at its own. The result contains a [bound](crate::contact::RunReport::error_bound) of the error of
-///   e^2, rounding included. The error of e is at most that bound divided by e. Rounding adds less than 3e-5 units to the error of
-///   velocities, and less than 2e-5 (1 + m) to that of a friction margin m for a slip above 0.1 units.
+/// What fixed point does not hold is refused: of a scene when it is converted, of an impact when it is solved. Gyration ratios may be
+/// 0.2 to 1, friction coefficients up to 7, and velocities along the surface up to 8 units.
+///
+/// * [`InFixedPoint`] converts the rigid-body model. Approach speeds may be 0.004 to 8 units. The error of velocities is below 1e-5
+///   units, and a rebound slower than 1e-6 units may be classified as a capture. The relative error of the speed margin is below 1e-4,
+///   for critical speeds from 0.1 to 8 units and R above 0.1. For a slip above 0.1 units, the error of a friction margin m is below
+///   1e-5 (1 + m).
+/// * It also converts scenes of the simulation, for [`FixedCost`](crate::contact::FixedCost) with four to nine nodes: Hertz's contact,
+///   alone or with a ring or DMT's adhesion, with no, hysteretic or viscoelastic damping, with or without Coulomb's friction. An impact
+///   is in integers throughout. Its approach speed may be 0.1 to 8 units, and its velocities along the surface up to 50 times the
+///   largest normal one. At the unit of speed, and again at the speed of each impact, the strength of adhesion may be up to 0.999 (above
+///   that, hardly any energy remains to resolve), and the dampings up to 0.5 of the force at the peak. Adhesion falls with the speed and
+///   damping grows, so take another unit where a scene is refused. The result contains a
+///   [bound](crate::contact::RunReport::error_bound) of the error of e^2, rounding included. The error of e is at most that bound
+///   divided by e. Rounding adds less than 3e-5 units to the error of velocities along the surface and of the spin, and less than
+///   1e-4 (1 + m) to that of a friction margin m for a slip above 0.1 units; there is no margin where the slip rounds to zero. The
+///   outputs [`Slip`](crate::contact::Slip) and [`Energy`](crate::contact::Energy) are [not
+///   supported](crate::contact::Status::Unsupported).
 /// * [`DimensionlessImpact::in_fixed_point`](crate::contact::DimensionlessImpact::in_fixed_point) converts one impact with its units, for
-///   the class alone: what remains to be done takes fewer instructions.
+///   the class alone: what remains to be done takes fewer instructions. The same limits of adhesion and damping apply.
 ///
 /// SI values, from 1e-10 m to 1e16 Pa, do not fit into a fixed-point number. So the constructors of [`Sphere`](crate::Sphere)
 /// and [`NormalMotion`](crate::NormalMotion) refuse this type. If products were rounded down and not to the nearest number,

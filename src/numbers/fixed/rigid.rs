@@ -11,10 +11,15 @@ use crate::{
 
 /// A scene, a term or a motion that can be converted to fixed point.
 ///
-/// The units of the result are the radius and the mass of the sphere, and a speed U that you choose; those of lengths along the
-/// normal are r (m U^2/(r^3 K))^(2/5). A unit near the speeds that occur gives the most digits. A scene and its motions must have the
-/// same unit, and the velocities of the result are in this unit. Classes, margins and coefficients have no unit. A margin above 128
-/// becomes 128.
+/// A scene and its motions must have the same unit of speed U, which you choose near the speeds that occur. Classes, margins and
+/// coefficients have no unit, and a margin above 128 becomes 128. Numbers of the result are in these units, with the sphere's mass m and
+/// radius r:
+///
+/// | quantity | unit |
+/// | --- | --- |
+/// | velocity; spin | U; U/r |
+/// | length along the normal L, time | r (m U^2/(r^3 K))^(2/5); L/U |
+/// | impulse; work, energy | m U; m U^2 |
 ///
 /// ```
 /// use microimpact::{Class, InFixedPoint, NormalMotion, RigidBody, Sphere, SpeedRestitution};
@@ -65,6 +70,7 @@ impl<T: Real> InFixedPoint<T> for Sphere<T> {
     type Fixed = Sphere<FixedPoint>;
 
     fn in_fixed_point(&self, _unit: T) -> Result<Self::Fixed, InputError> {
+        Parameter::FixedPointGyration.check(self.gyration_ratio)?;
         Ok(Sphere {
             radius: FixedPoint::ONE,
             // The density of a sphere with radius one and mass one.

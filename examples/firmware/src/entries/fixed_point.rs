@@ -3,7 +3,7 @@
 use core::hint::black_box;
 
 use microimpact::contact::{
-    Attraction, Contact, Damping, DimensionlessImpact, FixedCost, HertzLaw, PhaseSamples, Slip, Times,
+    Attraction, Contact, Damping, DimensionlessImpact, FixedCost, HertzLaw, Impulses, PhaseSamples, Times,
 };
 use microimpact::rigid::{ReboundAdhesion, TangentialOutcome, TangentialTerm};
 use microimpact::{
@@ -61,8 +61,8 @@ where
     let scene = scene.in_fixed_point(any())?;
     let motion = PlanarMotion::in_units([any(), any(), any()])?;
     let method = FixedCost::<5>::new(black_box(3))?.with_outputs::<9>();
-    let (impact, slip) = scene.solve_for(&motion, &method, (Times, Slip))?;
-    keep((impact.class(), impact.normal.overall_restitution(), slip));
+    let (impact, outputs) = scene.solve_for(&motion, &method, (Times, Impulses))?;
+    keep((impact.class(), impact.normal.overall_restitution(), outputs));
     Ok(())
 }
 

@@ -150,10 +150,11 @@ where
 }
 
 impl<const N: usize, const M: usize> FixedCost<N, M> {
-    /// Whether polynomials represent the motion under a law, and what is observed of it.
+    /// Whether polynomials represent the motion under a law, and the number type what is observed of it: the way along the surface may
+    /// be longer than fixed point holds.
     #[inline]
     fn represents<T: Real, O: Observer<T>>(law: &impl ContactLaw<T>, observer: &O) -> bool {
-        let seen = !O::EVENTS || M >= N + NODES_OF_EVENTS;
+        let seen = !O::EVENTS || (!T::IS_FIXED_POINT && M >= N + NODES_OF_EVENTS);
         law.loss_power() >= WEIGHT_POWER && observer.kink().is_none() && seen
     }
 }
