@@ -117,7 +117,7 @@ const AROUND_AN_IMPACT: [Term; 7] = [
     Term { name: "calibration", modules: &["measure"], ..TERM },
     Term { name: "uncertainty", modules: &["dual"], types: &["Dual"], ..TERM },
     Term { name: "instrument", modules: &["instrument"], ..TERM },
-    Term { name: "fixed point", modules: &["fixed"], types: &["FixedPoint", "InFixedPoint"], ..TERM },
+    Term { name: "fixed point", modules: &["fixed"], types: &["FixedPoint", "FixedPointTerm", "InFixedPoint"], ..TERM },
 ];
 
 /// The scenes of the proof.

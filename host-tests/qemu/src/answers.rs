@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::fmt::{self, Display};
 
 use microimpact_scenes::contacts::{REFUSED, visit_contacts, visit_double_contacts};
+use microimpact_scenes::fixed_contacts::visit_oblique_contacts;
 use microimpact_scenes::laws::{self, visit_laws};
 use microimpact_scenes::scenes::UNDECIDED;
 use microimpact_scenes::scenes::{Answer, Number, Scene, Visitor, visit_scenes};
@@ -234,6 +235,7 @@ pub(crate) fn expected(with_laws: bool) -> Result<BTreeMap<Case, Expected>, Stri
     visit_scenes(&mut host);
     visit_contacts(&mut host);
     visit_double_contacts(&mut host);
+    visit_oblique_contacts(&mut host);
     visit_variants(&mut host);
     visit_collocations(&mut host);
     visit_recordings(&mut host);

@@ -176,10 +176,14 @@ impl From<Result<SimulatedImpact<FixedPoint, TangentialVelocities<FixedPoint>>, 
     }
 }
 
-/// Goes through the scenes.
+/// Goes through the scenes that are set up in floating point, the units of each impact too.
 pub(super) fn visit_fixed_contacts(visitor: &mut impl Visitor) {
     visitor.visit::<f32, FixedPointNormal>();
     visitor.visit::<f32, FixedPointPlanar>();
     visitor.visit::<f32, FixedPointContacts>();
+}
+
+/// Goes through those that are in integers from the measured velocities on.
+pub fn visit_oblique_contacts(visitor: &mut impl Visitor) {
     visitor.visit::<f32, FixedPointObliqueContacts>();
 }
