@@ -152,7 +152,7 @@ static void integers(void)
     memset(&fixed, 0, sizeof fixed);
     MicroimpactFixedMotion motion = {MICROIMPACT_FIXED_ONE, 0, 0};
     assert(microimpact_fixed_classify(&fixed, &motion, &result, NULL) == MICROIMPACT_STATUS_UNMADE);
-    assert(microimpact_fixed_init(&body, 0.0f, &fixed, &error) == MICROIMPACT_STATUS_INPUT && error.parameter == 54);
+    assert(microimpact_fixed_init(&body, 0.0f, &fixed, &error) == MICROIMPACT_STATUS_INPUT && error.parameter == 57);
     assert(microimpact_fixed_init(&body, unit, &fixed, &error) == MICROIMPACT_STATUS_OK);
     for (int i = 1; i <= 40; i++) {
         for (int j = -20; j <= 20; j++) {
