@@ -50,7 +50,7 @@ pub(crate) fn of(scene: &str, quantity: Quantity) -> Option<f64> {
         Quantity::Classify if scene == "simulation/fixed-oblique-1e-5" => Some(3100.0),
         Quantity::Classify if scene == "simulation/fixed-oblique-1e-6" => Some(4100.0),
         Quantity::Classify if scene == "simulation/fixed-point" => Some(9000.0),
-        Quantity::Classify if scene == "simulation/fixed-point-oblique" => Some(23e3),
+        Quantity::Classify if scene == "simulation/fixed-point-oblique" => Some(17e3),
         Quantity::Stack if scene == "simulation/fixed-point-oblique" => Some(768.0),
         Quantity::Classify if is_fixed_point(scene) => Some(750.0),
         Quantity::Stack if scene.starts_with("simulation/fixed") => Some(544.0),
@@ -83,8 +83,8 @@ const ELSEWHERE: [(&str, &str, f64); 5] = [
     ("Cortex-M0", "table/boundary", 250.0),
     ("Cortex-M0", "simulation/fixed-point", 50e3),
     ("Cortex-M3", "simulation/fixed-point", 9e3),
-    ("Cortex-M0", "simulation/fixed-point-oblique", 85e3),
-    ("Cortex-M3", "simulation/fixed-point-oblique", 23.5e3),
+    ("Cortex-M0", "simulation/fixed-point-oblique", 74e3),
+    ("Cortex-M3", "simulation/fixed-point-oblique", 17.5e3),
 ];
 
 /// The figures of the scenes for use: the worst of each scene and quantity.
