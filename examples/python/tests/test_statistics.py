@@ -229,9 +229,13 @@ scene.simulate(np.full(30_000, 2.8), 1.0, method=mi.RungeKuttaGill(steps=20_000)
 """
 
 BEGIN = """
+import signal
+
 import numpy as np
 import microimpact as mi
 
+# A shell ignores interrupts for what it runs in the background.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 contact = mi.Ring(stiffness=7.5e10, adhesion=250, zeta_a=6.25, zeta_h=10.5)
 """
 
