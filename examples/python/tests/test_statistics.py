@@ -250,5 +250,6 @@ def test_an_interrupt_ends_a_long_computation(program):
         process.send_signal(signal.SIGINT)
         begin = time.perf_counter()
         output, complaint = process.communicate(timeout=60)
-        assert time.perf_counter() - begin < 1.0
+        # Much less than the minutes of the whole, however busy the machine is.
+        assert time.perf_counter() - begin < 20.0
     assert "KeyboardInterrupt" in complaint and "done" not in output
