@@ -351,9 +351,10 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> HertzLaw<T, D, 
 
     /// Refuses adhesion and damping, in units of an impact, that fixed point does not hold.
     pub(crate) fn fits_fixed_point(&self) -> Result<(), InputError> {
-        let (potential, elastic) = (self.adhesion.energy(T::ONE), T::constant(1.25));
-        Parameter::DimensionlessAdhesion.check(potential + potential)?;
-        let force = self.damping.force(elastic, T::ONE, T::ONE);
+        let energy = self.adhesion.energy(T::ONE);
+        Parameter::DimensionlessAdhesion.check(energy + energy)?;
+        // At the peak, where the elastic force is 5/4.
+        let force = self.damping.force(T::constant(1.25), T::ONE, T::ONE);
         Parameter::DimensionlessDamping.check(T::constant(0.8) * force)?;
         Parameter::DimensionlessDamping.check(self.adhesion.damping_rate())?;
         Ok(())
@@ -625,7 +626,7 @@ impl<T: Real> HertzUnits<T> {
     /// Units for a sphere that arrives with `approach` (m/s) at a contact of equilibrium indentation `equilibrium` (m).
     pub(super) fn new(sphere: &Sphere<T>, stiffness: T, equilibrium: T, approach: T) -> Result<Self, InputError> {
         let damping = unit_damping(sphere, stiffness, approach);
-        // delta_Hertz = (5/4)^(2/5) r w^(4/5).
+        // delta_Hertz = (5/4)^(2/5) r C v.
         let hertz = T::constant(HERTZ_PEAK) * damping * sphere.radius();
         let adhesion = Parameter::AdhesionRatio.check(T::constant(5.0 / 3.0) * equilibrium / hertz)?;
         let (inverse, energy) = inverse_peak_contact_radius(adhesion);

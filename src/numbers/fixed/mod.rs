@@ -190,7 +190,7 @@ impl Div for FixedPoint {
 /// Whether the processor has no product of 64 bits: Cortex-M0. It also lacks what atomics need, which can be asked for.
 const MULTIPLIES_HALVES: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));
 
-/// The product as by [`FixedPoint::rounded`], from products of halves. It takes half the instructions of one with 64 bits.
+/// The product as by [`FixedPoint::rounded`], from products of halves: one with 64 bits would be a call, and rounding it more code.
 #[inline(never)]
 fn product_by_halves(a: i32, b: i32) -> i32 {
     let ((a_high, a_low), (b_high, b_low)) = ((a >> 16, a & 0xffff), (b >> 16, b & 0xffff));
