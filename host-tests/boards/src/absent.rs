@@ -217,9 +217,10 @@ fn frame(copy: &Path) -> Result<(), String> {
 }
 
 /// What the firmware of one scene does not need.
-const OTHER_FIRMWARE: [&str; 10] = [
+const OTHER_FIRMWARE: [&str; 11] = [
     "approximate",
     "bin",
+    "calibration",
     "calibrations",
     "entries",
     "fixed_contacts",
@@ -239,7 +240,7 @@ fn sources(copy: &Path, parts: &Parts<'_>) -> Result<(), String> {
         (PathBuf::from("src"), parts),
         (of_the_firmware("src"), &rest),
         (of_the_firmware("scenes/src"), &rest),
-        (of_the_firmware("measurement/src"), &Parts::default()),
+        (of_the_firmware("measurement/src"), &rest),
         (of_the_firmware("storage/src"), &Parts::default()),
         (of_the_firmware("src/bin"), &Parts::default()),
     ] {

@@ -21,6 +21,7 @@ use riscv32 as processor;
 
 #[cfg(target_arch = "arm")]
 mod arm;
+mod calibration;
 #[cfg(target_arch = "riscv32")]
 mod riscv32;
 pub mod stack;

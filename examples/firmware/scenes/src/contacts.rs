@@ -7,10 +7,10 @@ use microimpact::contact::{
     Collocation, Contact, ContactLaw, FixedCost, HertzLaw, Method, NormalContact, Output, RingScene, SimulatedImpact,
     Slip, Surface, TangentialVelocities,
 };
-use microimpact::{Class, Coulomb, InputError, NormalMotion, Outcome, PlanarMotion, Sphere, Stiffness};
+use microimpact::{Coulomb, InputError, NormalMotion, Outcome, PlanarMotion, Sphere, Stiffness};
 
 use super::impacts::{CONTACTS, Impact};
-use super::scenes::{Answer, Measured, Number, Scene, UNDECIDED, Visitor, given};
+use super::scenes::{Answer, Measured, Number, Scene, UNDECIDED, Visitor, given, name};
 use super::table_1::{DENSITY_KG_M3, FRICTION, MATERIAL_DAMPING, RADIUS_M, RING_DAMPING, RING_N_M, STIFFNESS_PA};
 
 /// The class of an impact that the library refuses.
@@ -182,20 +182,8 @@ impl<T: Number> From<Result<NormalContact<T>, InputError>> for Answer<T> {
 
 impl<T: Number> From<Result<SimulatedImpact<T, TangentialVelocities<T>>, InputError>> for Answer<T> {
     fn from(verdict: Result<SimulatedImpact<T, TangentialVelocities<T>>, InputError>) -> Self {
-        let class = verdict.as_ref().map_or(REFUSED, |impact| name(impact.class()));
+        let class = verdict.as_ref().map_or(REFUSED, |impact| impact.class().map_or(UNDECIDED, name));
         answer(class, verdict.ok().map(|impact| impact.normal))
-    }
-}
-
-/// Name of a class.
-pub(super) fn name(class: Option<Class>) -> &'static str {
-    match class {
-        Some(Class::ReboundSliding) => "rebound-sliding",
-        Some(Class::ReboundRolling) => "rebound-rolling",
-        Some(Class::CapturedSliding) => "captured-sliding",
-        Some(Class::CapturedRolling) => "captured-rolling",
-        Some(Class::CapturedResting) => "captured-resting",
-        Some(Class::Undecided) | None => UNDECIDED,
     }
 }
 

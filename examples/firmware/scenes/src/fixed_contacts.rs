@@ -12,9 +12,9 @@ use microimpact::{
     RigidBody, SpeedRestitution,
 };
 
-use super::contacts::{REFUSED, exact_restitution, name, surface};
+use super::contacts::{REFUSED, exact_restitution, surface};
 use super::impacts::{CONTACTS, Impact};
-use super::scenes::{Answer, Measured, Normal, Planar, Scene, UNDECIDED, Visitor, given};
+use super::scenes::{Answer, Measured, Normal, Planar, Scene, UNDECIDED, Visitor, given, name};
 use super::table_1::FRICTION;
 
 /// Unit of speed of the rigid bodies.
@@ -168,7 +168,7 @@ impl From<Result<SimulatedImpact<FixedPoint, TangentialVelocities<FixedPoint>>, 
         };
         let narrow = |value: FixedPoint| value.to_f64() as f32;
         Self {
-            class: name(impact.class()),
+            class: impact.class().map_or(UNDECIDED, name),
             speed_margin: None,
             friction_margin: impact.tangential.friction_over_limit().map(narrow),
             restitution: Some(narrow(impact.normal.overall_restitution())),

@@ -219,18 +219,23 @@ impl<T> From<Classification<T, ()>> for Answer<T> {
 impl<T> From<Classification<T, ContactClass<T>>> for Answer<T> {
     fn from(verdict: Classification<T, ContactClass<T>>) -> Self {
         Self {
-            class: match verdict.class() {
-                Class::ReboundSliding => "rebound-sliding",
-                Class::ReboundRolling => "rebound-rolling",
-                Class::CapturedSliding => "captured-sliding",
-                Class::CapturedRolling => "captured-rolling",
-                Class::CapturedResting => "captured-resting",
-                Class::Undecided => UNDECIDED,
-            },
+            class: name(verdict.class()),
             speed_margin: verdict.speed_over_critical,
             friction_margin: verdict.contact.friction_over_limit,
             restitution: None,
         }
+    }
+}
+
+/// Name of the class of an oblique impact.
+pub(super) fn name(class: Class) -> &'static str {
+    match class {
+        Class::ReboundSliding => "rebound-sliding",
+        Class::ReboundRolling => "rebound-rolling",
+        Class::CapturedSliding => "captured-sliding",
+        Class::CapturedRolling => "captured-rolling",
+        Class::CapturedResting => "captured-resting",
+        Class::Undecided => UNDECIDED,
     }
 }
 

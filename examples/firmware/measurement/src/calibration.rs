@@ -3,15 +3,13 @@
 use core::fmt::{self, Display, LowerExp};
 use core::hint::black_box;
 
-use measurement::{Measurement, fail, hprintln, stack};
 use microimpact::measure::CalibrationError;
-use microimpact_firmware::calibrations::{Calibration, CalibrationVisitor};
-use microimpact_firmware::scenes::Number;
+use microimpact_scenes::calibrations::{Calibration, CalibrationVisitor};
+use microimpact_scenes::scenes::Number;
 
-/// Measures every calibration.
-pub(crate) struct Measured<'a>(pub(crate) &'a mut Measurement);
+use crate::{Measurement, fail, hprintln, stack};
 
-impl CalibrationVisitor for Measured<'_> {
+impl CalibrationVisitor for Measurement {
     fn visit<T: Number, C: Calibration<T>>(&mut self) {
         let Some(measured) = set_up::<T, C>() else {
             fail(C::NAME);
@@ -30,7 +28,7 @@ impl CalibrationVisitor for Measured<'_> {
             C::NAME,
             T::NAME,
             Values(answer.as_ref()),
-            self.0.counter.count(work),
+            self.counter.count(work),
             bytes,
         );
         let code: fn() = code::<T, C>;
