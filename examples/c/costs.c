@@ -141,16 +141,18 @@ static void tally_read(void) { static MicroimpactTallyReport r; microimpact_tall
 static void fit_restitution(void) { static MicroimpactFit f; microimpact_fit_restitution(measured, room, COUNT(measured), &f, &error); }
 static void fit_damping(void) { microimpact_fit_material_damping(&contact, 13.0f, 0.909f, &number, &error); }
 static void describe(void) { microimpact_describe(8, MICROIMPACT_FAULT_OTHER_LAW, text, sizeof text); }
-static void name(void) { microimpact_parameter_name(66, text, sizeof text); }
-static void unit(void) { microimpact_parameter_unit(74, text, sizeof text); }
+static uint32_t parameter;
+static void name(void) { microimpact_parameter_name(parameter, text, sizeof text); }
+static void unit(void) { microimpact_parameter_unit(parameter, text, sizeof text); }
 static void version(void) { (void)microimpact_version(); }
 static void abi(void) { (void)microimpact_abi(); }
 static void layout(void) { (void)microimpact_layout(); }
 
-/* For each motion; until the table is complete; or for each impact of the shared grid. */
+/* For each motion; until the table is complete; for each impact of the shared grid; or for each parameter. */
 #define EACH 1
 #define STEPS 2
 #define SHARED 3
+#define NUMBERED 4
 
 static const struct {
     const char *name;
@@ -174,8 +176,8 @@ static const struct {
     {"scene_classify, 3 iterations on the shared grid", scene_fixed_cost, SHARED}, {"queue_init", queue_init, 0}, {"queue_push", queue_push, 0},
     {"queue_pop", queue_pop, 0}, {"queue_lost", queue_lost, 0}, {"tally_init", tally_init, 0}, {"tally_record", tally_record, 1},
     {"tally_read", tally_read, 0}, {"fit_restitution, 30 impacts", fit_restitution, 0}, {"fit_material_damping", fit_damping, 0},
-    {"describe", describe, 0}, {"parameter_name", name, 0}, {"parameter_unit", unit, 0}, {"version", version, 0}, {"abi", abi, 0},
-    {"layout", layout, 0},
+    {"describe", describe, 0}, {"parameter_name", name, NUMBERED}, {"parameter_unit", unit, NUMBERED},
+    {"version", version, 0}, {"abi", abi, 0}, {"layout", layout, 0},
 };
 
 /* The motions of the scene of the paper. */
@@ -265,7 +267,9 @@ int main(void)
 {
     uint32_t stack, least;
     uint64_t per_million, empty;
-    size_t i, j;
+    size_t i, j, parameters = 0u;
+    while (microimpact_parameter_name((uint32_t)parameters, NULL, 0u) > 0u)
+        parameters++;
     prepare();
     TIMER[1] = LARGEST;
     TIMER[2] = 0u;
@@ -275,7 +279,7 @@ int main(void)
     if (per_million < 2000000u)
         return 1; /* the timer does not follow the instructions */
     for (i = 0; i < COUNT(FUNCTIONS); i++) {
-        const size_t runs[] = {1u, COUNT(SPEEDS) * COUNT(ALONG), 1u, COUNT(GRID)};
+        const size_t runs[] = {1u, COUNT(SPEEDS) * COUNT(ALONG), 1u, COUNT(GRID), parameters};
         uint64_t most = 0u;
         uint32_t deepest = 0u;
         for (j = 0; j < runs[FUNCTIONS[i].each]; j++) {
@@ -283,6 +287,8 @@ int main(void)
                 move(SPEEDS[j / COUNT(ALONG)], ALONG[j % COUNT(ALONG)]);
             if (FUNCTIONS[i].each == SHARED)
                 take(GRID[j]);
+            if (FUNCTIONS[i].each == NUMBERED)
+                parameter = (uint32_t)j;
             do {
                 const uint64_t ticks = ticks_of(FUNCTIONS[i].call, &stack);
                 most = ticks > most ? ticks : most;
