@@ -18,7 +18,7 @@ MEMORY
 const MAPS: [(&str, &str); 2] = [("thumbv8m", "maps/mps2-an505.x"), ("riscv32", "maps/virt.x")];
 
 /// Binaries whose scenes are measured, the flash of each by what its code refers to: relocations and a map say that.
-const MEASURED: [&str; 10] = [
+const MEASURED: [&str; 11] = [
     "classify",
     "contacts",
     "double_contacts",
@@ -26,6 +26,7 @@ const MEASURED: [&str; 10] = [
     "variants",
     "collocations",
     "recordings",
+    "functions",
     "law",
     "calibrate",
     "double_calibrate",

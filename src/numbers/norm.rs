@@ -1,8 +1,8 @@
-//! The Euclidean norm.
+//! The norm of independent errors.
 
 use crate::Real;
 
-/// Root of the sum of squares, as of independent errors.
+/// Standard error of a sum whose parts have independent errors: the root of the sum of their squares.
 pub(crate) fn norm<T: Real>(parts: impl IntoIterator<Item = T>) -> T {
-    parts.into_iter().fold(T::ZERO, |sum, part| sum + part * part).sqrt()
+    parts.into_iter().fold(T::ZERO, |sum, part| sum + part * part).root_of_variance()
 }

@@ -5,6 +5,7 @@ use std::fmt::{self, Display};
 
 use microimpact_scenes::contacts::{REFUSED, visit_contacts, visit_double_contacts};
 use microimpact_scenes::fixed_contacts::visit_oblique_contacts;
+use microimpact_scenes::functions::visit_functions;
 use microimpact_scenes::laws::{self, visit_laws};
 use microimpact_scenes::scenes::UNDECIDED;
 use microimpact_scenes::scenes::{Answer, Number, Scene, Visitor, visit_scenes};
@@ -239,6 +240,7 @@ pub(crate) fn expected(with_laws: bool) -> Result<BTreeMap<Case, Expected>, Stri
     visit_variants(&mut host);
     visit_collocations(&mut host);
     visit_recordings(&mut host);
+    visit_functions(&mut host);
     if with_laws {
         visit_laws(&mut host);
     }

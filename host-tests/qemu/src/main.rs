@@ -231,8 +231,16 @@ fn tools(choice: Choice, boards: &[Board], permission: Permission) -> Result<Too
 }
 
 /// The binaries that measure; together they hold more than the smallest board does.
-const MEASURING: [&str; 7] =
-    ["classify", "contacts", "double_contacts", "fixed_contacts", "variants", "collocations", "recordings"];
+const MEASURING: [&str; 8] = [
+    "classify",
+    "contacts",
+    "double_contacts",
+    "fixed_contacts",
+    "variants",
+    "collocations",
+    "recordings",
+    "functions",
+];
 
 /// What the firmware says on a board, and what each scene needs of it.
 fn run_board(toolchain: &Toolchain, board: &Board) -> Result<(Protocol, Vec<Figure>), String> {

@@ -7,6 +7,7 @@ pub mod approximate;
 pub mod calibrations;
 pub mod contacts;
 pub mod fixed_contacts;
+pub mod functions;
 pub mod impacts;
 pub mod laws;
 #[cfg(feature = "methods")]
