@@ -31,9 +31,11 @@ pub(crate) fn is_fixed_point(scene: &str) -> bool {
     scene.ends_with("fixed-point")
 }
 
-/// Whether a scene is there for the price of one term or law.
+/// Whether a scene is there for the price of one term, law or function.
 fn is_variant(scene: &str) -> bool {
-    ["rigid/", "fixed-cost/", "collocation/", "law/", "law-fixed-cost/"].iter().any(|family| scene.starts_with(family))
+    ["rigid/", "fixed-cost/", "collocation/", "law/", "law-fixed-cost/", "function/"]
+        .iter()
+        .any(|family| scene.starts_with(family))
 }
 
 /// Whether a scene is a calibration.

@@ -36,7 +36,7 @@ struct Family {
 const CLASSIFICATION: (Quantity, &str) = (Quantity::Classify, "instructions of the most expensive impact");
 const CALIBRATION: (Quantity, &str) = (Quantity::Calibrate, "instructions");
 
-const FAMILIES: [Family; 7] = [
+const FAMILIES: [Family; 8] = [
     Family {
         title: "Rigid body with R = k/(k + v), classified",
         name: "rigid-body",
@@ -117,6 +117,17 @@ const FAMILIES: [Family; 7] = [
             start("planar/work-fixed-point", "the same in fixed point"),
             start("simulation/fixed-class", "FixedCost<4>, 2 iterations, set-up included"),
             start("simulation/fixed-point", "the same in fixed point, set up before"),
+        ],
+    },
+    Family {
+        title: "Functions, the library's own and those of micromath",
+        name: "functions",
+        work: CLASSIFICATION,
+        steps: &[
+            start("function/root", "square root"),
+            start("function/two-fifths-power", "power 2/5"),
+            start("function/decay", "exponential function"),
+            start("function/standard-error", "standard error by three inputs"),
         ],
     },
     Family {

@@ -1,4 +1,4 @@
-//! What the approximate functions of micromath do to both models: the reason why the library does not offer them.
+//! What the approximate functions of micromath do to both models: the reason why classes do not depend on them.
 
 use microimpact::contact::{DimensionlessContact, FixedCost, PhaseSamples};
 use microimpact::{CriticalSpeed, Outcome, Real, RigidBody, SpeedRestitution, Sphere};

@@ -10,7 +10,8 @@
 //! The interrupt needs no floating point. The main loop takes the integers from a [`Queue`](super::Queue) and calls the front end.
 //!
 //! Standard errors are propagated to first order. A result whose relative error would exceed a fifth is refused, since a
-//! quotient of such a number is not normally distributed any more.
+//! quotient of such a number is not normally distributed any more. With the feature `approximate-errors` each propagation in `f32` makes
+//! them 0 to 6.1 % larger.
 
 mod charge;
 mod clock;

@@ -1,10 +1,11 @@
 //! The guide's page of the footprint has the figures that were measured.
 
+use boards::REFERENCE_CORE;
 use boards::figures::Quantity;
 use microimpact::contact::{Contact, FixedCost};
 use microimpact::{NormalMotion, Sphere, Stiffness};
 
-use super::{measured, measured_on, words};
+use super::{measured, measured_in, measured_on, words};
 
 const PAGE: &str = include_str!("../../../../examples/guide/pages/footprint.md");
 
@@ -81,6 +82,31 @@ fn instructions_in_fixed_point_are_current() {
         let count = |core: &str| measured_on(core, scene, Quantity::Classify).to_string();
         let statement = statement.replace("{M3}", &count("Cortex-M3")).replace("{M0}", &count("Cortex-M0"));
         assert!(words.contains(&statement), "the page lacks: {statement}");
+    }
+}
+
+/// Functions by their names on the page and in the measurements.
+const FUNCTIONS: [(&str, &str); 4] = [
+    ("square root", "function/root"),
+    ("power 2/5", "function/two-fifths-power"),
+    ("exponential function", "function/decay"),
+    ("standard error", "function/standard-error"),
+];
+
+#[test]
+fn functions_of_micromath_are_current() {
+    for (name, scene) in FUNCTIONS {
+        let both = |core: &str| {
+            ["f32", "micromath"]
+                .map(|scalar| measured_in(scalar, core, scene, Quantity::Classify).to_string())
+                .join(" / ")
+        };
+        let counts = ["Cortex-M0", "Cortex-M3", "Cortex-M4F", "RV32IMAC"].map(both).join(" | ");
+        let bytes =
+            ["f32", "micromath"].map(|scalar| measured_in(scalar, "Cortex-M0", scene, Quantity::Code).to_string());
+        let error = measured_in("micromath", REFERENCE_CORE, scene, Quantity::Error);
+        let row = format!("| {name} | {counts} | {} | {error:.0e} |", bytes.join(" / "));
+        assert!(PAGE.contains(&row), "the page lacks the row\n{row}");
     }
 }
 

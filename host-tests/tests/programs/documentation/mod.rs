@@ -19,7 +19,12 @@ fn measured(scene: &str, quantity: Quantity) -> f64 {
 
 /// The same on any core.
 fn measured_on(core: &str, scene: &str, quantity: Quantity) -> f64 {
-    largest(STORED.all(), core, scene, "f32", quantity).unwrap()
+    measured_in("f32", core, scene, quantity)
+}
+
+/// The same in any number type.
+fn measured_in(scalar: &str, core: &str, scene: &str, quantity: Quantity) -> f64 {
+    largest(STORED.all(), core, scene, scalar, quantity).unwrap()
 }
 
 /// A text in one line, as its lines break anywhere.
