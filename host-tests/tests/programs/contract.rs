@@ -50,6 +50,15 @@ fn units_are_those_of_the_header() {
     );
 }
 
+/// Spaces beside separators leave the quotes in the cells.
+#[test]
+fn quotes_with_spaces_around_separators() {
+    let plain = "radius_um,density_kg_m3,restitution,speed_normal_m_s\n5.06,2600,0.978,2.8\n";
+    let quoted = plain.replacen("radius_um,density_kg_m3", "\"radius_micron\" , \"density_kg_m3\"", 1);
+    let computed = |table: &str| computed(&classified(table.as_bytes(), "rigid-body"), b',');
+    assert_eq!(computed(plain), computed(&quoted));
+}
+
 /// Wrong units are one error of the file, not results that are a million times too large.
 #[test]
 fn wrong_units_are_refused() {

@@ -24,7 +24,7 @@ impl Heading {
     /// # Errors
     /// The unit in brackets is none of the column's quantity.
     pub(crate) fn of(cell: &str, inputs: &[Input]) -> Result<Self, String> {
-        let text = cell.trim().trim_start_matches('\u{feff}');
+        let text = without_quotes(cell.trim().trim_start_matches('\u{feff}'));
         let (words, brackets) = split(text);
         let base = lower(words);
         let columns = || inputs.iter().flat_map(|input| input.columns()).copied();
@@ -113,6 +113,11 @@ impl Heading {
             None => self.name.clone(),
         }
     }
+}
+
+/// A text without the quotes that stay in a cell behind a space: `"radius_m" , "density_kg_m3"`.
+fn without_quotes(text: &str) -> &str {
+    text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text).trim()
 }
 
 /// A text as names of columns are written: in lower case, with underscores for spaces.

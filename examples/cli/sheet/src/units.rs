@@ -29,7 +29,17 @@ const RADIAN: f64 = 180.0 / std::f64::consts::PI;
 /// The units of each quantity, by the unit that the program computes in. Of symbols that differ in capitals only, the commoner
 /// is first.
 const UNITS: [(&str, &[Unit]); 16] = [
-    ("m", &[decimal("m", 0), decimal("cm", -2), decimal("mm", -3), decimal("um", -6), decimal("nm", -9)]),
+    (
+        "m",
+        &[
+            decimal("m", 0),
+            decimal("cm", -2),
+            decimal("mm", -3),
+            decimal("um", -6),
+            decimal("micron", -6),
+            decimal("nm", -9),
+        ],
+    ),
     ("kg/m3", &[decimal("kg/m3", 0), decimal("g/cm3", 3), decimal("g/ml", 3), decimal("kg/l", 3), decimal("g/l", 0)]),
     (
         "m/s",
@@ -272,6 +282,7 @@ mod tests {
             ("N/m", "mN/m", "mN/m"),
             ("J/m2", "mJ m^-2", "mJ/m2"),
             ("N m", "N m", "N m"),
+            ("m", "Micron", "micron"),
             ("deg", "°", "deg"),
             ("rad/s", "°/s", "deg/s"),
         ] {
@@ -280,6 +291,7 @@ mod tests {
         // A strength of the ring is no moment.
         assert_eq!(unit_in(units_of("N/m"), "N m"), None);
         assert_eq!(unit_in(units_of("m"), "m/s"), None);
+        assert_eq!(unit_by_suffix(units_of("m"), "micron").map(|unit| unit.symbol), Some("micron"));
         assert_eq!(unit_by_suffix(units_of("kg/m3"), "g_cm3").map(|unit| unit.symbol), Some("g/cm3"));
     }
 }
