@@ -371,7 +371,7 @@ pub enum Fault {
     TooLarge,
     /// The thickness exceeds the radius of its sphere.
     ExceedsRadius,
-    /// The tolerance is below what the rounding of the number type allows.
+    /// The tolerance is below what the rounding of the number type allows. Fixed point allows none.
     BelowPrecision,
     /// The tolerance is below what the number of nodes can keep.
     TooFewNodes,
@@ -447,7 +447,9 @@ impl fmt::Display for InputError {
         f.write_str(", but must ")?;
         match fault {
             Fault::ExceedsRadius => f.write_str("not exceed the radius of the sphere"),
-            Fault::BelowPrecision => f.write_str("be at least 1e-6 in single and 1e-13 in double precision"),
+            Fault::BelowPrecision => {
+                f.write_str("be at least 1e-6 in single and 1e-13 in double precision; in fixed point use `FixedCost`")
+            }
             Fault::TooFewNodes => f.write_str(
                 "be at least 1e-3 with four nodes, 3e-4 with five, 1e-5 with six, 1e-7 with seven, 1e-9 with eight and 1e-11 \
                  with nine; use more nodes or `Adaptive`",

@@ -8,7 +8,7 @@ use microimpact::contact::{
 };
 use microimpact::{
     Coulomb, Fault, FixedPoint, FixedPointTerm, InFixedPoint, NormalMotion, Oblique, Outcome, Parameter, PlanarMotion,
-    Sphere, Stiffness,
+    Real, Sphere, Stiffness,
 };
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -198,4 +198,14 @@ fn outputs_are_right_or_refused() {
     near(impulses.elastic, exact_impulses.elastic / (mass * unit));
     near(impact.normal.peak_indentation().unwrap(), exact.normal.peak_indentation().unwrap() / length);
     near(impact.normal.rebound_speed(), exact.normal.rebound_speed() / unit);
+}
+
+/// Tolerances are of the size of its units.
+#[test]
+fn methods_with_a_tolerance_say_what_to_use() {
+    for tolerance in [1e-2, 1e-4] {
+        let error = Adaptive::new(FixedPoint::constant(tolerance)).unwrap_err();
+        assert_eq!((error.parameter, error.fault), (Parameter::Tolerance, Fault::BelowPrecision));
+        assert!(error.to_string().ends_with("in fixed point use `FixedCost`"), "{error}");
+    }
 }

@@ -108,7 +108,7 @@ impl<T: Real> Adaptive<T> {
     /// let error = microimpact::contact::Adaptive::new(1e-9_f32).unwrap_err();
     /// assert_eq!(
     ///     error.to_string(),
-    ///     "tolerance is 1e-9, but must be at least 1e-6 in single and 1e-13 in double precision"
+    ///     "tolerance is 1e-9, but must be at least 1e-6 in single and 1e-13 in double precision; in fixed point use `FixedCost`"
     /// );
     /// ```
     pub fn new(tolerance: T) -> Result<Self, InputError> {

@@ -145,6 +145,10 @@ impl<T: Real, const N: usize> TryFrom<Tolerance<T>> for Collocation<N, T> {
 
 /// A tolerance in its range, and no less than the rounding of the number type allows.
 pub(super) fn checked_tolerance<T: Real>(tolerance: T) -> Result<T, InputError> {
+    // Its units are of the size of the tolerances.
+    if T::IS_FIXED_POINT {
+        return Err(refused(tolerance, Fault::BelowPrecision));
+    }
     let tolerance = Parameter::Tolerance.check(tolerance)?;
     if tolerance < T::constant(LEAST_TOLERANCE) * T::EPSILON {
         return Err(refused(tolerance, Fault::BelowPrecision));
