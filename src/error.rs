@@ -92,6 +92,8 @@ macro_rules! parameters {
             }
 
             /// Name, unit and range.
+            // Inlined, a range is two constants.
+            #[inline]
             const fn describe(self) -> (&'static str, &'static str, (f64, f64)) {
                 match self {
                     $(Self::$physical => ($name, $unit, ($smallest, $largest)),)+
@@ -305,6 +307,7 @@ impl Parameter {
     /// ```
     /// assert_eq!(microimpact::Parameter::Restitution.range(), (0.0, 1.0));
     /// ```
+    #[inline]
     pub const fn range(self) -> (f64, f64) {
         self.describe().2
     }

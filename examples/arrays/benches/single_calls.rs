@@ -10,7 +10,7 @@ use comfy_table::Table;
 use impact_arrays::{
     Adhesion, Column, Contacts, Damping, Impacts, Law, Motions, Quantity, Restitution, RigidBodies, Surface,
 };
-use microimpact::contact::{Adaptive, Contact};
+use microimpact::contact::{Adaptive, Contact, FixedCost, Method};
 use microimpact::rigid::SpeedRestitution;
 use microimpact::{InputError, NormalMotion, RigidBody, Sphere, Stiffness};
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -78,7 +78,7 @@ fn rigid_body(radius: f64, speed: f64) -> Result<(f64, f64), InputError> {
     Ok((impact.normal.overall_restitution(), impact.tangential.spin(&sphere)))
 }
 
-fn simulation(radius: f64, speed: f64, method: &Adaptive<f64>) -> Result<(f64, f64), InputError> {
+fn simulation(radius: f64, speed: f64, method: &impl Method<f64>) -> Result<(f64, f64), InputError> {
     let contact = Contact::hertz(Sphere::solid(radius, DENSITY)?, Stiffness::new(STIFFNESS)?)
         .with_damping(ZETA_H)?
         .with_ring(ADHESION, ZETA_A)?
@@ -152,15 +152,21 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let method = Adaptive::new(1e-9)?;
     let mut results = vec![(0.0, 0.0); ROWS_OF_SIMULATIONS];
-    let alone = || {
+    let mut loop_by = |method: &dyn Fn(f64, f64) -> Result<(f64, f64), InputError>| {
         for (result, (radius, speed)) in results.iter_mut().zip(rows.pairs()) {
-            *result = simulation(radius, speed, &method)?;
+            *result = method(radius, speed)?;
         }
         black_box(&results);
         Ok(())
     };
+    let alone = || loop_by(&|radius, speed| simulation(radius, speed, &method));
     let arrays = |count| contacts.simulate(&rows.motions(), count, &method, &QUANTITIES);
     table.add_row(line("simulation, adaptive 1e-9", ROWS_OF_SIMULATIONS, &one, alone, arrays)?);
+    // In lanes, as fast as the processor's vectors allow.
+    let quick = FixedCost::<7>::new(3)?;
+    let alone = || loop_by(&|radius, speed| simulation(radius, speed, &quick));
+    let arrays = |count| contacts.simulate_in_lanes(&rows.motions(), count, &quick, &method, &QUANTITIES);
+    table.add_row(line("simulation, FixedCost<7> in lanes", ROWS_OF_SIMULATIONS, &one, alone, arrays)?);
     println!("{table}");
     Ok(())
 }

@@ -115,7 +115,7 @@ impl Contacts<'_> {
     }
 
     /// The law of contact whose numbers `at` takes from the columns: those of a row, or of several in lanes.
-    fn law<T: Real>(&self, at: impl Fn(&Column<'_>) -> T) -> Result<AnyLaw<T>, InputError> {
+    pub(crate) fn law<T: Real>(&self, at: impl Fn(&Column<'_>) -> T) -> Result<AnyLaw<T>, InputError> {
         let stiffness = Stiffness::new(at(&self.stiffness))?;
         let law = match &self.law {
             Law::Hertz => AnyLaw::hertz(stiffness),

@@ -194,19 +194,19 @@ pub(crate) fn gather<A: Answer>(
     })
 }
 
-/// Computes ranges of rows on all threads.
+/// Computes ranges of rows on all threads; `compute` hands the answers of its rows over in their order.
 pub(crate) fn gather_ranges<A: Answer>(
     count: usize,
     quantities: &[Quantity],
-    compute: impl Fn(Range<usize>) -> Vec<Result<A, InputError>> + Sync,
+    compute: impl Fn(Range<usize>, &mut dyn FnMut(Result<A, InputError>)) + Sync,
 ) -> Impacts {
     fill_parts(count, quantities, |part| {
-        for (row, answer) in part.rows().zip(compute(part.rows())) {
-            match answer {
-                Ok(answer) => part.slot(row).put(&answer),
-                Err(error) => part.refuse(row, error),
-            }
-        }
+        let mut rows = part.rows();
+        compute(part.rows(), &mut |answer| match (rows.next(), answer) {
+            (Some(row), Ok(answer)) => part.slot(row).put(&answer),
+            (Some(row), Err(error)) => part.refuse(row, error),
+            (None, _) => {}
+        });
     })
 }
 

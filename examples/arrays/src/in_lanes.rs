@@ -51,26 +51,21 @@ impl Contacts<'_> {
             let record = self.row(motions, row, method, asked)?;
             if record.is_decided() { Ok(record) } else { self.row(motions, row, otherwise, asked) }
         };
-        gather_ranges(count, quantities, |rows| {
-            let mut records = Vec::with_capacity(rows.len());
+        gather_ranges(count, quantities, |rows, put| {
             let mut next = rows.start;
             while next < rows.end {
-                let together = if asked == Asked::All || next + LANES > rows.end {
-                    None
-                } else {
-                    self.together(motions, next, method, asked)
-                };
+                let fits = asked != Asked::All && next + LANES <= rows.end;
+                let together = if fits { self.together(motions, next, method, asked) } else { None };
                 let Some(together) = together else {
-                    records.push(alone(next));
+                    put(alone(next));
                     next += 1;
                     continue;
                 };
                 for record in together {
-                    records.push(if record.is_decided() { Ok(record) } else { alone(next) });
+                    put(if record.is_decided() { Ok(record) } else { alone(next) });
                     next += 1;
                 }
             }
-            records
         })
     }
 
@@ -113,7 +108,7 @@ impl Contacts<'_> {
         let before = NormalMotion::new(of(|arrival| arrival.motion.normal().speed()))?
             .with_tangential(of(|arrival| arrival.motion.tangential()))?
             .with_peripheral_velocity(of(|arrival| arrival.motion.peripheral()))?;
-        by_law!(*self.scene_of(sphere, at)?.law(), law => {
+        by_law!(self.law(at)?, law => {
             let scene = Contact::new(sphere, law).with_friction(at(&friction))?;
             Ok(if asked == Asked::End {
                 let impacts = scene.solve_lanes::<f64, _, N, M, LANES>(&before, method)?;

@@ -52,10 +52,11 @@ pub(crate) struct Arrival {
     place: Place,
 }
 
+// Boxed, so that motions in a plane do not move their bytes about.
 enum Place {
     Plane,
-    Wall(WallIncidence<f64>),
-    Pair(PairIncidence<f64>),
+    Wall(Box<WallIncidence<f64>>),
+    Pair(Box<PairIncidence<f64>>),
 }
 
 /// The same planar motion as a motion of that type.
@@ -77,14 +78,18 @@ impl Motions<'_> {
             Self::Wall { velocity, spin, normal, wall_velocity } => {
                 let before = SpatialMotion::new(vector(velocity), vector(spin))?;
                 let incidence = Wall::moving(vector(normal), vector(wall_velocity))?.incidence(&sphere, &before)?;
-                Ok(Arrival { sphere, motion: planar(&incidence)?, place: Place::Wall(incidence) })
+                Ok(Arrival { sphere, motion: planar(&incidence)?, place: Place::Wall(Box::new(incidence)) })
             }
             Self::Pair { velocities, spins, normal, radius, density, gyration_ratio } => {
                 let second = Sphere::new(radius.at(row), density.at(row), gyration_ratio.at(row))?;
                 let motion = |body: usize| SpatialMotion::new(vector(&velocities[body]), vector(&spins[body]));
                 let pair = Pair::new(sphere, second);
                 let incidence = pair.incidence(vector(normal), [&motion(0)?, &motion(1)?])?;
-                Ok(Arrival { sphere: pair.reduced(), motion: planar(&incidence)?, place: Place::Pair(incidence) })
+                Ok(Arrival {
+                    sphere: pair.reduced(),
+                    motion: planar(&incidence)?,
+                    place: Place::Pair(Box::new(incidence)),
+                })
             }
         }
     }

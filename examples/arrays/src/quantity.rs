@@ -59,7 +59,8 @@ quantities! {
     SpeedTangentialOut: "speed_tangential_out", End;
     /// Spin, rad/s: after a rebound, or of a captured sphere when its slip has ended.
     SpinOut: "spin_out", End;
-    /// Friction over the least that ends the slip: the sphere rolls from one on. Not with a peeling moment or compliance.
+    /// Friction over the least that ends the slip: the sphere rolls from one on. Not with a peeling moment or compliance, nor where a
+    /// method is chosen at run time and is not `Adaptive`.
     FrictionOverLimit: "friction_over_limit", End;
     /// Peak indentation, m. Simulation.
     MaxIndentation: "max_indentation", End;
@@ -117,8 +118,9 @@ quantities! {
     WorkFriction: "work_friction", All;
     /// Work of rolling dissipation or of a peeling moment, J. Rigid body, and simulation of a rebound.
     WorkRolling: "work_rolling", All;
-    /// Kinetic energy before the impact, J, of the motion in its plane. Rigid body, and simulation of a rebound.
+    /// Kinetic energy before the impact, J: of the motion in its plane relative to the wall or, of two spheres, to each other. Rigid body,
+    /// and simulation of a rebound.
     EnergyBefore: "energy_before", All;
-    /// Kinetic energy after the impact, J, of the motion in its plane. Rigid body, and simulation of a rebound.
+    /// The same after the impact, J: the difference is what the impact takes. Rigid body, and simulation of a rebound.
     EnergyAfter: "energy_after", All;
 }

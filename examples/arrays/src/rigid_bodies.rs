@@ -4,12 +4,12 @@ use std::cell::OnceCell;
 
 use microimpact::rigid::{
     AdhesionCoefficient, AnyAdhesion, AnyRestitution, ElasticPlasticRestitution, EnergyLedger, PowerRestitution,
-    RollingDissipation, SpeedAdhesion, SpeedRestitution, TangentialOutcome, WorkOfAdhesion,
+    ReboundAdhesion, RollingDissipation, SpeedAdhesion, SpeedRestitution, TangentialOutcome, WorkOfAdhesion,
 };
 use microimpact::space::SpatialMotion;
 use microimpact::{
-    Class, ConstantRestitution, ContactClass, CriticalSpeed, Impact, InputError, Outcome, Parameter, RigidBody, Sphere,
-    TangentialImpact,
+    Class, ConstantRestitution, ContactClass, CriticalSpeed, Impact, InputError, Outcome, Parameter, RestitutionLaw,
+    RigidBody, Sphere, TangentialImpact,
 };
 use rayon::prelude::*;
 
@@ -100,45 +100,76 @@ impl Adhesion<'_> {
     }
 }
 
-/// The rigid body of a row.
-type Body = RigidBody<f64, AnyRestitution<f64>, AnyAdhesion<f64>, RollingDissipation<f64>>;
-
 impl RigidBodies<'_> {
     /// The sphere of a row.
     fn sphere(&self, row: usize) -> Result<Sphere<f64>, InputError> {
         Sphere::new(self.radius.at(row), self.density.at(row), self.gyration_ratio.at(row))
     }
 
-    fn body(&self, sphere: Sphere<f64>, row: usize) -> Result<Body, InputError> {
-        RigidBody::new(sphere, self.restitution.at(row)?)
-            .with_adhesion(self.adhesion.at(&sphere, row)?)
+    /// The body of a row with laws of any type.
+    fn body<R, A>(&self, sphere: Sphere<f64>, restitution: R, adhesion: A, row: usize) -> Result<Body<R, A>, InputError>
+    where
+        R: RestitutionLaw<f64>,
+        A: ReboundAdhesion<f64>,
+    {
+        RigidBody::new(sphere, restitution)
+            .with_adhesion(adhesion)
             .with_friction(self.friction.at(row))?
             .with_rolling_dissipation(self.rolling_arm.at(row))
     }
 
     /// Classifies the impacts of `count` rows on all threads. The result of a row is that of a single call.
     pub fn classify(&self, motions: &Motions<'_>, count: usize, quantities: &[Quantity]) -> Impacts {
+        match (self.restitution, self.adhesion) {
+            // The laws of the paper by their types: a law that is chosen in each row takes half as much time again.
+            (Restitution::Power { speed, power: Column::All(1.0) }, Adhesion::Work(work)) => {
+                let restitution = |row| SpeedRestitution::new(speed.at(row));
+                let adhesion = |sphere: &_, row| WorkOfAdhesion::new(work.at(row), sphere);
+                self.classify_by(motions, count, quantities, restitution, adhesion)
+            }
+            (restitution, adhesion) => {
+                let (restitution, adhesion) = (|row| restitution.at(row), |sphere: &_, row| adhesion.at(sphere, row));
+                self.classify_by(motions, count, quantities, restitution, adhesion)
+            }
+        }
+    }
+
+    fn classify_by<R: RestitutionLaw<f64>, A: ReboundAdhesion<f64>>(
+        &self,
+        motions: &Motions<'_>,
+        count: usize,
+        quantities: &[Quantity],
+        restitution: impl Fn(usize) -> Result<R, InputError> + Sync,
+        adhesion: impl Fn(&Sphere<f64>, usize) -> Result<A, InputError> + Sync,
+    ) -> Impacts {
         fill(count, quantities, |row, slot| {
             // By reference, because both are large.
             let arrival = motions.arrival(self.sphere(row)?, row);
             let arrival = arrival.as_ref().map_err(|error| *error)?;
             arrival.check_about_one_axis(Parameter::RollingArm, self.rolling_arm.at(row))?;
-            let body = self.body(arrival.sphere, row);
-            slot.put(&Answered::new(body.as_ref().map_err(|error| *error)?, arrival));
+            let body = self.body(arrival.sphere, restitution(row)?, adhesion(&arrival.sphere, row)?, row);
+            let body = body.as_ref().map_err(|error| *error)?;
+            slot.put(&Answered::new(arrival, body.impact(&arrival.motion)));
             Ok(())
         })
     }
 
     /// The critical speed of each of `count` rows.
     pub fn critical_speeds(&self, count: usize) -> Vec<Result<CriticalSpeed<f64>, InputError>> {
-        let of = |row: usize| Ok(self.body(self.sphere(row)?, row)?.critical_speed());
+        let of = |row: usize| {
+            let sphere = self.sphere(row)?;
+            let body = self.body(sphere, self.restitution.at(row)?, self.adhesion.at(&sphere, row)?, row)?;
+            Ok(body.critical_speed())
+        };
         (0..count).into_par_iter().map(of).collect()
     }
 }
 
+/// The rigid body of a row.
+type Body<R, A> = RigidBody<f64, R, A, RollingDissipation<f64>>;
+
 /// The impact of a row. What follows from it is computed where it is asked for.
 struct Answered<'a> {
-    body: &'a Body,
     arrival: &'a Arrival,
     impact: Impact<f64, TangentialImpact<f64>>,
     outcome: Outcome,
@@ -149,16 +180,16 @@ struct Answered<'a> {
 }
 
 impl<'a> Answered<'a> {
-    fn new(body: &'a Body, arrival: &'a Arrival) -> Self {
-        let impact = body.impact(&arrival.motion);
+    #[inline]
+    fn new(arrival: &'a Arrival, impact: Impact<f64, TangentialImpact<f64>>) -> Self {
         // Its margin is no quantity, so that no critical speed is computed.
         let outcome = if impact.normal.is_capture() { Outcome::Capture } else { Outcome::Rebound };
         let contact = impact.tangential.classify(outcome);
-        Self { body, arrival, impact, outcome, contact, ledger: OnceCell::new(), departure: OnceCell::new() }
+        Self { arrival, impact, outcome, contact, ledger: OnceCell::new(), departure: OnceCell::new() }
     }
 
     fn ledger(&self) -> &EnergyLedger<f64> {
-        self.ledger.get_or_init(|| self.impact.energy(self.body.sphere()))
+        self.ledger.get_or_init(|| self.impact.energy(&self.arrival.sphere))
     }
 }
 
@@ -177,7 +208,7 @@ impl Answer for Answered<'_> {
             Quantity::OverallRestitution => normal.overall_restitution(),
             Quantity::ReboundSpeed => normal.rebound_speed(),
             Quantity::SpeedTangentialOut => tangential.velocity(),
-            Quantity::SpinOut => tangential.spin(self.body.sphere()),
+            Quantity::SpinOut => tangential.spin(&self.arrival.sphere),
             Quantity::FrictionOverLimit => self.contact.friction_over_limit.unwrap_or(f64::NAN),
             Quantity::ImpulseRatioOut => tangential.impulse_ratio(),
             Quantity::RollingRatio => tangential.rolling_ratio(),

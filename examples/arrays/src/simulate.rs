@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use crate::impacts::{Record, gather};
 use crate::motions::Arrival;
 use crate::quantity::Asked;
-use crate::{Contacts, Impacts, Motions, Quantity, RowStatus, Surface};
+use crate::{Column, Contacts, Impacts, Motions, Quantity, RowStatus, Surface};
 
 /// What a simulation tells of an impact besides how it ends.
 pub type Outputs =
@@ -41,7 +41,9 @@ macro_rules! by_law {
 pub(crate) use by_law;
 
 impl Contacts<'_> {
-    /// Simulates the impacts of `count` rows on all threads. The result of a row is that of a single call of the method.
+    /// Simulates the impacts of `count` rows on all threads. The result of a row is that of a single call of the method. A
+    /// `FixedCost` needs [`with_outputs`](microimpact::contact::FixedCost::with_outputs) for quantities of the motion in contact, such as a
+    /// work; without it those rows are unsupported.
     pub fn simulate(
         &self,
         motions: &Motions<'_>,
@@ -49,13 +51,39 @@ impl Contacts<'_> {
         method: &(impl Method<f64> + Sync),
         quantities: &[Quantity],
     ) -> Impacts {
+        self.simulate_until(motions, count, method, quantities, || false)
+    }
+
+    /// The same until `stop` is true: then all rows that are left end without convergence.
+    ///
+    /// ```
+    /// use impact_arrays::{Column, Contacts, Motions, RowStatus};
+    /// use microimpact::contact::Adaptive;
+    ///
+    /// let all = Column::All;
+    /// let contacts = Contacts { radius: all(1e-6), density: all(2600.0), stiffness: all(7.5e10), ..Contacts::default() };
+    /// let motions = Motions::Planar { speed_normal: all(2.8), speed_tangential: all(0.0), spin: all(0.0) };
+    /// let stopped = contacts.simulate_until(&motions, 2, &Adaptive::new(1e-6)?, &[], || true);
+    /// assert_eq!(stopped.status, [RowStatus::NotConverged; 2]);
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub fn simulate_until(
+        &self,
+        motions: &Motions<'_>,
+        count: usize,
+        method: &(impl Method<f64> + Sync),
+        quantities: &[Quantity],
+        stop: impl Fn() -> bool + Sync,
+    ) -> Impacts {
         let asked = Asked::by(quantities);
-        gather(count, quantities, |row| self.row(motions, row, method, asked))
+        gather(count, quantities, |row| {
+            if stop() { Ok(Record::without(RowStatus::NotConverged)) } else { self.row(motions, row, method, asked) }
+        })
     }
 
     /// Simulates the impacts of `count` rows on all threads, by a method that is chosen at run time and may be slow. With compliance
-    /// along the surface, a row is unsupported unless the method is `Adaptive`. Once `stop` is true, all rows that are left end
-    /// without convergence.
+    /// along the surface, a row is unsupported unless the method is `Adaptive`, which alone has the margin of friction. Once `stop` is
+    /// true, all rows that are left end without convergence.
     ///
     /// ```
     /// use impact_arrays::{Column, Contacts, Motions, OUTPUTS, Quantity, RowStatus};
@@ -101,10 +129,16 @@ impl Contacts<'_> {
         })
     }
 
-    /// The arrival of a row and its scene, with friction but without a peeling moment or compliance.
-    fn start(&self, motions: &Motions<'_>, row: usize) -> Result<(Arrival, AnyScene<f64>), InputError> {
+    /// The arrival of a row.
+    fn arrival(&self, motions: &Motions<'_>, row: usize) -> Result<Arrival, InputError> {
         let arrival = motions.arrival(self.sphere(row)?, row)?;
         arrival.check_on_one_body(self.external_force.at(row))?;
+        Ok(arrival)
+    }
+
+    /// The same and its scene, with friction but without a peeling moment or compliance.
+    fn start(&self, motions: &Motions<'_>, row: usize) -> Result<(Arrival, AnyScene<f64>), InputError> {
+        let arrival = self.arrival(motions, row)?;
         let scene = self.scene_of(arrival.sphere, |column| column.at(row))?;
         Ok((arrival, scene))
     }
@@ -117,16 +151,18 @@ impl Contacts<'_> {
         method: &impl Method<f64>,
         asked: Asked,
     ) -> Result<Record, InputError> {
+        if let Surface::Coulomb { friction } = self.surface
+            && asked == Asked::End
+        {
+            let arrival = self.arrival(motions, row)?;
+            return by_law!(self.law(|column: &Column<'_>| column.at(row))?, law => {
+                let scene = Contact::new(arrival.sphere, law).with_friction(friction.at(row))?;
+                Ok(record(&arrival, &scene.solve(&arrival.motion, method)?, None))
+            });
+        }
         let (arrival, scene) = self.start(motions, row)?;
         let before = &arrival.motion;
         match self.surface {
-            Surface::Coulomb { friction } if asked == Asked::End => {
-                let (sphere, friction) = (*scene.sphere(), friction.at(row));
-                by_law!(*scene.law(), law => {
-                    let scene = Contact::new(sphere, law).with_friction(friction)?;
-                    Ok(record(&arrival, &scene.solve(before, method)?, None))
-                })
-            }
             Surface::Coulomb { .. } if asked == Asked::Times => {
                 let (impact, outputs) = scene.solve_for(before, method, (Times, Impulses))?;
                 Ok(record(&arrival, &impact, Some(outputs.into())))
@@ -147,13 +183,15 @@ impl Contacts<'_> {
         }
     }
 
-    /// The critical speed of each of `count` rows, to the tolerance of the method.
+    /// The critical speed of each of `count` rows, to the tolerance of the method; `None` once `stop` is true.
     pub fn critical_speeds(
         &self,
         count: usize,
         method: &(impl ErrorControl<f64> + Sync),
-    ) -> Vec<Result<CriticalSpeed<f64>, InputError>> {
-        (0..count).into_par_iter().map(|row| self.scene(row)?.critical_speed(method)).collect()
+        stop: impl Fn() -> bool + Sync,
+    ) -> Option<Vec<Result<CriticalSpeed<f64>, InputError>>> {
+        let speed = |row: usize| self.scene(row)?.critical_speed(method);
+        (0..count).into_par_iter().map(|row| if stop() { None } else { Some(speed(row)) }).collect()
     }
 }
 

@@ -255,7 +255,8 @@ fn critical_speeds_are_those_of_the_paper() -> Result<(), InputError> {
     let law = Law::Ring { strength: Column::All(250.0), damping: Column::All(6.25) };
     // The first sphere is that of figure 6.
     let contacts = Contacts { law, ..spheres(&[2.5e-6, -1.0]) };
-    let found = contacts.critical_speeds(2, &Adaptive::new(TOLERANCE)?);
+    assert!(contacts.critical_speeds(2, &Adaptive::new(TOLERANCE)?, || true).is_none());
+    let found = contacts.critical_speeds(2, &Adaptive::new(TOLERANCE)?, || false).unwrap();
     assert!(matches!(found[0], Ok(CriticalSpeed::At(speed)) if (speed - 5.159_566_762).abs() < 1e-8));
     assert_eq!(found[1].map_err(|error| error.parameter), Err(Parameter::Radius));
     Ok(())

@@ -1,4 +1,5 @@
-//! The course of impacts: indentation, its rate and the force against time, by the contact simulation.
+//! The course of impacts: indentation, its rate and the force against time, by the contact simulation. A captured sphere is followed
+//! until it first turns back or, if it creeps, to rest.
 //!
 //! `cargo microimpact trajectory` shows an impact of the paper;
 //! `cargo microimpact trajectory FILE.csv --format csv` writes the samples of each row of a table.
@@ -7,7 +8,8 @@ use std::error::Error;
 use std::path::PathBuf;
 
 use clap::Args;
-use microimpact::contact::{Adaptive, Recording, Sample, Status, Trajectory};
+use methods::course as course_of;
+use microimpact::contact::{Adaptive, Sample, Trajectory};
 use sheet::{Input, Row, Sheet, Value};
 
 use crate::Streams;
@@ -118,11 +120,8 @@ fn samples(sheet: &mut Sheet<'_>, method: &Adaptive<f64>) -> Result<(Vec<Vec<Val
 fn course(row: &Row<'_>, method: &Adaptive<f64>) -> Result<(Trajectory<f64, SAMPLES>, Option<f64>), String> {
     let (arrival, _, scene) = scene::<f64>(row)?;
     let scene = scene.with_peeling(row.or_zero("peeling_n_m")?).map_err(|error| row.reason(error))?;
-    let solved = scene.solve_for(&arrival.motion, method, Recording::<SAMPLES>);
-    let (impact, trajectory) = solved.map_err(|error| row.reason(error))?;
-    if impact.run.status != Status::Solved {
-        return Err("the simulation did not converge; use a larger --tolerance".into());
-    }
+    let solved = course_of::<_, SAMPLES>(&scene, &arrival.motion, method).map_err(|error| row.reason(error))?;
+    let trajectory = solved.ok_or("the simulation did not converge; use a larger --tolerance")?;
     let at_roll = trajectory.roll().map(|sample| sample.time);
     Ok((trajectory, at_roll))
 }

@@ -1,5 +1,7 @@
 //! The contact simulation.
 
+use std::sync::atomic::Ordering;
+
 use impact_arrays::{Contacts, Damping, Law, Surface};
 use microimpact::contact::{Adaptive, JkrEnd};
 use numpy::PyArray1;
@@ -10,7 +12,7 @@ use crate::columns::Columns;
 use crate::method::Method;
 use crate::refusal::refused;
 use crate::results::{Results, Statuses, quantities, results, speeds};
-use crate::threads::on_all_cores;
+use crate::threads::until_interrupted;
 
 /// The words of a scene: law, end rule, and damping.
 pub(crate) type Words = (String, String, String);
@@ -82,6 +84,8 @@ pub(crate) fn critical_speeds<'py>(
 ) -> PyResult<(Statuses<'py>, Bound<'py, PyArray1<f64>>)> {
     let contacts = contacts(&words, &numbers)?;
     let method = Adaptive::new(tolerance).map_err(refused)?;
-    let found = on_all_cores(python, || contacts.critical_speeds(count, &method))?;
+    let found = until_interrupted(python, |stop| {
+        contacts.critical_speeds(count, &method, || stop.load(Ordering::Relaxed)).unwrap_or_default()
+    })?;
     Ok(speeds(python, found))
 }

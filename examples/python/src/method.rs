@@ -10,7 +10,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::refusal::refused;
-use crate::threads::{on_all_cores, until_interrupted};
+use crate::threads::until_interrupted;
 
 /// A method of Python's module `methods`, which has checked whole numbers. Each is told by its attributes.
 #[derive(FromPyObject)]
@@ -43,7 +43,9 @@ impl Method {
         // The default is compiled for each law, and follows the contact only for what needs it.
         if let Self::Adaptive { tolerance } = *self {
             let method = Adaptive::new(tolerance).map_err(refused)?;
-            return on_all_cores(python, || contacts.simulate(motions, count, &method, outputs));
+            return until_interrupted(python, |stop| {
+                contacts.simulate_until(motions, count, &method, outputs, || stop.load(Ordering::Relaxed))
+            });
         }
         let simulator = self.choice().simulator(OUTPUTS).map_err(of_method)?;
         until_interrupted(python, |stop| {

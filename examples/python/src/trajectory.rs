@@ -1,9 +1,9 @@
 //! One impact in time.
 
 use impact_arrays::Surface;
-use microimpact::InputError;
-use microimpact::NormalMotion;
-use microimpact::contact::{Adaptive, Recording, Sample, SimulatedImpact, Status, Trajectory};
+use methods::course;
+use microimpact::contact::{Adaptive, Sample, Trajectory};
+use microimpact::{InputError, NormalMotion};
 use numpy::IntoPyArray;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -31,25 +31,21 @@ pub(crate) fn trajectory<'py>(
     let number = |name: &str| numbers.optional(name, 0.0).map(|column| column.at(0));
     let (speed, tangential, spin) =
         (numbers.required("speed_normal")?.at(0), number("speed_tangential")?, number("spin")?);
-    let solve = || -> Result<(Status, Trajectory<f64, SAMPLES>), InputError> {
+    let solve = || -> Result<Option<Trajectory<f64, SAMPLES>>, InputError> {
         let method = Adaptive::new(tolerance)?;
         let scene = contacts.scene(0)?;
         let before = NormalMotion::new(speed)?.with_tangential(tangential)?.with_spin(scene.sphere(), spin)?;
         match contacts.surface {
-            Surface::Coulomb { .. } => Ok(ended(scene.solve_for(&before, &method, Recording)?)),
-            Surface::Peeling { moment, .. } => {
-                Ok(ended(scene.with_peeling(moment.at(0))?.solve_for(&before, &method, Recording)?))
-            }
+            Surface::Coulomb { .. } => course(&scene, &before, &method),
+            Surface::Peeling { moment, .. } => course(&scene.with_peeling(moment.at(0))?, &before, &method),
             Surface::Compliant { stiffness_ratio, .. } => {
-                Ok(ended(scene.with_compliance(stiffness_ratio.at(0))?.solve_for(&before, &method, Recording)?))
+                course(&scene.with_compliance(stiffness_ratio.at(0))?, &before, &method)
             }
         }
     };
-    let (status, trajectory) = solve().map_err(refused)?;
-    if status != Status::Solved {
-        let message = "tolerance: the simulation did not converge; use a larger tolerance";
-        return Err(PyRuntimeError::new_err(message));
-    }
+    let Some(trajectory) = solve().map_err(refused)? else {
+        return Err(PyRuntimeError::new_err("tolerance: the simulation did not converge; use a larger tolerance"));
+    };
     let samples = PyDict::new(python);
     let numbers: [Named; 5] = [
         ("time", |sample| sample.time),
@@ -62,11 +58,4 @@ pub(crate) fn trajectory<'py>(
         samples.set_item(name, trajectory.samples().map(number).collect::<Vec<_>>().into_pyarray(python))?;
     }
     Ok(samples)
-}
-
-/// The status of a run, and its trajectory.
-fn ended<V, const N: usize>(
-    (impact, trajectory): (SimulatedImpact<f64, V>, Trajectory<f64, N>),
-) -> (Status, Trajectory<f64, N>) {
-    (impact.run.status, trajectory)
 }

@@ -117,6 +117,8 @@ function margin({ columns, row, found, critical }) {
 function showNumbers({ columns, row, critical, simulated }) {
     const e = row.overall_restitution, rebounds = row.outcome === "rebound";
     const slip = row.time_roll_s === "-1" ? "to the end" : row.time_roll_s === "0" ? "no slip" : inUnits(row.time_roll_s, "s");
+    // The simulation follows a captured sphere so far.
+    const until = simulated && row.outcome === "capture" ? " until it first turns back" : "";
     const simulation = [
         ["Largest indentation", "δ", inUnits(row.max_indentation_m, "m")],
         ["Contact time", "t", inUnits(row.contact_time_s, "s")],
@@ -133,8 +135,8 @@ function showNumbers({ columns, row, critical, simulated }) {
         ["Spin after", "Ω", inUnits(row.spin_out_rad_s, "rad/s")],
         ["Critical speed", "v_c", inUnits(critical, "m/s")],
         ...(simulated ? simulation : rigidBody),
-        ["Energy lost in the materials", "", inUnits(row.work_material_j, "J")],
-        ["Energy lost to adhesion", "", inUnits(row.work_adhesion_j, "J")],
+        [`Energy lost in the materials${until}`, "", inUnits(row.work_material_j, "J")],
+        [`Energy lost to adhesion${until}`, "", inUnits(row.work_adhesion_j, "J")],
     ];
     const rows = numbers.map(([label, name, value]) =>
         element("tr", {}, element("th", { scope: "row" }, `${label} `, ...symbol(name)), element("td", {}, value)));

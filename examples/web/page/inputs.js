@@ -135,9 +135,9 @@ const OFFERED = [
 const RIGID = "rigid-body", SIMULATED = "simulation";
 const SPACE = ["velocity_x_m_s", "velocity_y_m_s", "velocity_z_m_s"];
 const GROUPS = [
-    { needed: [RIGID, SIMULATED], columns: ["radius_m", "diameter_m"] },
+    { needed: [RIGID, SIMULATED], measured: true, columns: ["radius_m", "diameter_m"] },
     { needed: [RIGID, SIMULATED], columns: ["density_kg_m3"] },
-    { needed: [RIGID, SIMULATED], columns: ["speed_normal_m_s", ...SPACE] },
+    { needed: [RIGID, SIMULATED], measured: true, columns: ["speed_normal_m_s", ...SPACE] },
     { needed: [], columns: ["speed_tangential_m_s", ...SPACE] },
     { needed: [], columns: ["spin_rad_s", ...SPACE] },
     { needed: [], columns: ["gyration_ratio"] },

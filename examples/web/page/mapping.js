@@ -130,7 +130,8 @@ class Mapping {
         const has = this.has();
         const lacked = GROUPS.filter(({ columns }) => !columns.some((column) => has.has(column)));
         const columns = lacked.flatMap(({ columns }) => columns).filter((column) => given[column] !== undefined);
-        const isNeeded = lacked.some(({ needed }) => needed.some((model) => models.includes(model)));
+        // Particles and their speeds are what a table is about: without them its columns were hardly recognised.
+        const isNeeded = !lacked.some(({ measured }) => measured) && lacked.some(({ needed }) => needed.some((model) => models.includes(model)));
         return { columns: [...new Set(columns)].map((column) => [column, given[column]]), isNeeded };
     }
 

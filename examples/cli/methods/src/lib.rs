@@ -22,9 +22,10 @@ use std::ops::RangeInclusive;
 
 use microimpact::contact::{
     Adaptive, AdaptiveNodes, AnyLaw, AnyScene, Collocation, Compliance, CompliantVelocities, Contact, FixedCost,
-    Method, Nodes, Output, Peeling, PhaseSamples, RungeKuttaGill, SimulatedImpact, Surface, TangentialVelocities,
+    Method, Nodes, Output, Peeling, PhaseSamples, Recording, RestCriterion, RungeKuttaGill, SimulatedImpact, Status,
+    Surface, TangentialVelocities, Trajectory,
 };
-use microimpact::{Coulomb, InputError, PlanarMotion, Real};
+use microimpact::{Coulomb, InputError, Outcome, PlanarMotion, Real};
 
 /// A scene of any law of contact that is compliant along the surface.
 pub type CompliantContact<T> = Contact<T, AnyLaw<T>, Compliance<T>>;
@@ -193,6 +194,52 @@ impl<T: OfferedNodes> MethodChoice<T> {
             Self::RungeKuttaGill { steps } => Ok(Simulator::by(RungeKuttaGill::new(steps), outputs)),
         }
     }
+}
+
+/// Energy of a sphere that has crept to rest, over the depth of the well: it is within a thousandth of its place.
+const ENERGY_AT_REST: f64 = 1e-6;
+
+/// Turning points on the way to rest; one that creeps has none.
+const TURNING_POINTS: u32 = 1000;
+
+/// The course of an impact. A captured sphere is followed until it first turns back after the peak or, where damping lets it creep
+/// instead, to rest. `None` if the simulation does not converge.
+///
+/// # Errors
+/// As [`Contact::solve_for`].
+///
+/// ```
+/// use methods::course;
+/// use microimpact::contact::{Adaptive, AnyLaw, Contact};
+/// use microimpact::{NormalMotion, Oblique, Sphere, Stiffness};
+///
+/// // Ten times smaller than in the paper, a sphere creeps in: it is at rest 2 pi f_0/K below the surface.
+/// let law = AnyLaw::ring(Stiffness::new(7.5e10)?, 250.0, 6.25)?.with_damping(10.5)?;
+/// let scene = Contact::new(Sphere::solid(1e-7, 2600.0)?, law).with_friction(0.1)?;
+/// let before = NormalMotion::new(2.8)?.with_tangential(0.0)?.with_peripheral_velocity(0.0)?;
+/// let last = course::<_, 64>(&scene, &before, &Adaptive::new(1e-9)?)?.unwrap().samples().last().unwrap();
+/// assert!((last.indentation / 20.944e-9 - 1.0).abs() < 2e-3 && last.velocity.abs() < 1.0);
+/// # Ok::<(), microimpact::InputError>(())
+/// ```
+pub fn course<S, const N: usize>(
+    scene: &Contact<f64, AnyLaw<f64>, S>,
+    before: &PlanarMotion<f64>,
+    method: &Adaptive<f64>,
+) -> Result<Option<Trajectory<f64, N>>, InputError>
+where
+    S: Surface<f64, PlanarMotion<f64>>,
+    Recording<N>: Output<f64, Start<f64, S>, Result = Trajectory<f64, N>>,
+{
+    let (impact, trajectory) = scene.solve_for(before, method, Recording::<N>)?;
+    let turned = impact.normal.outcome() != Some(Outcome::Capture) || impact.normal.turning_indentation().is_some();
+    let (run, trajectory) = if turned || impact.run.status != Status::Solved {
+        (impact.run, trajectory)
+    } else {
+        let criterion = RestCriterion::new(ENERGY_AT_REST, TURNING_POINTS)?;
+        let settled = scene.solve_to_rest(before, method, &criterion, Recording::<N>)?;
+        (settled.impact.run, settled.outputs)
+    };
+    Ok((run.status == Status::Solved).then_some(trajectory))
 }
 
 /// The numbers of nodes that are offered, each of which is a type of its own; `with` the nodes for outputs.

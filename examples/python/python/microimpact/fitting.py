@@ -44,7 +44,7 @@ class Candidate(NamedTuple):
         return self.p_value >= LEAST_P_VALUE
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Fit:
     """What measured impacts say."""
 

@@ -36,7 +36,7 @@ class Estimate(NamedTuple):
     error: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Sizes:
     """Capture efficiency in ranges of diameters, each array with a number for each range. A range without spheres has NaN."""
 
@@ -58,7 +58,7 @@ class Sizes:
     """Its error."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Bounces:
     """Bounce fraction by speed."""
 
@@ -74,7 +74,7 @@ class Bounces:
     """Its upper end."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Population:
     """What a population of spheres does."""
 

@@ -35,7 +35,9 @@ SIMULATED = (
     "rotation",
     "displacement_tangential",
 )
-"""What a simulation can be asked for: lengths in m, times in s, impulses in N s, works and energies in J, angles in rad."""
+"""What a simulation can be asked for: lengths in m, times in s, impulses in N s, works and energies in J, angles in rad. `energy_before` and
+`energy_after` are those of the motion in the plane of the impact, relative to the wall or of two spheres to each other; their difference is
+what the impact takes. Works of a capture are those until the sphere first turns back."""
 
 COMPLIANT = (*(name for name in SIMULATED if name != "time_roll"), "impulse_ratio_out", "phases")
 """The same of a contact that is compliant along the surface, which slips and sticks several times."""
@@ -218,7 +220,7 @@ class Scene(ByValue):
         """One impact in time: indentation, velocity and force at the nodes of the solution, up to 1024.
 
         Arguments as for `simulate`, each of them one number, as those of the scene. A captured sphere is followed until it first
-        turns back.
+        turns back or, if it creeps, to rest.
         """
         numbers = {**self._with_radius(), **in_plane(speed_normal, speed_tangential, spin)}
         single = {name: one_number(name, value) for name, value in numbers.items() if value is not None}

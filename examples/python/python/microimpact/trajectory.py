@@ -9,7 +9,7 @@ from . import plot
 from .arrays import Float
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, eq=False)
 class Trajectory:
     """The course of an impact: arrays with a number for each moment, from first contact on."""
 
