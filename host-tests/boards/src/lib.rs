@@ -11,6 +11,7 @@ pub mod footprint;
 pub mod packages;
 pub mod process;
 pub mod reachable;
+pub mod section;
 pub mod symbols;
 pub mod toolchain;
 pub mod without;
