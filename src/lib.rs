@@ -3,6 +3,8 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 #![warn(clippy::panic, clippy::unwrap_used, clippy::expect_used, clippy::indexing_slicing)]
+// What is sent and stored has the same bytes on every processor.
+#![warn(clippy::host_endian_bytes)]
 
 #[cfg(feature = "std")]
 extern crate std;

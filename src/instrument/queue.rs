@@ -1,9 +1,15 @@
 //! Event queue from an interrupt to the main loop. It counts lost events.
 
 use core::fmt;
-use core::sync::atomic::{AtomicU32, Ordering};
+#[cfg(not(feature = "portable-atomic"))]
+use core::sync::atomic;
+use core::sync::atomic::Ordering;
 
 use heapless::spsc;
+#[cfg(feature = "portable-atomic")]
+use portable_atomic as atomic;
+
+use atomic::AtomicU32;
 
 /// A queue with one sender and one receiver, with room for `N - 1` events.
 ///

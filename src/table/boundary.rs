@@ -273,3 +273,44 @@ impl<const N: usize> TryFrom<Parts<N>> for BoundaryTable<N> {
         Self::from_parts(outside.smallest_radius, outside.margin, outside.cells)
     }
 }
+
+#[cfg(all(test, feature = "link"))]
+mod tests {
+    extern crate std;
+
+    use std::vec::Vec;
+
+    use super::BoundaryTable;
+
+    /// Postcard's form of whole numbers: seven bits a byte, the least significant first, all but the last with the top bit set.
+    fn variable_length(mut number: u32) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        while number > 127 {
+            bytes.push(number as u8 | 128);
+            number >>= 7;
+        }
+        bytes.push(number as u8);
+        bytes
+    }
+
+    /// In an interpreter of a processor whose most significant byte is first, this shows that a table stored in the link's format
+    /// does not depend on the order of bytes.
+    #[test]
+    fn stored_bytes_are_numbers_with_the_least_significant_byte_first() {
+        // A cell that the example `boundary` writes.
+        const CELLS: [[i32; 4]; 1] = [[1_088_728_656, -5_161_287, 647_136, -107_606]];
+        const MARGIN: u32 = 592;
+        let table = BoundaryTable::from_parts(1.907_348_6e-6, MARGIN, CELLS);
+        let smallest = table.map(|table| table.parts().0).unwrap_or_default();
+        let mut expected = Vec::from(smallest.to_le_bytes());
+        expected.extend(variable_length(MARGIN));
+        // A sign is the last bit, so that small numbers are short.
+        expected.extend(
+            CELLS.into_iter().flatten().flat_map(|number| variable_length(((number << 1) ^ (number >> 31)) as u32)),
+        );
+        let mut bytes = [0; 64];
+        let stored = table.ok().and_then(|table| postcard::to_slice(&table, &mut bytes).ok().map(Vec::from));
+        assert_eq!(stored, Some(expected));
+        assert_eq!(postcard::from_bytes(&bytes).ok(), table.ok());
+    }
+}

@@ -208,12 +208,16 @@ fn frame(copy: &Path) -> Result<(), String> {
         fs::create_dir_all(to.parent().unwrap_or(copy)).map_err(wrong)?;
         fs::copy(repository().join(&file), &to).map_err(wrong)?;
     }
-    // The library's manifest, without what only tests and examples need.
-    let manifest = fs::read_to_string(repository().join("Cargo.toml")).map_err(|error| error.to_string())?;
+    fs::write(copy.join("Cargo.toml"), manifest()?).map_err(|error| error.to_string())
+}
+
+/// The library's manifest, without what only tests and examples need.
+pub fn manifest() -> Result<String, String> {
+    let path = repository().join("Cargo.toml");
+    let manifest = fs::read_to_string(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
     let manifest = manifest.split("[dev-dependencies]").next().unwrap_or_default();
     let is_kept = |line: &&str| !["members", "default-members", "exclude"].iter().any(|key| line.starts_with(key));
-    let manifest: Vec<&str> = manifest.lines().filter(is_kept).collect();
-    fs::write(copy.join("Cargo.toml"), manifest.join("\n")).map_err(|error| error.to_string())
+    Ok(manifest.lines().filter(is_kept).collect::<Vec<_>>().join("\n"))
 }
 
 /// What the firmware of one scene does not need.

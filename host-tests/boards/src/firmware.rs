@@ -142,6 +142,10 @@ fn run_cargo(
 /// One for each compiler and processor: targets share a folder without harm, and what
 /// is built for the host only once, but two processors of one target would not.
 pub fn target_folder(toolchain: &Toolchain, board: &Board) -> PathBuf {
-    let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| repository().join("target"), PathBuf::from);
-    target.join("firmware").join(toolchain.folder()).join(board.cpu.unwrap_or("generic"))
+    builds().join("firmware").join(toolchain.folder()).join(board.cpu.unwrap_or("generic"))
+}
+
+/// The folder of all builds.
+pub fn builds() -> PathBuf {
+    env::var_os("CARGO_TARGET_DIR").map_or_else(|| repository().join("target"), PathBuf::from)
 }

@@ -11,6 +11,7 @@ pub mod footprint;
 pub mod packages;
 pub mod process;
 pub mod reachable;
+pub mod section;
 pub mod symbols;
 pub mod toolchain;
 pub mod without;
@@ -57,3 +58,7 @@ pub const C_BOARD: Board =
 
 /// The board of the instrument, which has ports and a UART that its interrupts are named after.
 pub const INSTRUMENT_BOARD: Board = Board { machine: "lm3s6965evb", ..C_BOARD };
+
+/// The board of a processor without atomic instructions. Its emulator has them, but nothing for this target contains them.
+pub const NO_ATOMICS_BOARD: Board =
+    Board { core: "RV32IMC", emulator: RISCV32, machine: "virt", triple: "riscv32imc-unknown-none-elf", cpu: None };

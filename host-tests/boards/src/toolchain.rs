@@ -41,6 +41,8 @@ const DEBIAN_CARGO: &str = "/usr/bin/cargo";
 const DEBIAN_LINKER: &str = "ld.lld";
 const DEBIAN_LINKER_PACKAGE: &str = "lld";
 const DEBIAN_RUST_PACKAGES: [&str; 3] = ["rustc-web", "cargo-web", "rust-web-src"];
+/// The variable that points to the libraries of the compiler that started this program.
+const LIBRARIES: &str = "LD_LIBRARY_PATH";
 /// The oldest release that compiles the library: `rust-version` in its Cargo.toml.
 const OLDEST_RELEASE: (u32, u32) = (1, 88);
 const RUSTUP_LIMIT: Duration = Duration::from_secs(300);
@@ -72,23 +74,17 @@ impl Toolchain {
         }
     }
 
-    /// A call of cargo that knows nothing of the cargo that started this program.
+    /// A build by a cargo that knows nothing of the cargo that started this program.
     pub fn cargo(&self, triple: &str) -> Command {
         let mut command = match self.route {
-            Route::InUse => Command::new("cargo"),
-            Route::Debian => Command::new(DEBIAN_CARGO),
+            Route::InUse => cargo("cargo"),
+            Route::Debian => cargo(DEBIAN_CARGO),
         };
-        for (name, _) in env::vars_os() {
-            if steers_cargo(&name) {
-                command.env_remove(name);
-            }
-        }
         command.arg("build").args(["--target", triple]);
         if let Route::Debian = self.route {
             command
                 .env_remove("RUSTUP_TOOLCHAIN")
-                // Points to the libraries of the compiler that started this program.
-                .env_remove("LD_LIBRARY_PATH")
+                .env_remove(LIBRARIES)
                 .env("PATH", path_starting_with("/usr/bin"))
                 .env("RUSTC_BOOTSTRAP", "1")
                 .arg("-Zbuild-std=core");
@@ -96,6 +92,53 @@ impl Toolchain {
         }
         command
     }
+}
+
+/// A call of cargo that knows nothing of the cargo that started this program.
+fn cargo(program: &str) -> Command {
+    let mut command = Command::new(program);
+    for (name, _) in env::vars_os() {
+        if steers_cargo(&name) {
+            command.env_remove(name);
+        }
+    }
+    command
+}
+
+/// A call of rustup's cargo of the compiler in use.
+pub fn cargo_in_use() -> Command {
+    cargo("cargo")
+}
+
+/// The same of the nightly compiler.
+pub fn cargo_nightly() -> Command {
+    let mut command = cargo("cargo");
+    command.env_remove(LIBRARIES).arg("+nightly");
+    command
+}
+
+/// Installs a nightly compiler with the source of `core` if there is none, or says why there is none.
+pub fn find_nightly(permission: Permission) -> Result<(), String> {
+    const INSTALL: [&str; 7] = ["toolchain", "install", "nightly", "--profile", "minimal", "--component", "rust-src"];
+    let remedy =
+        |why: &str| format!("no nightly compiler with the source of core; `rustup {}` ({why})", INSTALL.join(" "));
+    let is_there = || {
+        let mut rustc = Command::new("rustc");
+        rustc.env_remove(LIBRARIES).args(["+nightly", "--print", "sysroot"]);
+        process::first_line(&mut rustc).is_some_and(|sysroot| has_source(&sysroot))
+    };
+    if is_there() {
+        return Ok(());
+    }
+    if permission == Permission::LookOnly {
+        return Err(remedy("not done, as --no-install asks"));
+    }
+    eprintln!("installing a nightly compiler ...");
+    let mut rustup = Command::new("rustup");
+    rustup.env_remove("RUST_BACKTRACE").args(INSTALL);
+    let finished =
+        process::run(&mut rustup, RUSTUP_LIMIT).map_err(|error| remedy(&format!("cannot run rustup: {error}")))?;
+    if is_there() { Ok(()) } else { Err(remedy(&format!("{}: {}", finished.ending(), finished.tail(2)))) }
 }
 
 /// The name of the variable that sets cargo's option `option` for one target.
@@ -169,11 +212,14 @@ fn debian_missing() -> Vec<&'static str> {
 fn debian_rust_is_usable() -> bool {
     let version = process::first_line(Command::new(DEBIAN_RUSTC).arg("-V"));
     let sysroot = process::first_line(Command::new(DEBIAN_RUSTC).args(["--print", "sysroot"]));
-    let has_source = sysroot
-        .is_some_and(|sysroot| Path::new(&sysroot).join("lib/rustlib/src/rust/library/core/src/lib.rs").exists());
     Path::new(DEBIAN_CARGO).exists()
-        && has_source
+        && sysroot.is_some_and(|sysroot| has_source(&sysroot))
         && version.is_some_and(|version| release(&version) >= Some(OLDEST_RELEASE))
+}
+
+/// Whether a compiler has the source of `core`.
+fn has_source(sysroot: &str) -> bool {
+    Path::new(sysroot).join("lib/rustlib/src/rust/library/core/src/lib.rs").exists()
 }
 
 /// `(1, 96)` of `rustc 1.96.0 (...)`.

@@ -5,9 +5,10 @@ use std::fs;
 use std::path::Path;
 
 use boards::figures::LARGEST_EXCESS;
+use boards::section::Section;
 
-const BEGIN: &str = "<!-- written by cargo qemu --overwrite c -->";
-const END: &str = "<!-- end -->";
+/// The command that writes the table.
+const COMMAND: &str = "cargo qemu --overwrite c";
 
 /// A function, its instructions and its stack in bytes.
 struct Cost<'a> {
@@ -47,19 +48,15 @@ pub(crate) fn compare(
     overwrite: bool,
 ) -> Result<Vec<String>, String> {
     let costs = parsed(printed)?;
-    let read =
-        |path: &Path| fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()));
-    let (text, header) = (read(page)?, read(header)?);
-    let lacks = || format!("{} lacks the line {BEGIN}", page.display());
-    let (before, rest) = text.split_once(BEGIN).ok_or_else(lacks)?;
-    let (stored, after) = rest.split_once(END).ok_or_else(lacks)?;
+    let header = fs::read_to_string(header).map_err(|error| format!("cannot read {}: {error}", header.display()))?;
+    let section = Section::read(page, COMMAND)?;
+    let stored = &section.text;
     let mut failures: Vec<_> = functions(&header)
         .filter(|function| !costs.iter().any(|cost| cost.function.split(',').next() == Some(function)))
         .map(|function| format!("costs.c does not measure {function}"))
         .collect();
     if overwrite {
-        let page_text = format!("{before}{BEGIN}\n\n{}\n{END}{after}", table(compiler, &costs));
-        fs::write(page, page_text).map_err(|error| format!("cannot write {}: {error}", page.display()))?;
+        section.overwrite(&table(compiler, &costs))?;
         return Ok(failures);
     }
     if !stored.contains(&format!("Compiler: {compiler}.")) {

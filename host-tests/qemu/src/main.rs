@@ -78,7 +78,7 @@ enum Command {
     C,
     /// Puts the instrument on trial: full speed, damaged frames, a full queue and a reset
     Load(instrument::Load),
-    /// Runs the templates, without a framework, within RTIC and within Embassy, and compares their counts with the host's
+    /// Runs the templates, without a framework, within RTIC, within Embassy and on RISC-V, and compares their counts with the host's
     Templates,
     /// Runs every method over a grid of impacts, and says what each takes at most, in instructions and in stack
     Worst,

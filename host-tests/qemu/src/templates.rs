@@ -2,25 +2,26 @@
 
 use boards::packages::Permission;
 use boards::toolchain::Choice;
-use boards::{BOARDS, Board, INSTRUMENT_BOARD, REFERENCE_CORE, emulator, firmware};
+use boards::{BOARDS, Board, INSTRUMENT_BOARD, NO_ATOMICS_BOARD, REFERENCE_CORE, emulator, firmware};
 use microimpact::Class;
 use microimpact::instrument::{ClassSet, PlanarReading, Reading};
 use microimpact_templates::{READINGS, Scene, read_sensor, scene};
 
-/// Binaries, each with its feature, and whether only the board of the instrument has its interrupts.
-const TEMPLATES: [(&str, &str, bool); 3] =
-    [("bare", "bare", false), ("with_embassy", "embassy", false), ("with_rtic", "rtic", true)];
+/// Binaries, each with its feature and the place of its board: that of the reference core, of the instrument, whose interrupts one
+/// names, or without atomic instructions.
+const TEMPLATES: [(&str, &str, usize); 4] =
+    [("bare", "bare", 0), ("with_embassy", "embassy", 0), ("with_rtic", "rtic", 1), ("riscv", "riscv", 2)];
 
 /// Every template that does not print what the host finds.
 pub(crate) fn compare(choice: Choice, permission: Permission) -> Result<Vec<String>, String> {
     let reference =
         BOARDS.into_iter().find(|board| board.core == REFERENCE_CORE).ok_or("there is no reference core")?;
-    let boards = [reference, INSTRUMENT_BOARD];
+    let boards = [reference, INSTRUMENT_BOARD, NO_ATOMICS_BOARD];
     let toolchain = crate::tools(choice, &boards, permission)?;
     let expected = expected()?;
     let mut failures = Vec::new();
-    for (binary, feature, of_the_instrument) in TEMPLATES {
-        let board: &Board = &boards[usize::from(of_the_instrument)];
+    for (binary, feature, place) in TEMPLATES {
+        let board: &Board = &boards[place];
         eprintln!("building {binary} for {} and running it on {} ...", board.core, board.machine);
         let folder = firmware::build_template(&toolchain, board, feature, binary)?;
         let printed = emulator::run(board, &folder.join(binary))?;

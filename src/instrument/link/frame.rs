@@ -196,3 +196,41 @@ impl<const N: usize> defmt::Format for Decoder<N> {
         defmt::write!(f, "Decoder {{ received: {=usize}, oversized: {=bool} }}", self.message.len(), self.oversized);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+
+    use core::num::ParseIntError;
+    use std::vec::Vec;
+
+    use super::{Decoder, Encoder};
+    use crate::Class;
+    use crate::instrument::link::{Reply, Request};
+    use crate::instrument::{PlanarReading, Verdict};
+
+    /// The bytes that the page of the protocol has below a title.
+    fn printed(title: &str) -> Option<Result<Vec<u8>, ParseIntError>> {
+        let mut lines = include_str!("protocol.md").lines().skip_while(|line| *line != title);
+        let bytes = lines.nth(1)?.split_whitespace();
+        Some(bytes.map(|byte| u8::from_str_radix(byte, 16)).collect())
+    }
+
+    /// In an interpreter of a processor whose most significant byte is first, this shows that frames do not depend on the order of
+    /// bytes.
+    #[test]
+    fn frames_are_those_of_the_page_in_both_directions() {
+        let reading = PlanarReading { approach: 2.8_f32, tangential: 0.0, peripheral: 0.739 };
+        let request = Request::<_, f32>::Event { number: 1, reading };
+        let event = printed("Event, number 1: 2.8, 0 and 0.739 m/s");
+        assert_eq!(Encoder::<64>::new().frame(&request).map(Vec::from).ok(), event.clone().and_then(Result::ok));
+        let mut decoder = Decoder::<64>::new();
+        let received = event.into_iter().flatten().flatten().find_map(|byte| decoder.push(byte));
+        assert_eq!(received, Some(Ok(request)));
+
+        let verdict = Verdict { class: Class::ReboundRolling, restitution: Some(0.746_f32) };
+        let reply = Reply::<f32, Class>::Classified { number: 1, verdict };
+        let classified = printed("Classified, number 1: rebound, rolling, e = 0.746");
+        assert_eq!(Encoder::<64>::new().frame(&reply).map(Vec::from).ok(), classified.and_then(Result::ok));
+    }
+}
