@@ -11,6 +11,10 @@ use boards::toolchain::{self, Choice, Toolchain, target_variable};
 /// Each feature alone, and none. `instrument` and `link` have the queue, which needs atomic instructions.
 pub(crate) const FEATURES: [&str; 7] = ["", "std", "fixed", "serde", "defmt", "instrument", "link"];
 
+/// Sets of features that are checked at once. Where a set compiles, each feature in it does: no source depends on a feature and a
+/// target together, and `.ci/run features` checks each feature alone.
+const TOGETHER: [&str; 2] = ["fixed,serde,defmt,instrument,link", "fixed,serde,defmt"];
+
 /// A target, and the flags that it cannot be compiled without.
 type Target = (&'static str, &'static str);
 
@@ -115,20 +119,28 @@ pub(crate) fn rows(permission: Permission) -> Result<Vec<Row>, String> {
     });
     let targets: Vec<_> = TARGETS.iter().zip(compilers).collect();
     // Cargo uses all cores for several targets at once. Which of them fail is seen afterwards.
-    for features in FEATURES {
-        for compiler in [Compiler::InUse, Compiler::Nightly] {
-            let with_it = || targets.iter().filter(|(_, found)| *found == Some(compiler)).map(|(target, _)| *target);
-            if with_it().next().is_some() && features != "std" {
-                eprintln!("checking targets with {} ...", if features.is_empty() { "no feature" } else { features });
-                run(&mut compiler.check(with_it(), features))?;
-            }
+    for compiler in [Compiler::InUse, Compiler::Nightly] {
+        let with_it = || targets.iter().filter(|(_, found)| *found == Some(compiler)).map(|(target, _)| *target);
+        if with_it().next().is_some() {
+            eprintln!("checking {} targets ...", with_it().count());
+            run(&mut compiler.check(with_it(), TOGETHER[0]))?;
         }
     }
     let row = |(&(triple, flags), compiler): (&Target, Option<Compiler>)| {
         let Some(compiler) = compiler else { return Ok(Row { triple, support: None }) };
+        eprintln!("checking {triple} ...");
+        let target = (triple, flags);
+        let mut compiled = None;
+        for set in TOGETHER {
+            if compiled.is_none() && check(compiler, target, set)?.success() {
+                compiled = Some(set);
+            }
+        }
         let mut support = [Support::Yes; FEATURES.len()];
-        for (support, features) in support.iter_mut().zip(FEATURES) {
-            *support = of_target(compiler, (triple, flags), features)?;
+        for (support, feature) in support.iter_mut().zip(FEATURES) {
+            if !compiled.is_some_and(|set| feature.is_empty() || set.split(',').any(|one| one == feature)) {
+                *support = of_target(compiler, target, feature)?;
+            }
         }
         Ok(Row { triple, support: Some(support) })
     };
@@ -137,8 +149,7 @@ pub(crate) fn rows(permission: Permission) -> Result<Vec<Row>, String> {
 
 /// What a target needs for the library with a feature; an error if it compiles in no way and for no known reason.
 fn of_target(compiler: Compiler, target: Target, features: &str) -> Result<Support, String> {
-    let check = |features: &str| run(&mut compiler.check([&target].into_iter(), features));
-    let alone = check(features)?;
+    let alone = check(compiler, target, features)?;
     if alone.success() {
         return Ok(Support::Yes);
     }
@@ -146,13 +157,17 @@ fn of_target(compiler: Compiler, target: Target, features: &str) -> Result<Suppo
         return Ok(Support::NoStandardLibrary);
     }
     let portable = format!("{features},portable-atomic");
-    if check(&portable)?.success() {
+    if check(compiler, target, &portable)?.success() {
         return Ok(Support::PortableAtomic);
     }
-    if check(&format!("{portable},portable-atomic/unsafe-assume-single-core"))?.success() {
+    if check(compiler, target, &format!("{portable},portable-atomic/unsafe-assume-single-core"))?.success() {
         return Ok(Support::ChosenPortableAtomic);
     }
     Err(format!("{} with features {features:?} ({}):\n{}", target.0, alone.ending(), alone.tail(40)))
+}
+
+fn check(compiler: Compiler, target: Target, features: &str) -> Result<Finished, String> {
+    run(&mut compiler.check([&target].into_iter(), features))
 }
 
 fn run(cargo: &mut Command) -> Result<Finished, String> {
