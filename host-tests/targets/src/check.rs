@@ -138,9 +138,12 @@ pub(crate) fn rows(permission: Permission) -> Result<Vec<Row>, String> {
         }
         let mut support = [Support::Yes; FEATURES.len()];
         for (support, feature) in support.iter_mut().zip(FEATURES) {
-            if !compiled.is_some_and(|set| feature.is_empty() || set.split(',').any(|one| one == feature)) {
-                *support = of_target(compiler, target, feature)?;
-            }
+            *support = match compiled {
+                Some(set) if feature.is_empty() || set.split(',').any(|one| one == feature) => Support::Yes,
+                // With the same features its dependencies are not compiled again.
+                Some(set) if feature == "std" => of_target(compiler, target, &format!("std,{set}"))?,
+                _ => of_target(compiler, target, feature)?,
+            };
         }
         Ok(Row { triple, support: Some(support) })
     };
