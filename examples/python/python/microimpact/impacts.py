@@ -101,8 +101,8 @@ class Impacts:
     speed_tangential_out: Float
     """Tangential velocity, m/s: after a rebound, or of a captured sphere when its slip has ended."""
     friction_over_limit: Float
-    """Friction over the least that ends the slip; the sphere rolls from one on. NaN with a peeling moment or a `stiffness_ratio`, and by
-    another method than `Adaptive`."""
+    """Friction over the least that ends the slip; the sphere rolls from one on. NaN with a peeling moment or a `stiffness_ratio`,
+    and by another method than `Adaptive`."""
     spin_out: Float
     """Spin after the impact, rad/s; vectors for impacts in space."""
     velocity_out: Float

@@ -24,8 +24,8 @@ COMPUTED = (
     "energy_before",
     "energy_after",
 )
-"""What a rigid body can be asked for: works and energies in J. `energy_before` and `energy_after` are those of the motion in the plane of the
-impact, relative to the wall or of two spheres to each other; their difference is what the impact takes."""
+"""What a rigid body can be asked for: works and energies in J. `energy_before` and `energy_after` are those of the motion in the
+plane of the impact, relative to the wall or of two spheres to each other; their difference is what the impact takes."""
 
 RESTITUTIONS = ("restitution", "restitution_speed", "yield_speed")
 ADHESIONS = ("work_of_adhesion", "adhesion_coefficient", "adhesion_speed")

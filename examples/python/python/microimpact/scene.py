@@ -35,9 +35,9 @@ SIMULATED = (
     "rotation",
     "displacement_tangential",
 )
-"""What a simulation can be asked for: lengths in m, times in s, impulses in N s, works and energies in J, angles in rad. `energy_before` and
-`energy_after` are those of the motion in the plane of the impact, relative to the wall or of two spheres to each other; their difference is
-what the impact takes. Works of a capture are those until the sphere first turns back."""
+"""What a simulation can be asked for: lengths in m, times in s, impulses in N s, works and energies in J, angles in rad.
+`energy_before` and `energy_after` are those of the motion in the plane of the impact, relative to the wall or of two spheres to
+each other; their difference is what the impact takes. Works of a capture are those until the sphere first turns back."""
 
 COMPLIANT = (*(name for name in SIMULATED if name != "time_roll"), "impulse_ratio_out", "phases")
 """The same of a contact that is compliant along the surface, which slips and sticks several times."""
