@@ -92,8 +92,8 @@ macro_rules! parameters {
             }
 
             /// Name, unit and range.
-            // Inlined, a range is two constants.
-            #[inline]
+            // Inlined, a range is two constants, for which a microcontroller may need more flash.
+            #[cfg_attr(feature = "std", inline)]
             const fn describe(self) -> (&'static str, &'static str, (f64, f64)) {
                 match self {
                     $(Self::$physical => ($name, $unit, ($smallest, $largest)),)+
@@ -307,7 +307,7 @@ impl Parameter {
     /// ```
     /// assert_eq!(microimpact::Parameter::Restitution.range(), (0.0, 1.0));
     /// ```
-    #[inline]
+    #[cfg_attr(feature = "std", inline)]
     pub const fn range(self) -> (f64, f64) {
         self.describe().2
     }
