@@ -68,22 +68,27 @@ impl Rows {
     }
 }
 
+/// A number that the compiler does not know, as those of a table.
+fn given(number: f64) -> f64 {
+    black_box(number)
+}
+
 fn rigid_body(radius: f64, speed: f64) -> Result<(f64, f64), InputError> {
-    let sphere = Sphere::solid(radius, DENSITY)?;
-    let body = RigidBody::new(sphere, SpeedRestitution::new(RESTITUTION_SPEED)?)
-        .with_work_of_adhesion(WORK_OF_ADHESION)?
-        .with_friction(FRICTION)?;
-    let impact = body.impact(&NormalMotion::new(speed)?.with_tangential(TANGENTIAL)?);
+    let sphere = Sphere::solid(radius, given(DENSITY))?;
+    let body = RigidBody::new(sphere, SpeedRestitution::new(given(RESTITUTION_SPEED))?)
+        .with_work_of_adhesion(given(WORK_OF_ADHESION))?
+        .with_friction(given(FRICTION))?;
+    let impact = body.impact(&NormalMotion::new(speed)?.with_tangential(given(TANGENTIAL))?);
     black_box(body.classify_impact(&impact).class());
     Ok((impact.normal.overall_restitution(), impact.tangential.spin(&sphere)))
 }
 
 fn simulation(radius: f64, speed: f64, method: &impl Method<f64>) -> Result<(f64, f64), InputError> {
-    let contact = Contact::hertz(Sphere::solid(radius, DENSITY)?, Stiffness::new(STIFFNESS)?)
-        .with_damping(ZETA_H)?
-        .with_ring(ADHESION, ZETA_A)?
-        .with_friction(FRICTION)?;
-    let impact = contact.solve(&NormalMotion::new(speed)?.with_tangential(TANGENTIAL)?, method)?;
+    let contact = Contact::hertz(Sphere::solid(radius, given(DENSITY))?, Stiffness::new(given(STIFFNESS))?)
+        .with_damping(given(ZETA_H))?
+        .with_ring(given(ADHESION), given(ZETA_A))?
+        .with_friction(given(FRICTION))?;
+    let impact = contact.solve(&NormalMotion::new(speed)?.with_tangential(given(TANGENTIAL))?, method)?;
     black_box(impact.class());
     Ok((impact.normal.overall_restitution(), impact.tangential.spin()))
 }
