@@ -146,6 +146,14 @@ def test_a_trajectory_keeps_the_momentum():
     assert impulse == pytest.approx(sphere_mass * (2.8 + float(impact.rebound_speed)), rel=0.02)
 
 
+def test_a_creeping_sphere_is_followed_to_rest():
+    ring = mi.Ring(stiffness=7.5e10, adhesion=250, zeta_a=6.25, zeta_h=10.5)
+    course = mi.Scene(radius=1e-7, density=2600, contact=ring).trajectory(2.8)
+    equilibrium = 2 * math.pi * 250 / 7.5e10
+    assert course.indentation[-1] == pytest.approx(equilibrium, rel=2e-3)
+    assert (np.diff(course.indentation) > 0).all() and course.velocity[-1] < 1e-3 * course.velocity.max()
+
+
 def test_hertz_in_closed_form():
     radius, density, stiffness, speed = 1e-3, 7800.0, 1.5e11, np.array([0.1, 1.0, 10.0])
     scene = mi.Scene(radius=radius, density=density, contact=mi.Hertz(stiffness=stiffness))
