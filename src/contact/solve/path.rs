@@ -143,11 +143,8 @@ const PEAK_GROWTH: f64 = 1.5;
 /// Fraction of the energy that counts as reached there: rounding must not push the place further.
 const PEAK_ENERGY: f64 = 0.999;
 
-/// Longest interval of a sphere that is accelerated, over the distance in which damping alone stops it.
+/// Longest interval, over the distance in which damping alone stops the sphere.
 const BRAKING_FRACTION: f64 = 0.55;
-
-/// Estimates of the way on which damping stops the sphere: the second takes the damping half-way.
-const BRAKING_ESTIMATES: u32 = 2;
 
 /// Longest interval, over the distance to the undamped turning point, where the speed has a root.
 pub(super) const UNDAMPED_FRACTION: f64 = 0.7;
@@ -454,27 +451,18 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         length
     }
 
-    /// No interval goes beyond most of the way on which the forces and the damping stop the sphere.
-    ///
-    /// A constant force a and a constant damping L stop a speed y on the way y/L - a/L^2 ln(1 + L y/a). With x = y^2/(2 a), the way of the
-    /// force alone, x y/(y + L x) is 1 to 1.12 of it.
+    /// No interval goes beyond the undamped turning point, nor more than half way to where drag alone stops the sphere.
     fn braked_length(&self, length: T, undamped_turning_point: T) -> T {
-        let (at, half) = (self.at.s, T::constant(0.5));
-        let loss = |s: T| self.law.loss(s, false);
-        let way = undamped_turning_point - at;
-        let speed = self.at.speed_squared.sqrt();
-        // A sphere that adhesion accelerates is not stopped yet.
-        if way > T::ZERO && self.law.slope(at) > T::ZERO {
-            let mut longest = T::ZERO;
-            for _ in 0..BRAKING_ESTIMATES {
-                let braking = loss(at + half * longest) * way;
-                longest = T::constant(UNDAMPED_FRACTION) * (way * speed).saturating_div(speed + braking);
-            }
-            return length.min(longest);
-        }
+        let (speed, loss) = (self.at.speed_squared.sqrt(), self.law.loss(self.at.s, false));
+        let mut length = length;
         let reach = T::constant(BRAKING_FRACTION) * speed;
-        let longest = if loss(at) * length > reach { reach / loss(at) } else { length };
-        if way > T::ZERO { longest.min(T::constant(UNDAMPED_FRACTION) * way) } else { longest }
+        if loss * length > reach {
+            length = reach / loss;
+        }
+        if undamped_turning_point > self.at.s {
+            length = length.min(T::constant(UNDAMPED_FRACTION) * (undamped_turning_point - self.at.s));
+        }
+        length
     }
 
     /// From the peak to separation (`Err`) or to the turning point of a captured sphere (`Ok`, zero if not followed).
