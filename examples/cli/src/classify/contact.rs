@@ -119,12 +119,6 @@ impl<T: Number> Simulated<T> {
             (None, Some(SurfaceMotion::Sliding)) => Some(-T::ONE),
             (time, _) => time,
         };
-        // A sphere that creeps to rest ends its slip on the way.
-        let along_out = if to_end {
-            Some((slip.velocity, slip.spin))
-        } else {
-            self.along().map(|along| (along.velocity, along.spin))
-        };
         let in_space = self.arrival.cells(row, followed.then_some(self));
         let compliant = self.tangential.compliant.filter(|_| followed);
         let compliance = [
@@ -145,8 +139,8 @@ impl<T: Number> Simulated<T> {
             at_end(impulses.adhesion_rebound),
             at_end(works.material),
             at_end(works.adhesion),
-            optional(along_out.map(|(velocity, _)| velocity)),
-            optional(along_out.map(|(_, spin)| spin)),
+            at_end(slip.velocity),
+            at_end(slip.spin),
             at_end(slip.rotation),
             at_end(slip.displacement),
             optional(groups.map(|groups| groups.elasticity)),
