@@ -121,7 +121,7 @@ impl RigidBodies<'_> {
     /// Classifies the impacts of `count` rows on all threads. The result of a row is that of a single call.
     pub fn classify(&self, motions: &Motions<'_>, count: usize, quantities: &[Quantity]) -> Impacts {
         match (self.restitution, self.adhesion) {
-            // The laws of the paper by their types: a law that is chosen in each row takes half as much time again.
+            // The laws of the paper by their types: a row whose laws are chosen takes a quarter more time.
             (Restitution::Power { speed, power: Column::All(1.0) }, Adhesion::Work(work)) => {
                 let restitution = |row| SpeedRestitution::new(speed.at(row));
                 let adhesion = |sphere: &_, row| WorkOfAdhesion::new(work.at(row), sphere);
