@@ -245,6 +245,36 @@ static void simulate(void)
     free(scene), free(motions), free(written), free(results);
 }
 
+/* What an impact is within a number of intervals is what it is without, or nothing. */
+static void simulate_within(void)
+{
+    MicroimpactContactScene *scene = copy(&CONTACT, sizeof CONTACT);
+    MicroimpactMotion *motion = copy(&MOTION, sizeof MOTION);
+    MicroimpactContact expected, result;
+    size_t written, solved = 0, unsolved = 0;
+    MicroimpactError error;
+
+    assert(microimpact_simulate(scene, motion, 1, &expected, 1, &written, &error) == MICROIMPACT_STATUS_OK);
+    for (uint32_t intervals = 0; intervals < 12; intervals++) {
+        memset(&result, 0, sizeof result);
+        const MicroimpactStatus status = microimpact_simulate_within(scene, intervals, motion, 1, &result, 1, &written, &error);
+        assert(status == (written == 1 ? MICROIMPACT_STATUS_OK : MICROIMPACT_STATUS_UNSOLVED));
+        if (written == 1)
+            assert(result.restitution == expected.restitution && result.spin == expected.spin), solved++;
+        else
+            assert(solved == 0), unsolved++;
+    }
+    assert(solved > 0 && unsolved > 1);
+    assert(microimpact_simulate_within(scene, UINT32_MAX, motion, 1, &result, 1, &written, &error) == MICROIMPACT_STATUS_OK);
+    assert(result.restitution == expected.restitution);
+    assert(microimpact_simulate_within(NULL, 9, motion, 1, &result, 1, &written, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_simulate_within(scene, 9, NULL, 1, &result, 1, &written, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_simulate_within(scene, 9, motion, 1, NULL, 1, &written, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_simulate_within(scene, 9, motion, 1, &result, 1, NULL, &error) == MICROIMPACT_STATUS_POINTER);
+
+    free(scene), free(motion);
+}
+
 /* The first sample that is at rest. */
 static const MicroimpactSample *peak(const MicroimpactSample *samples, size_t count)
 {
@@ -925,6 +955,7 @@ int main(int count, char **arguments)
     choose_laws();
     classify();
     simulate();
+    simulate_within();
     trajectory();
     boundary();
     boundary_in_steps();

@@ -124,6 +124,49 @@ static void misuse_of_scenes(void)
     assert(microimpact_scene_probabilities(NULL, NULL, 0.9f, NULL, NULL) == MICROIMPACT_STATUS_POINTER);
 }
 
+/* The critical speed found in steps is the one found at once, and each step makes no more trials than it may. */
+static void critical_speed_in_steps(void)
+{
+    MicroimpactSceneConfig scenes[2];
+    MicroimpactCriticalSearch search;
+    MicroimpactError error;
+    float speed = 0.0f, expected;
+    uint32_t found, budget;
+    scenes[0] = rigid(), scenes[1] = contact();
+    for (size_t i = 0; i < 2; i++) {
+        assert(microimpact_scene_init(&scenes[i], &scenes[i], &error) == MICROIMPACT_STATUS_OK);
+        assert(microimpact_scene_critical_speed(&scenes[i], &expected, &error) == MICROIMPACT_STATUS_OK);
+        for (budget = 1; budget < 12; budget++) {
+            uint32_t steps = 0;
+            memset(&search, 0x55, sizeof search);
+            assert(microimpact_critical_speed_begin(&scenes[i], &search, &error) == MICROIMPACT_STATUS_OK);
+            do {
+                steps++, speed = -2.0f;
+                assert(microimpact_critical_speed_step(&search, budget, &speed, &found, &error) == MICROIMPACT_STATUS_OK);
+                assert(found == 1 || (found == 0 && speed == -2.0f));
+            } while (found == 0);
+            assert(speed == expected && (i == 0 ? steps == 1 : steps > 1 || budget > 3));
+            /* Asked again. */
+            assert(microimpact_critical_speed_step(&search, 0, &speed, &found, NULL) == MICROIMPACT_STATUS_OK);
+            assert(found == 1 && speed == expected);
+        }
+    }
+    assert(microimpact_critical_speed_begin(&scenes[1], &search, NULL) == MICROIMPACT_STATUS_OK);
+    assert(microimpact_critical_speed_step(&search, 0, &speed, &found, NULL) == MICROIMPACT_STATUS_OK && found == 0);
+    assert(microimpact_critical_speed_step(NULL, 1, &speed, &found, NULL) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_critical_speed_step(&search, 1, NULL, &found, NULL) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_critical_speed_step(&search, 1, &speed, NULL, NULL) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_critical_speed_begin(NULL, &search, NULL) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_critical_speed_begin(&scenes[1], NULL, NULL) == MICROIMPACT_STATUS_POINTER);
+    /* Memory in which nothing was begun; a method without a tolerance; a scene that is not valid. */
+    memset(&search, 0xff, sizeof search);
+    assert(microimpact_critical_speed_step(&search, 1, &speed, &found, NULL) == MICROIMPACT_STATUS_UNMADE);
+    scenes[1].iterations = 3;
+    assert(microimpact_critical_speed_begin(&scenes[1], &search, NULL) == MICROIMPACT_STATUS_CHOICE);
+    scenes[1].iterations = 0, scenes[1].stiffness = -1.0f;
+    assert(microimpact_critical_speed_begin(&scenes[1], &search, &error) == MICROIMPACT_STATUS_INPUT && error.value == -1.0);
+}
+
 /* Mass and moment of inertia by integration over shells. */
 static void spheres(void)
 {
@@ -252,6 +295,7 @@ int main(void)
     versions();
     same_as_each_model();
     misuse_of_scenes();
+    critical_speed_in_steps();
     spheres();
     integers();
     probabilities();

@@ -50,6 +50,8 @@ static int32_t cells[12][4];
 static MicroimpactRestitutionTable table;
 static MicroimpactBoundaryMaker boundary_maker;
 static MicroimpactRestitutionMaker restitution_maker;
+static MicroimpactCriticalSearch search;
+static uint32_t found;
 static size_t remaining;
 static MicroimpactTally tally;
 static MicroimpactQueue queue;
@@ -72,6 +74,7 @@ static void rigid_init(void) { MicroimpactRigidScene scene; microimpact_rigid_in
 static void classify(void) { MicroimpactClassification c; microimpact_classify(&body, &motion, &c, &error); }
 static void contact_init(void) { MicroimpactContactScene scene; microimpact_contact_init(&contact, &scene, &error); }
 static void simulate(void) { MicroimpactContact c; size_t n; microimpact_simulate(&contact, &motion, 1, &c, 1, &n, &error); }
+static void simulate_within(void) { MicroimpactContact c; size_t n; microimpact_simulate_within(&contact, 12u, &motion, 1, &c, 1, &n, &error); }
 static void simulate_trajectory(void)
 {
     static MicroimpactSample samples[MICROIMPACT_LARGEST_TRAJECTORY];
@@ -87,6 +90,12 @@ static void scene_contact(void) { microimpact_scene_classify(&scenes[1], &motion
 static void scene_fixed_cost(void) { microimpact_scene_classify(&scenes[2], &motion, &impact, &error); }
 static void critical_rigid(void) { microimpact_scene_critical_speed(&scenes[0], &number, &error); }
 static void critical_contact(void) { microimpact_scene_critical_speed(&scenes[1], &number, &error); }
+static void critical_begin(void) { microimpact_critical_speed_begin(&scenes[1], &search, &error); }
+static void critical_step(void)
+{
+    const MicroimpactStatus status = microimpact_critical_speed_step(&search, 1u, &number, &found, &error);
+    remaining = status == MICROIMPACT_STATUS_OK && found == 0u;
+}
 static void probabilities_of(const MicroimpactSceneConfig *scene)
 {
     static MicroimpactUncertainClass c;
@@ -148,7 +157,7 @@ static void version(void) { (void)microimpact_version(); }
 static void abi(void) { (void)microimpact_abi(); }
 static void layout(void) { (void)microimpact_layout(); }
 
-/* For each motion; until the table is complete; for each impact of the shared grid; or for each parameter. */
+/* For each motion; until the table is complete or the speed is found; for each impact of the shared grid; or for each parameter. */
 #define EACH 1
 #define STEPS 2
 #define SHARED 3
@@ -163,7 +172,8 @@ static const struct {
     {"simulate_trajectory", simulate_trajectory, 1}, {"compliant_init", compliant_init, 0}, {"simulate_compliant", simulate_compliant, 1},
     {"scene_init", scene_init, 0}, {"scene_classify, rigid body", scene_rigid, 1}, {"scene_classify, tolerance", scene_contact, 1},
     {"scene_classify, 3 iterations", scene_fixed_cost, 1}, {"scene_critical_speed, rigid body", critical_rigid, 0},
-    {"scene_critical_speed, contact", critical_contact, 0}, {"scene_probabilities, rigid body", probabilities_rigid, 1},
+    {"scene_critical_speed, contact", critical_contact, 0},
+    {"critical_speed_begin", critical_begin, 0}, {"critical_speed_step, a trial", critical_step, STEPS}, {"scene_probabilities, rigid body", probabilities_rigid, 1},
     {"scene_probabilities, contact", probabilities_contact, 0}, {"sphere_hollow", sphere_hollow, 0}, {"sphere_coated", sphere_coated, 0},
     {"fixed_init", fixed_init, 0}, {"fixed_classify", fixed_classify, 1}, {"boundary_make, 12 cells", boundary_make, 0},
     {"boundary_begin, 12 cells", boundary_begin, 0}, {"boundary_step, a critical speed of 12 cells", boundary_step, STEPS},
@@ -172,6 +182,7 @@ static const struct {
     {"restitution_read", restitution_read, 1}, {"wall_incidence", wall_incidence, 0}, {"wall_after", wall_after, 0},
     {"wall_sideways", wall_sideways, 0}, {"pair_incidence", pair_incidence, 0}, {"pair_after", pair_after, 0},
     {"event_classify, rigid body", event_classify, 1}, {"simulate, the shared grid", simulate, SHARED},
+    {"simulate_within, 12 intervals on the shared grid", simulate_within, SHARED},
     {"scene_classify, tolerance on the shared grid", scene_contact, SHARED},
     {"scene_classify, 3 iterations on the shared grid", scene_fixed_cost, SHARED}, {"queue_init", queue_init, 0}, {"queue_push", queue_push, 0},
     {"queue_pop", queue_pop, 0}, {"queue_lost", queue_lost, 0}, {"tally_init", tally_init, 0}, {"tally_record", tally_record, 1},

@@ -72,8 +72,8 @@ pub use outputs::{
 pub use result::{NormalContact, SettledImpact, SimulatedImpact};
 pub use scene::{Classified, Contact};
 pub use solve::{
-    Adaptive, AdaptiveNodes, Budgeted, Collocation, ErrorControl, FixedCost, Method, MotionToRest, Nodes, PhaseNodes,
-    PhaseSamples, RestCriterion, RunReport, RungeKuttaGill, Status,
+    Adaptive, AdaptiveNodes, Budgeted, Collocation, CriticalSpeedSearch, ErrorControl, FixedCost, Method, MotionToRest,
+    Nodes, PhaseNodes, PhaseSamples, RestCriterion, RunReport, RungeKuttaGill, Status,
 };
 pub use trajectory::{Recording, Sample, Trajectory};
 

@@ -7,8 +7,10 @@ use super::law::{
 };
 use super::outputs::{Ended, Output};
 use super::result::{NormalContact, SettledImpact, SimulatedImpact};
+use super::solve::critical::Trial;
+use super::solve::critical_search;
 use super::solve::quantities::Times;
-use super::solve::{ErrorControl, Method, RestCriterion, RunReport, Status, critical};
+use super::solve::{ErrorControl, Method, RestCriterion, RunReport, Status};
 use super::{AnyScene, TangentialVelocities};
 use crate::{
     Approach, Classification, ContactClass, Coulomb, CriticalSpeed, Fault, InputError, NoAdhesion, NoFriction,
@@ -559,7 +561,7 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
     ///
     /// assert_eq!(Contact::<f32, HertzLaw<f32>>::MOST_TRIALS, 88);
     /// ```
-    pub const MOST_TRIALS: u32 = critical::MOST_TRIALS;
+    pub const MOST_TRIALS: u32 = critical_search::MOST_TRIALS;
 
     /// The approach speed, m/s, that separates capture from rebound (B6), to the relative tolerance of `method`. In single
     /// precision rounding leaves an error of up to 1e-3 where damping is so strong that little depends on the speed, and of tens of
@@ -576,7 +578,8 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
     /// even at the largest of them, [`CriticalSpeed::NeverRebounds`].
     ///
     /// The search makes at most 88 trials of a speed, and few as a rule. A trial is the path of an impact, and one in reverse, of at most
-    /// [`Collocation::MOST_INTERVALS`](super::Collocation::MOST_INTERVALS) intervals each.
+    /// [`Collocation::MOST_INTERVALS`](super::Collocation::MOST_INTERVALS) intervals each. A
+    /// [`CriticalSpeedSearch`](super::CriticalSpeedSearch) makes them in steps.
     ///
     /// # Errors
     /// A ratio of the scene's forces outside its range at the critical speed. [`Parameter::Tolerance`] where rounding does not allow
@@ -595,11 +598,26 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
     /// # Ok::<(), microimpact::InputError>(())
     /// ```
     pub fn critical_speed(&self, method: &impl ErrorControl<T>) -> Result<CriticalSpeed<T>, InputError> {
-        let first = self.law.speed_of_adhesion(&self.sphere);
-        critical::critical_speed(first, method.tolerance(), |speed, tolerance| {
-            let (law, units) = self.law.in_units(&self.sphere, speed)?;
-            Ok(method.try_energy(tolerance, &law, units.energy))
-        })
+        let try_speed = |speed, allowed| self.try_speed(speed, allowed, method);
+        critical_search::critical_speed(self.first_trial(), method.tolerance(), try_speed)
+    }
+
+    /// The first speed, m/s, that a search for the critical speed tries.
+    #[inline]
+    pub(super) fn first_trial(&self) -> T {
+        self.law.speed_of_adhesion(&self.sphere)
+    }
+
+    /// What becomes of a sphere that arrives with a speed (m/s), to a tolerance.
+    #[inline]
+    pub(super) fn try_speed(
+        &self,
+        speed: T,
+        tolerance: T,
+        method: &impl ErrorControl<T>,
+    ) -> Result<Trial<T>, InputError> {
+        let (law, units) = self.law.in_units(&self.sphere, speed)?;
+        Ok(method.try_energy(tolerance, &law, units.energy))
     }
 
     /// The class of the impact of a sphere that arrives with the motion `before`, with its margins as in the rigid-body

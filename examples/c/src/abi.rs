@@ -1,5 +1,6 @@
 //! Whether a header and a library belong together.
 
+use crate::critical_steps::CriticalSearch;
 use crate::error::Error;
 use crate::event::Event;
 use crate::fit::{Fit, FitRoom, MeasuredImpact};
@@ -55,7 +56,7 @@ const SIZES: [usize; 28] = [
     size_of::<UncertainMotion>() + size_of::<UncertainClass>(),
     size_of::<MeasuredImpact>() + size_of::<FitRoom>(),
     size_of::<Fit>(),
-    size_of::<BoundaryMaker>() + size_of::<RestitutionMaker>(),
+    size_of::<BoundaryMaker>() + size_of::<RestitutionMaker>() + size_of::<CriticalSearch>(),
 ];
 
 const LAYOUT: u32 = {

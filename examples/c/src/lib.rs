@@ -8,6 +8,7 @@
 #![no_std]
 
 mod abi;
+mod critical_steps;
 mod error;
 mod event;
 mod fit;
@@ -29,6 +30,7 @@ mod terms;
 mod trajectory;
 
 pub use abi::*;
+pub use critical_steps::*;
 pub use error::*;
 pub use event::*;
 pub use fit::*;

@@ -2,7 +2,8 @@
 
 use microimpact::contact::{Collocation, FixedCost, JkrEnd};
 use microimpact::{
-    AdhesionConfig, AnyModel, DampingConfig, ModelConfig, PlanarMotion, ReboundAdhesionConfig, RestitutionConfig,
+    AdhesionConfig, AnyModel, CriticalSpeed, DampingConfig, ModelConfig, PlanarMotion, ReboundAdhesionConfig,
+    RestitutionConfig,
 };
 
 use crate::error::Error;
@@ -281,7 +282,7 @@ pub unsafe extern "C" fn microimpact_scene_classify(
 }
 
 /// Writes the speed below which the surface holds a sphere of a scene, m/s: zero if it never does, a negative number if it always
-/// does. A contact needs a tolerance, not iterations. The error may be null. Re-entrant.
+/// does. A contact needs a tolerance, not iterations. microimpact_critical_speed_step finds it in steps. The error may be null. Re-entrant.
 ///
 /// # Safety
 /// Each pointer is null or points to what its type says, and nobody else uses it during the call.
@@ -291,7 +292,6 @@ pub unsafe extern "C" fn microimpact_scene_critical_speed(
     speed: *mut f32,
     error: *mut Error,
 ) -> Status {
-    use microimpact::CriticalSpeed;
     // SAFETY: the contract of this function is that of the functions in `memory`.
     unsafe {
         let found = || -> Result<(), Failure> {
@@ -300,13 +300,17 @@ pub unsafe extern "C" fn microimpact_scene_critical_speed(
                 (AnyModel::Contact(contact), SceneMethod::Tolerance(method)) => contact.critical_speed(&method)?,
                 _ => return Err(Failure::Status(Status::Choice)),
             };
-            let critical = match critical {
-                CriticalSpeed::At(critical) => critical,
-                CriticalSpeed::AlwaysRebounds => 0.0,
-                CriticalSpeed::NeverRebounds => -1.0,
-            };
-            followed(memory::write(speed, critical))
+            followed(memory::write(speed, number_of(critical)))
         };
         finish(found(), error)
+    }
+}
+
+/// A critical speed as a number, m/s, as microimpact_scene_critical_speed says.
+pub(crate) fn number_of(critical: CriticalSpeed<f32>) -> f32 {
+    match critical {
+        CriticalSpeed::At(speed) => speed,
+        CriticalSpeed::AlwaysRebounds => 0.0,
+        CriticalSpeed::NeverRebounds => -1.0,
     }
 }

@@ -158,6 +158,34 @@ pub unsafe extern "C" fn microimpact_simulate(
     }
 }
 
+/// Simulates as microimpact_simulate, each impact in at most so many intervals of its motion, refused ones included: a bound of its time,
+/// since an interval takes at most 350 evaluations of the forces. An impact that needs more is MICROIMPACT_STATUS_UNSOLVED, or
+/// undecided where no more than that can be told; any other result is that of microimpact_simulate to the last bit. That function allows
+/// 320 intervals, and so does a larger number here. The error may be null. Re-entrant.
+///
+/// # Safety
+/// As for [`microimpact_simulate`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn microimpact_simulate_within(
+    scene: *const ContactScene,
+    intervals: u32,
+    motions: *const Motion,
+    count: usize,
+    results: *mut Contact,
+    capacity: usize,
+    written: *mut usize,
+    error: *mut Error,
+) -> Status {
+    // SAFETY: the contract of this function.
+    unsafe {
+        simulate_each(motions, count, results, capacity, written, error, || {
+            let (scene, method) = followed(memory::read(scene))?.check()?;
+            let method = method.with_budget(intervals);
+            Ok(move |motion: &PlanarMotion<f32>| Contact::of(&scene.solve(motion, &method)?))
+        })
+    }
+}
+
 /// Simulates impacts by the solver that `solver` makes, as microimpact_simulate says.
 ///
 /// # Safety

@@ -104,7 +104,12 @@ const OF_THE_SIMULATION: [Term; 11] = [
     Term { name: "external force", types: &["ConstantForce"], methods: &["with_external_force"], ..TERM },
     Term { name: "recording", modules: &["trajectory"], types: &["Recording", "Sample", "Trajectory"], ..TERM },
     Term { name: "motion to rest", modules: &["rest"], types: &["RestCriterion", "MotionToRest"], ..TERM },
-    Term { name: "the search for the critical speed", modules: &["critical"], ..TERM },
+    Term {
+        name: "the search for the critical speed",
+        modules: &["critical", "critical_search"],
+        types: &["CriticalSpeedSearch"],
+        ..TERM
+    },
     Term { name: "the choice of a method", types: &["Adaptive", "AdaptiveNodes"], ..TERM },
     Term { name: "the paper's method", modules: &["gill"], types: &["RungeKuttaGill"], ..TERM },
 ];

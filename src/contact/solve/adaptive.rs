@@ -1,5 +1,6 @@
 //! The method that chooses for itself: whole phases if damping is mild and the tolerance not too small, else intervals.
 
+use super::budgeted::Budgeted;
 #[cfg(feature = "serde")]
 use super::collocation::Tolerance;
 use super::collocation::{Collocation, ErrorControl, checked_tolerance};
@@ -7,7 +8,7 @@ use super::critical::Trial;
 use super::interval::{Interval, tail_of_times};
 use super::nodes::{Nodes, PhaseSamples, WEIGHT_POWER};
 use super::observer::Observer;
-use super::path::{End, Method, NormalPath, Statistics, energy_bound};
+use super::path::{End, MOST_INTERVALS, Method, NormalPath, Statistics, energy_bound};
 use super::phase::Phase;
 use super::rest::{RestCriterion, Settling};
 use super::split::{FirstPart, find_end_of_slip};
@@ -114,6 +115,40 @@ impl<T: Real> Adaptive<T> {
     pub fn new(tolerance: T) -> Result<Self, InputError> {
         Ok(Self { tolerance: checked_tolerance(tolerance)? })
     }
+
+    /// Intervals after which a run gives up, refused ones included. Each attempt at whole phases counts as two.
+    ///
+    /// ```
+    /// assert!(microimpact::contact::Adaptive::<f32>::MOST_INTERVALS < 1000);
+    /// ```
+    pub const MOST_INTERVALS: u32 = MOST_INTERVALS + ATTEMPTS * INTERVALS_OF_AN_ATTEMPT;
+
+    /// The same method with a budget of so many intervals, refused ones included, instead of [`MOST_INTERVALS`](Self::MOST_INTERVALS);
+    /// a larger budget is that number. An attempt at whole phases takes two of them, whether or not it succeeds, and a budget
+    /// below two allows none.
+    ///
+    /// An interval takes at most 700 evaluations of the forces: 50 at each of at most 14 nodes. What the status and the outcome say is
+    /// as for [`Collocation::with_budget`].
+    ///
+    /// ```
+    /// use microimpact::contact::{Adaptive, Contact, Status};
+    /// use microimpact::{NormalMotion, Sphere, Stiffness};
+    ///
+    /// let scene = Contact::hertz(Sphere::solid(5.06e-6, 2600.0)?, Stiffness::new(7.5e10)?)
+    ///     .with_damping(10.5)?
+    ///     .with_ring(250.0, 6.25)?;
+    /// let (motion, method) = (NormalMotion::new(2.8)?, Adaptive::new(1e-9)?);
+    /// assert_eq!(scene.solve(&motion, &method.with_budget(40))?, scene.solve(&motion, &method)?);
+    /// let spent = scene.solve(&motion, &method.with_budget(1))?;
+    /// assert_eq!((spent.run.status, spent.normal.outcome()), (Status::BudgetSpent, None));
+    /// # Ok::<(), microimpact::InputError>(())
+    /// ```
+    pub const fn with_budget(self, intervals: u32) -> Budgeted<Self>
+    where
+        T: Copy,
+    {
+        Budgeted::new(self, if intervals < Self::MOST_INTERVALS { intervals } else { Self::MOST_INTERVALS })
+    }
 }
 
 /// A call of [`Collocation`] with the number of nodes that suits a tolerance.
@@ -157,13 +192,28 @@ impl<T: AdaptiveNodes> ErrorControl<T> for Adaptive<T> {
 
 impl<T: AdaptiveNodes> Method<T> for Adaptive<T> {
     fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
+        self.solve_within(None, law, energy, observer)
+    }
+}
+
+impl<T: AdaptiveNodes> Adaptive<T> {
+    /// The motion, if it takes no more than the `budget` of intervals. Without one, that of the intervals is a constant, which costs
+    /// no comparison with a variable.
+    #[inline]
+    pub(super) fn solve_within<L, O>(&self, budget: Option<u32>, law: &L, energy: T, observer: &mut O) -> NormalPath<T>
+    where
+        L: ContactLaw<T>,
+        O: Observer<T>,
+    {
         let tolerance = self.tolerance;
         let whole_phases = law.loss_power() >= WEIGHT_POWER
             && energy >= T::constant(LEAST_PHASE_ENERGY)
             && !law.may_have_barrier()
             && !O::DEMANDS
             && observer.kink().is_none();
-        let mut attempts = Attempts { tolerance, allowed: if whole_phases { ATTEMPTS } else { 0 }, evaluations: 0 };
+        let affordable = budget.map_or(ATTEMPTS, |intervals| ATTEMPTS.min(intervals / INTERVALS_OF_AN_ATTEMPT));
+        let allowed = if whole_phases { affordable } else { 0 };
+        let mut attempts = Attempts { tolerance, allowed, made: 0, evaluations: 0 };
         // Nodes of a phase and of its outputs, and the range of tolerances for which they are tried. It begins where most
         // mildly damped scenes reach the tolerance, with times and without, and ends where fewer nodes always do.
         macro_rules! try_phases {
@@ -186,7 +236,13 @@ impl<T: AdaptiveNodes> Method<T> for Adaptive<T> {
             try_phases!(13, 24, timed 6e-10, untimed 3e-11, to 5e-8);
             try_phases!(14, 26, timed 2e-10, untimed 8e-12, to 2e-9);
         }
-        let mut path = by_intervals!(tolerance, solve(law, energy, observer));
+        let mut path = match budget {
+            None => by_intervals!(tolerance, solve(law, energy, observer)),
+            Some(intervals) => {
+                let remaining = intervals.saturating_sub(attempts.made * INTERVALS_OF_AN_ATTEMPT).min(MOST_INTERVALS);
+                by_intervals!(tolerance, solve_within(remaining, law, energy, observer))
+            }
+        };
         path.statistics.evaluations += attempts.evaluations;
         path
     }
@@ -199,6 +255,9 @@ const LEAST_PHASE_ENERGY: f64 = 0.05;
 
 /// Attempts at whole phases: a second one, with more nodes, only if the error of the first was a little too large.
 const ATTEMPTS: u32 = 2;
+
+/// Intervals of a budget that an attempt takes: one for each phase.
+const INTERVALS_OF_AN_ATTEMPT: u32 = 2;
 
 /// Estimated error over the tolerance, up to which more nodes may be enough: two more gain about two digits.
 const NEARLY: f64 = 100.0;
@@ -355,6 +414,7 @@ enum Failed {
 struct Attempts<T> {
     tolerance: T,
     allowed: u32,
+    made: u32,
     /// Those of all attempts.
     evaluations: u32,
 }
@@ -374,6 +434,7 @@ impl<T: Real> Attempts<T> {
         if self.allowed == 0 {
             return None;
         }
+        self.made += 1;
         let solved = phases::<T, L, O, N, M>(law, energy, self.tolerance, &mut self.evaluations, observer);
         self.allowed = if solved.as_ref().err() == Some(&Failed::ByLittle) { self.allowed - 1 } else { 0 };
         solved.ok()

@@ -1,5 +1,6 @@
 //! A method with a budget.
 
+use super::adaptive::{Adaptive, AdaptiveNodes};
 use super::collocation::Collocation;
 use super::nodes::Nodes;
 use super::observer::Observer;
@@ -7,11 +8,11 @@ use super::path::{MOST_INTERVALS, Method, NormalPath};
 use crate::contact::law::ContactLaw;
 
 /// A method that gives up after a number of intervals, which bounds what a simulation takes:
-/// [`Collocation::with_budget`].
+/// [`Collocation::with_budget`] and [`Adaptive::with_budget`].
 ///
 /// Of the other methods, [`FixedCost`](super::FixedCost) has its budget in its number of iterations, and
-/// [`RungeKuttaGill`](super::RungeKuttaGill) in its number of steps. [`Adaptive`](super::Adaptive) takes none: where
-/// whole phases do not serve, it takes the intervals of a [`Collocation`] without a budget.
+/// [`RungeKuttaGill`](super::RungeKuttaGill) in its number of steps. A critical speed is found in steps by a
+/// [`CriticalSpeedSearch`](crate::contact::CriticalSpeedSearch).
 ///
 /// ```
 /// use microimpact::contact::{Budgeted, Collocation};
@@ -53,5 +54,11 @@ impl<T: Nodes<N>, const N: usize> Method<T> for Budgeted<Collocation<N, T>> {
     fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
         // A number that was read may be larger.
         self.method.solve_within(self.intervals.min(MOST_INTERVALS), law, energy, observer)
+    }
+}
+
+impl<T: AdaptiveNodes> Method<T> for Budgeted<Adaptive<T>> {
+    fn solve<L: ContactLaw<T>, O: Observer<T>>(&self, law: &L, energy: T, observer: &mut O) -> NormalPath<T> {
+        self.method.solve_within(Some(self.intervals), law, energy, observer)
     }
 }

@@ -98,7 +98,7 @@ impl<const N: usize, T: Real> Collocation<N, T> {
     /// An interval takes at most 50 evaluations of the forces at each of its nodes, and a few where it converges soon. A run that
     /// spends its budget has the status [`BudgetSpent`](crate::contact::Status::BudgetSpent) and no outcome, or the outcome
     /// [`Undecided`](crate::Outcome::Undecided) where no more than that can be told; any other outcome is the one
-    /// without a budget, with the same digits.
+    /// without a budget, with the same digits. A budget of zero tries one interval.
     ///
     /// ```
     /// use microimpact::contact::{Collocation, Contact, Status};

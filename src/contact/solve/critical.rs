@@ -11,17 +11,8 @@ use super::interval::{Control, Course, END_FROM_SPEED, Interval, Point, pass};
 use super::nodes::Nodes;
 use super::path::{End, Follower, REFUSED_SHRINK};
 use super::well::{depth, well};
+use crate::Real;
 use crate::contact::law::ContactLaw;
-use crate::{CriticalSpeed, InputError, Parameter, Real};
-
-/// Trials that use the energies of those before; later ones halve the bracket.
-const MOST_GUIDED_TRIALS: u32 = 24;
-
-/// Halving the logarithm of the range of speeds down to rounding takes 56.
-const HALVINGS: u32 = 64;
-
-/// Trials at most.
-pub(crate) const MOST_TRIALS: u32 = MOST_GUIDED_TRIALS + HALVINGS;
 
 /// Change at which iterations have converged, over the tolerance.
 const CONVERGED: f64 = 0.1;
@@ -52,46 +43,8 @@ const STIFF_ERROR: f64 = 1e-4;
 /// damped impact comes near it.
 const MOST_SQUARED_SPEED: f64 = 4.0;
 
-/// Excess below which the step v/(1 + excess) would be too long.
-const LEAST_EXCESS: f64 = -0.99;
-
-/// Estimated error of a secant, over the tolerance, at which the search ends.
-const SECANT_ACCURACY: f64 = 0.1;
-
-/// Error of a trial, over the tolerance: those of its two paths add up, and the secant adds its own.
-const SHARE_OF_A_TRIAL: f64 = 0.5;
-
 /// Halvings of a distance down to what is less than any fraction of it.
 const MOST_HALVINGS: u32 = 60;
-
-/// Factor on the error of further trials where one could not be solved.
-const COARSER: f64 = 8.0;
-
-/// Slope of the excess over the one that the trials were made for, below which they were not exact enough.
-const MUCH_FLATTER: f64 = 0.5;
-
-/// Relative width of a bracket, in roundings, that cannot be halved any more.
-const BRACKET_ROUNDING: f64 = 4.0;
-
-/// The approach speed that separates capture from rebound to a relative `tolerance`, by trials of a speed to a tolerance, from the
-/// speed `first` on.
-pub(crate) fn critical_speed<T: Real>(
-    first: T,
-    tolerance: T,
-    mut try_speed: impl FnMut(T, T) -> Result<Trial<T>, InputError>,
-) -> Result<CriticalSpeed<T>, InputError> {
-    let (slowest, fastest) = speed_range();
-    let first = first.max(slowest).min(fastest);
-    let mut search = Search::from(first);
-    for trial in 0..MOST_TRIALS {
-        let allowed = T::constant(SHARE_OF_A_TRIAL) * search.slope * search.coarser * tolerance;
-        let outcome = try_speed(search.speed, allowed);
-        if let Some(result) = search.note(outcome, first, trial < MOST_GUIDED_TRIALS, tolerance) {
-            return result;
-        }
-    }
-    search.result()
-}
 
 /// What becomes of a sphere that arrives with a kinetic energy.
 pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(tolerance: T, law: &L, energy: T) -> Trial<T> {
@@ -197,123 +150,6 @@ pub enum Trial<T> {
 impl<T> Trial<T> {
     /// Damping takes so much that one of the paths ends early.
     const CAPTURED: Self = Self::Tried { rebounds: false, excess: None };
-}
-
-/// A search for the root of the excess in a bracket of speeds.
-struct Search<T> {
-    /// The trial.
-    speed: T,
-    /// The largest speed known to be captured and the smallest known to rebound; ends of the range before there are any.
-    bracket: (T, T),
-    /// Whether those ends have been tried.
-    tried: (bool, bool),
-    /// Why the ends of the bracket could not be tried.
-    errors: (Option<InputError>, Option<InputError>),
-    /// Speed and excess of the last trial that had one.
-    last: Option<(T, T)>,
-    /// Change of the excess for each relative change of the speed, at most one. Where it is small, as under strong damping, the
-    /// trials have to be as much more exact.
-    slope: T,
-    /// By how much the trials are less exact, since rounding hides smaller errors.
-    coarser: T,
-}
-
-fn speed_range<T: Real>() -> (T, T) {
-    let (slowest, fastest) = Parameter::ApproachSpeed.range();
-    (T::constant(slowest), T::constant(fastest))
-}
-
-impl<T: Real> Search<T> {
-    fn from(speed: T) -> Self {
-        let (bracket, one) = (speed_range(), T::ONE);
-        Self { speed, bracket, tried: (false, false), errors: (None, None), last: None, slope: one, coarser: one }
-    }
-
-    /// Takes in the outcome of the trial; the result, or the next trial.
-    fn note(
-        &mut self,
-        outcome: Result<Trial<T>, InputError>,
-        first: T,
-        guided: bool,
-        tolerance: T,
-    ) -> Option<Result<CriticalSpeed<T>, InputError>> {
-        let (slowest, fastest) = speed_range::<T>();
-        let speed = self.speed;
-        let (rebounds, excess, error) = match outcome {
-            Ok(Trial::Free) => return Some(Ok(CriticalSpeed::AlwaysRebounds)),
-            Ok(Trial::Tried { rebounds, excess }) => (rebounds, excess, None),
-            Ok(Trial::Unsolved) => {
-                self.coarser = self.coarser * T::constant(COARSER);
-                return Parameter::Tolerance.check(self.coarser * tolerance).err().map(Err);
-            }
-            // Forces outgrow the elastic one at low speeds; damping does so at high ones as well.
-            Err(error) => (error.parameter == Parameter::DampingRatio && speed > first, None, Some(error)),
-        };
-        if rebounds {
-            if speed <= slowest {
-                return Some(error.map_or(Ok(CriticalSpeed::AlwaysRebounds), Err));
-            }
-            (self.bracket.1, self.tried.1, self.errors.1) = (speed, true, error);
-        } else {
-            if speed >= fastest {
-                return Some(error.map_or(Ok(CriticalSpeed::NeverRebounds), Err));
-            }
-            (self.bracket.0, self.tried.0, self.errors.0) = (speed, true, error);
-        }
-        let (low, high) = self.bracket;
-        if high <= low * (T::ONE + T::constant(BRACKET_ROUNDING) * T::EPSILON) {
-            return Some(self.result());
-        }
-        let (mut next, mut error, mut slope) = (T::ZERO, T::ONE, T::ONE);
-        if let Some(excess) = excess.filter(|_| guided) {
-            let step = excess.saturating_div(self.slope);
-            if step > T::constant(LEAST_EXCESS) {
-                next = speed / (T::ONE + step);
-            }
-            if let Some((before, other)) = self.last.filter(|(_, other)| *other != excess) {
-                slope = (excess - other) / (speed - before);
-                let secant = speed - excess / slope;
-                slope = slope * speed;
-                if secant > low && secant < high {
-                    next = secant;
-                    // The error of a secant is the product of those of its two points, times a number of order one: in the speed, or
-                    // in the excess where that grows faster.
-                    error = ((next - speed) / next * ((next - before) / next)).abs();
-                    error = error.max((excess * other).abs().saturating_div(slope));
-                }
-            }
-            self.last = Some((speed, excess));
-        }
-        if error <= T::constant(SECANT_ACCURACY) * tolerance {
-            if slope >= T::constant(MUCH_FLATTER) * self.slope {
-                return Some(Ok(CriticalSpeed::At(next)));
-            }
-            // What the trials so far have told is not exact enough.
-            *self = Self { slope: slope.max(T::EPSILON), coarser: self.coarser, ..Self::from(next) };
-            return None;
-        }
-        self.speed = if next > low && next < high {
-            next
-        } else if speed == low && high >= fastest && !self.tried.1 {
-            fastest
-        } else if speed == high && low <= slowest && !self.tried.0 {
-            slowest
-        } else {
-            (low * high).sqrt()
-        };
-        None
-    }
-
-    fn result(&self) -> Result<CriticalSpeed<T>, InputError> {
-        let (low, high) = self.bracket;
-        let (slowest, fastest) = speed_range();
-        match self.errors.0.or(self.errors.1) {
-            Some(error) => Err(error),
-            None if high >= fastest => Ok(CriticalSpeed::NeverRebounds),
-            None if low <= slowest => Ok(CriticalSpeed::AlwaysRebounds),
-            None => Ok(CriticalSpeed::At((low * high).sqrt())),
-        }
-    }
 }
 
 impl<T: Real, L: ContactLaw<T>> Follower<'_, T, L, ()> {

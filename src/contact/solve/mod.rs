@@ -4,6 +4,7 @@ mod adaptive;
 mod budgeted;
 mod collocation;
 pub(super) mod critical;
+pub(super) mod critical_search;
 mod fixed_cost;
 mod gill;
 pub(super) mod integrals;
@@ -15,12 +16,14 @@ mod phase;
 pub(super) mod quantities;
 mod rest;
 mod run;
+
 mod split;
 mod well;
 
 pub use adaptive::{Adaptive, AdaptiveNodes};
 pub use budgeted::Budgeted;
 pub use collocation::{Collocation, ErrorControl};
+pub use critical_search::CriticalSpeedSearch;
 pub use fixed_cost::FixedCost;
 pub use gill::RungeKuttaGill;
 pub use nodes::{Nodes, PhaseNodes, PhaseSamples};

@@ -20,10 +20,8 @@ use crate::Real;
 pub enum Status {
     /// The motion was followed to its end, within the tolerance if the method has one. The outcome may be undecided.
     Solved,
-    /// The iterations did not converge, or the intervals ran out, of which [`Collocation::with_budget`] says how many there are; the
-    /// result is not to be relied on.
-    ///
-    /// [`Collocation::with_budget`]: crate::contact::Collocation::with_budget
+    /// The iterations did not converge, or the intervals ran out, of which a [`Budgeted`](crate::contact::Budgeted) method says how
+    /// many there are; the result is not to be relied on.
     BudgetSpent,
     /// The method cannot represent the law of contact, the force that friction is proportional to, or tangential compliance; there is
     /// no result.

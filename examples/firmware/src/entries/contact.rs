@@ -7,10 +7,10 @@ use core::hint::black_box;
 
 use microimpact::contact::{
     Adaptive, AdaptiveNodes, AnyLaw, Attraction, Collocation, ConstantDamping, ConstantForce, Contact, ContactLaw,
-    Damping, Dmt, Energy, ErrorControl, FixedCost, Groups, HertzLaw, HystereticDamping, Impulses, JkrEnd, JkrLaw,
-    Nodes, NormalContact, Output, Peeling, PhaseSamples, ProportionalDamping, Recording, RestCriterion, Ring,
-    RunReport, RungeKuttaGill, SimulatedImpact, Slip, SlipHistory, Surface, TangentialVelocities, Times, Trajectory,
-    Unloading, ViscoelasticDamping, Works,
+    CriticalSpeedSearch, Damping, Dmt, Energy, ErrorControl, FixedCost, Groups, HertzLaw, HystereticDamping, Impulses,
+    JkrEnd, JkrLaw, Nodes, NormalContact, Output, Peeling, PhaseSamples, ProportionalDamping, Recording, RestCriterion,
+    Ring, RunReport, RungeKuttaGill, SimulatedImpact, Slip, SlipHistory, Surface, TangentialVelocities, Times,
+    Trajectory, Unloading, ViscoelasticDamping, Works,
 };
 use microimpact::{Approach, Classification, ContactClass, Coulomb, InputError, PlanarMotion, Real, Sphere, Stiffness};
 
@@ -88,6 +88,9 @@ fn with_every_term<const N: usize, T: Nodes<N>>(scene: &Elastic<T>) -> Result<()
     keep(budgeted.intervals());
     contact(&planar.solve_normal(&motion, &budgeted)?);
     keep(normal.critical_speed(&method)?);
+    let mut search = CriticalSpeedSearch::new();
+    keep(search.step(black_box(2), &normal, &method)?);
+    keep(search.trials());
     everything(&planar, &motion, &method)
 }
 
