@@ -23,7 +23,7 @@
     MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_4, sizeof(MicroimpactTally)), sizeof(MicroimpactTallyReport)), sizeof(MicroimpactFixedBody) + sizeof(MicroimpactFixedMotion)), sizeof(MicroimpactFixedResult))
 /* To be compared with what microimpact_layout returns. */
 #define MICROIMPACT_LAYOUT \
-    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_5, sizeof(MicroimpactUncertainMotion) + sizeof(MicroimpactUncertainClass)), sizeof(MicroimpactMeasuredImpact) + sizeof(MicroimpactFitRoom)), sizeof(MicroimpactFit)), sizeof(MicroimpactBoundaryMaker) + sizeof(MicroimpactRestitutionMaker))
+    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_5, sizeof(MicroimpactUncertainMotion) + sizeof(MicroimpactUncertainClass)), sizeof(MicroimpactMeasuredImpact) + sizeof(MicroimpactFitRoom)), sizeof(MicroimpactFit)), sizeof(MicroimpactBoundaryMaker) + sizeof(MicroimpactRestitutionMaker) + sizeof(MicroimpactCriticalSearch))
 
 
 /* Number of the interface: another one has other functions, structures or meanings. */
@@ -84,23 +84,6 @@ enum {
 };
 typedef uint32_t MicroimpactStatus;
 
-/* What became of the sphere. */
-enum {
-  /* Leaves the surface while its contact point slips. */
-  MICROIMPACT_CLASS_REBOUND_SLIDING,
-  /* Leaves the surface rolling. */
-  MICROIMPACT_CLASS_REBOUND_ROLLING,
-  /* Captured, and slides on. */
-  MICROIMPACT_CLASS_CAPTURED_SLIDING,
-  /* Captured, and rolls on. */
-  MICROIMPACT_CLASS_CAPTURED_ROLLING,
-  /* Captured and at rest. */
-  MICROIMPACT_CLASS_CAPTURED_RESTING,
-  /* Too close to the critical speed to decide. */
-  MICROIMPACT_CLASS_UNDECIDED
-};
-typedef uint32_t MicroimpactClass;
-
 /* How a number misses its range. Its number is that of the protocol of instruments, plus one. */
 enum {
   /* No fault. */
@@ -133,6 +116,23 @@ enum {
   MICROIMPACT_FAULT_OTHER
 };
 typedef uint32_t MicroimpactFault;
+
+/* What became of the sphere. */
+enum {
+  /* Leaves the surface while its contact point slips. */
+  MICROIMPACT_CLASS_REBOUND_SLIDING,
+  /* Leaves the surface rolling. */
+  MICROIMPACT_CLASS_REBOUND_ROLLING,
+  /* Captured, and slides on. */
+  MICROIMPACT_CLASS_CAPTURED_SLIDING,
+  /* Captured, and rolls on. */
+  MICROIMPACT_CLASS_CAPTURED_ROLLING,
+  /* Captured and at rest. */
+  MICROIMPACT_CLASS_CAPTURED_RESTING,
+  /* Too close to the critical speed to decide. */
+  MICROIMPACT_CLASS_UNDECIDED
+};
+typedef uint32_t MicroimpactClass;
 
 /* What a table says of an impact. */
 enum {
@@ -293,6 +293,26 @@ typedef struct MicroimpactSceneConfig {
   uint32_t iterations;
 } MicroimpactSceneConfig;
 
+/* Room for a search for a critical speed, which microimpact_critical_speed_begin prepares. */
+typedef struct MicroimpactCriticalSearch {
+  /* What is in it concerns the library alone. */
+  size_t words[64];
+} MicroimpactCriticalSearch;
+
+/* What was wrong with a number. */
+typedef struct MicroimpactError {
+  /* Number of the parameter, as in the protocol of instruments, for microimpact_parameter_name. */
+  uint32_t parameter;
+  /* What is wrong with it. */
+  MicroimpactFault fault;
+  /* Smallest valid value of the parameter by itself; what other numbers of the scene demand of it, the fault says. */
+  double smallest;
+  /* Largest valid value. */
+  double largest;
+  /* The value that was refused. */
+  double value;
+} MicroimpactError;
+
 /* A motion before the impact. */
 typedef struct MicroimpactMotion {
   /* Approach speed, positive, m/s. */
@@ -326,20 +346,6 @@ typedef struct MicroimpactSceneImpact {
   /* Peripheral velocity after the impact, spin times radius, m/s. */
   float peripheral;
 } MicroimpactSceneImpact;
-
-/* What was wrong with a number. */
-typedef struct MicroimpactError {
-  /* Number of the parameter, as in the protocol of instruments, for microimpact_parameter_name. */
-  uint32_t parameter;
-  /* What is wrong with it. */
-  MicroimpactFault fault;
-  /* Smallest valid value of the parameter by itself; what other numbers of the scene demand of it, the fault says. */
-  double smallest;
-  /* Largest valid value. */
-  double largest;
-  /* The value that was refused. */
-  double value;
-} MicroimpactError;
 
 /* A quantity with its standard error. */
 typedef struct MicroimpactMeasured {
@@ -737,6 +743,33 @@ uint32_t microimpact_abi(void);
 uint32_t microimpact_layout(void);
 
 /*
+ Begins the search for the speed that microimpact_scene_critical_speed writes. The scene is copied; a contact needs a tolerance, not
+ iterations. Nothing is computed as yet. The error may be null. Re-entrant.
+
+ # Safety
+ Each pointer is null or points to what its type says, and nobody else uses it during the call.
+ */
+MicroimpactStatus microimpact_critical_speed_begin(const struct MicroimpactSceneConfig *scene,
+                                                   struct MicroimpactCriticalSearch *search,
+                                                   struct MicroimpactError *error);
+
+/*
+ Goes on with a search by at most `budget` trials of a speed, of which it takes less than ten as a rule and never more than 88, and
+ writes 1 to `found` once the speed is found, else 0. The speed is written where it is found: the one of
+ microimpact_scene_critical_speed to the last bit. That of a rigid body needs no trial. The figures are those of one trial. Where a
+ step fails, so does every further one. The error may be null. Re-entrant.
+
+ # Safety
+ Each pointer is null or points to what its type says, and nobody else uses it during the call; only
+ microimpact_critical_speed_begin and this function have written to the search.
+ */
+MicroimpactStatus microimpact_critical_speed_step(struct MicroimpactCriticalSearch *search,
+                                                  uint32_t budget,
+                                                  float *speed,
+                                                  uint32_t *found,
+                                                  struct MicroimpactError *error);
+
+/*
  Writes the name of a parameter and a zero byte to a buffer, cut off where it is too small, and returns the length of the
  whole name, zero for a parameter that there is not. Re-entrant.
  On a Cortex-M3, at most 888 instructions and 96 bytes of stack.
@@ -961,7 +994,7 @@ MicroimpactStatus microimpact_scene_classify(const struct MicroimpactSceneConfig
 
 /*
  Writes the speed below which the surface holds a sphere of a scene, m/s: zero if it never does, a negative number if it always
- does. A contact needs a tolerance, not iterations. The error may be null. Re-entrant.
+ does. A contact needs a tolerance, not iterations. microimpact_critical_speed_step finds it in steps. The error may be null. Re-entrant.
  On a Cortex-M3, rigid body, at most 1751 instructions and 800 bytes of stack.
  On a Cortex-M3, contact, at most 14941746 instructions and 2272 bytes of stack.
 
@@ -1002,6 +1035,24 @@ MicroimpactStatus microimpact_simulate(const struct MicroimpactContactScene *sce
                                        size_t capacity,
                                        size_t *written,
                                        struct MicroimpactError *error);
+
+/*
+ Simulates as microimpact_simulate, each impact in at most so many intervals of its motion, refused ones included: a bound of its time,
+ since an interval takes at most 350 evaluations of the forces. An impact that needs more is MICROIMPACT_STATUS_UNSOLVED, or
+ undecided where no more than that can be told; any other result is that of microimpact_simulate to the last bit. That function allows
+ 320 intervals, and so does a larger number here. The error may be null. Re-entrant.
+
+ # Safety
+ As for [`microimpact_simulate`].
+ */
+MicroimpactStatus microimpact_simulate_within(const struct MicroimpactContactScene *scene,
+                                              uint32_t intervals,
+                                              const struct MicroimpactMotion *motions,
+                                              size_t count,
+                                              struct MicroimpactContact *results,
+                                              size_t capacity,
+                                              size_t *written,
+                                              struct MicroimpactError *error);
 
 /*
  Computes the planar motion of a solid sphere of the given radius (m) that hits a wall. microimpact_classify and
