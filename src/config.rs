@@ -252,7 +252,8 @@ pub enum AdhesionConfig<T> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(bound(deserialize = "T: Real + serde::Deserialize<'de>")))]
 #[allow(clippy::large_enum_variant)] // there is no allocation to box it
 pub enum AnyModel<T> {
     /// The rigid-body model.

@@ -19,6 +19,8 @@ pub mod instrument;
 pub mod measure;
 mod motion;
 mod numbers;
+#[cfg(feature = "serde")]
+mod read;
 pub mod rigid;
 mod rolling;
 pub mod space;

@@ -9,7 +9,7 @@ use crate::{InputError, Parameter, Real};
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NoAdhesion;
 
 /// No friction: the models neither read nor compute tangential velocity and spin.
@@ -19,7 +19,7 @@ pub struct NoAdhesion;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NoFriction;
 
 /// The elastic force alone, to which Coulomb's friction is proportional in the paper (B8).
@@ -29,7 +29,7 @@ pub struct NoFriction;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ElasticForce;
 
 /// Coulomb friction between sphere and surface. The rigid body knows only the impulse of the normal force; in the simulation friction

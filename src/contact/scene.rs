@@ -43,7 +43,13 @@ use crate::{
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        deserialize = "T: Real + serde::Deserialize<'de>, L: serde::Deserialize<'de>, S: serde::Deserialize<'de>"
+    ))
+)]
 pub struct Contact<T, L, S = NoFriction> {
     pub(crate) sphere: Sphere<T>,
     pub(crate) law: L,

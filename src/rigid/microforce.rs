@@ -37,7 +37,7 @@ pub trait MicroforceTerm<T> {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NoMicroforce;
 
 impl<T: Real> MicroforceTerm<T> for NoMicroforce {
@@ -82,8 +82,8 @@ impl<T: Real> MicroforceTerm<T> for NoMicroforce {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Microforce<T> {
-    approach: T,
-    rebound: T,
+    pub(crate) approach: T,
+    pub(crate) rebound: T,
 }
 
 impl<T: Real> Microforce<T> {

@@ -56,7 +56,13 @@ use crate::{
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        deserialize = "T: Real + serde::Deserialize<'de>, L: serde::Deserialize<'de>, A: serde::Deserialize<'de>, S: serde::Deserialize<'de>, X: serde::Deserialize<'de>"
+    ))
+)]
 pub struct RigidBody<T, L, A = NoAdhesion, S = NoFriction, X = NoMicroforce> {
     pub(crate) sphere: Sphere<T>,
     pub(crate) restitution: L,

@@ -92,9 +92,9 @@ impl<T: Real, M: Oblique<T>> TangentialTerm<T, M> for Coulomb<T> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RollingDissipation<T> {
-    friction: Coulomb<T>,
+    pub(crate) friction: Coulomb<T>,
     /// mu_m a_c/r.
-    ratio: T,
+    pub(crate) ratio: T,
 }
 
 impl<T: Real> RollingDissipation<T> {

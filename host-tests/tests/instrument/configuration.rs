@@ -2,10 +2,13 @@
 
 use std::fmt::Debug;
 
-use microimpact::contact::{Adaptive, Collocation, Contact, FixedCost, JkrEnd, JkrLaw, RestCriterion, RungeKuttaGill};
+use microimpact::contact::{
+    Adaptive, AnyScene, Collocation, Contact, FixedCost, HertzScene, JkrEnd, JkrLaw, PaperScene, RestCriterion,
+    RingScene, RungeKuttaGill, TotalAndPullOff, TotalForce, Unloading,
+};
 use microimpact::instrument::{Classifier, Instrument, NoLines, PlanarReading, Simulated, SpeedBins};
 use microimpact::measure::{Estimate, MeasuredImpact, RestitutionFit};
-use microimpact::rigid::{ElasticPlasticRestitution, PowerRestitution, ViscoelasticRestitution};
+use microimpact::rigid::{AnyRigidBody, ElasticPlasticRestitution, PowerRestitution, ViscoelasticRestitution};
 use microimpact::table::{BoundaryTable, RestitutionParts, RestitutionTable, TableRebound};
 use microimpact::{
     AdhesionConfig, AnyModel, Class, ConstantRestitution, CriticalSpeed, DampingConfig, Dual, InputError, ModelConfig,
@@ -147,12 +150,101 @@ fn assert_read_back<V: Serialize + DeserializeOwned + PartialEq + Debug>(value: 
 fn configurations_methods_fits_and_tables_are_read_back_as_written() -> Result<(), InputError> {
     configurations().iter().for_each(assert_read_back);
     assert_read_back(&method());
+    assert_read_back(&method().with_budget(40));
     assert_read_back(&Collocation::<9, f64>::new(1e-9)?);
     assert_read_back(&FixedCost::<5>::new(3)?.with_outputs::<7>());
     assert_read_back(&RungeKuttaGill::new(200));
     assert_read_back(&RestCriterion::new(1e-6, 100)?);
     assert_read_back(&fit());
     assert_read_back(&table());
+    Ok(())
+}
+
+#[test]
+fn typed_scenes_are_read_back_as_written() -> Result<(), InputError> {
+    for config in configurations() {
+        let scene = config.scene()?;
+        assert_read_back(&scene);
+        match scene {
+            AnyModel::RigidBody(body) => assert_read_back::<AnyRigidBody<f64>>(&body),
+            AnyModel::Contact(scene) => assert_read_back::<AnyScene<f64>>(&scene),
+        }
+    }
+    let hollow = Sphere::hollow(RADIUS, 1e-6, DENSITY)?;
+    let elastic = Contact::hertz(hollow, stiffness());
+    let damped: HertzScene<f64> = elastic.with_damping(10.5)?;
+    let ring: RingScene<f64> = damped.with_ring(250.0, 6.25)?;
+    let paper: PaperScene<f64> = ring.with_friction(FRICTION)?;
+    assert_read_back(&damped);
+    assert_read_back(&ring);
+    assert_read_back(&paper);
+    assert_read_back(&paper.with_peeling(1e-12)?);
+    assert_read_back(&ring.with_friction_under(FRICTION, TotalForce::new())?);
+    assert_read_back(&ring.with_friction_under(FRICTION, TotalAndPullOff::new())?);
+    assert_read_back(&elastic.with_viscoelastic_damping(1e-10)?.without_tension());
+    assert_read_back(&elastic.with_constant_damping(0.8)?.with_dmt(0.2)?.with_external_force(-1e-6)?);
+    assert_read_back(&Contact::new(hollow, JkrLaw::new(stiffness(), 0.2)?.ending_at(JkrEnd::PullOff)));
+    let compliant = damped.with_friction(FRICTION)?.with_compliance(0.85)?;
+    assert_read_back(&compliant.with_unloading(Unloading::Incremental));
+    let body = RigidBody::new(hollow, ConstantRestitution::new(0.9)?);
+    assert_read_back(&body);
+    assert_read_back(
+        &body.with_external_impulses(1e-13, -1e-13)?.with_friction(FRICTION)?.with_rolling_dissipation(1e-7)?,
+    );
+
+    // In single precision, too, and at the ends of the ranges of computed numbers.
+    for restitution in [1e-3_f32, 1.0] {
+        let sphere = Sphere::solid(5e-6_f32, 2600.0)?;
+        assert_read_back(&Contact::hertz(sphere, Stiffness::new(7.5e10)?).with_constant_damping(restitution)?);
+        assert_read_back(
+            &RigidBody::new(sphere, ConstantRestitution::new(restitution)?).with_adhesion_coefficient(restitution)?,
+        );
+    }
+    Ok(())
+}
+
+/// A number out of range in what is stored is refused with the words of the constructor.
+#[test]
+fn damaged_scenes_are_refused() -> Result<(), InputError> {
+    fn refused<V: Serialize + DeserializeOwned + Debug>(scene: &V, path: &str, number: f64) -> String {
+        let mut stored = serde_json::to_value(scene).unwrap();
+        *stored.pointer_mut(path).unwrap() = number.into();
+        serde_json::from_value::<V>(stored).unwrap_err().to_string()
+    }
+    let ring: RingScene<f64> = Contact::hertz(sphere(), stiffness()).with_damping(10.5)?.with_ring(250.0, 6.25)?;
+    let paper: PaperScene<f64> = ring.with_friction(FRICTION)?;
+    let radius = Sphere::solid(-1.0, DENSITY).unwrap_err().to_string();
+    assert_eq!(refused(&paper, "/sphere/radius", -1.0), radius);
+    let numbers = [
+        ("/sphere/density", "density"),
+        ("/sphere/gyration_ratio", "gyration ratio"),
+        ("/law/stiffness", "stiffness"),
+        ("/law/damping/rate", "material damping"),
+        ("/law/adhesion/strength", "adhesion strength"),
+        ("/law/adhesion/damping", "adhesion damping"),
+        ("/surface/coefficient", "friction coefficient"),
+    ];
+    for (path, name) in numbers {
+        let message = refused(&paper, path, -1.0);
+        assert!(message.starts_with(&format!("{name} is -1")), "{path}: {message}");
+    }
+    let computed = [
+        (
+            configurations()[1],
+            "/adhesion/Coefficient/remainder",
+            "one less the adhesion coefficient is -1e0, but must be 0 to 1e0",
+        ),
+        (configurations()[2], "/adhesion/Work/speed", "speed that a work of adhesion stops"),
+        (configurations()[4], "/restitution/Viscoelastic/strength", "strength of a viscoelastic restitution"),
+        (configurations()[8], "/law/Dmt/damping/Constant/alpha", "alpha of a constant damping"),
+        (configurations()[9], "/law/Jkr/adhesion", "work of adhesion per area is -1"),
+    ];
+    for (config, path, words) in computed {
+        let scene = config.scene()?;
+        let model = if matches!(scene, AnyModel::RigidBody(_)) { "/RigidBody" } else { "/Contact" };
+        let message = refused(&scene, &format!("{model}{path}"), -1.0);
+        assert!(message.starts_with(words), "{path}: {message}");
+    }
     Ok(())
 }
 

@@ -30,7 +30,8 @@ use crate::{Fault, InputError, NoAdhesion, Parameter, Real, Sphere, Stiffness};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(bound(deserialize = "T: Real + serde::Deserialize<'de>")))]
 #[non_exhaustive]
 pub enum AnyLaw<T> {
     /// Hertz's contact without adhesion.
@@ -226,7 +227,8 @@ fn plain<T: Real, A>(stiffness: Stiffness<T>, adhesion: A) -> HertzLaw<T, AnyDam
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(bound(deserialize = "T: Real + serde::Deserialize<'de>")))]
 #[non_exhaustive]
 pub enum AnyDamping<T> {
     /// Elastic materials.
@@ -292,7 +294,8 @@ impl<T: Real> Damping<T> for AnyDamping<T> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(bound(deserialize = "T: Real + serde::Deserialize<'de>")))]
 #[non_exhaustive]
 pub enum AnyForce<T> {
     /// No external force.

@@ -68,7 +68,7 @@ pub trait ProportionalDamping<T: Real>: Damping<T> {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NoDamping;
 
 /// Damping of Hunt and Crossley (1975): the elastic force times 1 + c_H delta' (B1), with c_H = zeta_H C and
@@ -141,7 +141,7 @@ pub struct ViscoelasticDamping<T> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ConstantDamping<T> {
     /// alpha.
-    alpha: T,
+    pub(crate) alpha: T,
 }
 
 impl<T: Real> HystereticDamping<T> {

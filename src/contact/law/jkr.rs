@@ -102,7 +102,7 @@ impl<T: Real> JkrLaw<T> {
 
 impl<T: Real, D> JkrLaw<T, D> {
     /// The same law with another damping.
-    pub(super) fn damped<E>(self, damping: E) -> JkrLaw<T, E> {
+    pub(crate) fn damped<E>(self, damping: E) -> JkrLaw<T, E> {
         let Self { stiffness, adhesion, end, first, last, offset, .. } = self;
         JkrLaw { stiffness, adhesion, damping, end, first, last, offset }
     }

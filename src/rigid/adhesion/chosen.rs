@@ -20,7 +20,8 @@ use crate::{NoAdhesion, Real, RestitutionLaw};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(bound(deserialize = "T: Real + serde::Deserialize<'de>")))]
 #[non_exhaustive]
 pub enum AnyAdhesion<T> {
     /// No adhesion.

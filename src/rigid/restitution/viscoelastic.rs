@@ -43,7 +43,7 @@ const DENOMINATOR: [f64; 9] = [
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ViscoelasticRestitution<T> {
     /// x at a speed of 1 m/s.
-    strength: T,
+    pub(crate) strength: T,
 }
 
 impl<T: Real> ViscoelasticRestitution<T> {
