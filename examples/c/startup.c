@@ -21,6 +21,11 @@ __attribute__((weak)) void timer_round(void)
 
 static void reset(void)
 {
+#ifdef __ARM_FP
+    /* After a reset the floating-point unit is off, and its first instruction would be a fault. */
+    *(volatile uint32_t *)0xe000ed88u |= 0xfu << 20;
+    __asm__ volatile("dsb\n\tisb");
+#endif
     memcpy(data_start, data_load, (size_t)(data_end - data_start));
     memset(bss_start, 0, (size_t)(bss_end - bss_start));
     /* Standard output of newlib by semihosting. */

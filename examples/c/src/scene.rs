@@ -8,7 +8,7 @@ use microimpact::{
 
 use crate::error::Error;
 use crate::memory;
-use crate::simulation::{Contact, TOLERANCE};
+use crate::simulation::{ALL_INTERVALS, Contact, TOLERANCE, simulated};
 use crate::status::{Class, Failure, Motion, Status, finish, followed, initialise};
 use crate::terms::Model;
 
@@ -199,7 +199,8 @@ impl SceneConfig {
                 Ok(SceneImpact::of(Contact::of(&scene.solve(motion, &method)?)?, self.radius))
             }
             (AnyModel::Contact(scene), SceneMethod::Tolerance(method)) => {
-                Ok(SceneImpact::of(Contact::of(&scene.solve(motion, &method)?)?, self.radius))
+                let impact = simulated(&scene, motion, method, ALL_INTERVALS)?;
+                Ok(SceneImpact::of(Contact::of(&impact)?, self.radius))
             }
             (AnyModel::Contact(_), SceneMethod::None) => Err(Failure::Status(Status::Choice)),
         }

@@ -153,9 +153,23 @@ pub unsafe extern "C" fn microimpact_simulate(
     unsafe {
         simulate_each(motions, count, results, capacity, written, error, || {
             let (scene, method) = followed(memory::read(scene))?.check()?;
-            Ok(move |motion: &PlanarMotion<f32>| Contact::of(&scene.solve(motion, &method)?))
+            Ok(move |motion: &PlanarMotion<f32>| Contact::of(&simulated(&scene, motion, method, ALL_INTERVALS)?))
         })
     }
+}
+
+/// As many intervals as the method allows.
+pub(crate) const ALL_INTERVALS: u32 = Method::MOST_INTERVALS;
+
+/// The impact of a contact in at most so many intervals. All functions have this one solver of a motion without a trajectory: another,
+/// for a number of intervals that is known, would take more flash.
+pub(crate) fn simulated(
+    scene: &Scene,
+    motion: &PlanarMotion<f32>,
+    method: Method,
+    intervals: u32,
+) -> Result<SimulatedImpact<f32, TangentialVelocities<f32>>, InputError> {
+    scene.solve(motion, &method.with_budget(intervals))
 }
 
 /// Simulates as microimpact_simulate, each impact in at most so many intervals of its motion, refused ones included: a bound of its time,
@@ -180,8 +194,7 @@ pub unsafe extern "C" fn microimpact_simulate_within(
     unsafe {
         simulate_each(motions, count, results, capacity, written, error, || {
             let (scene, method) = followed(memory::read(scene))?.check()?;
-            let method = method.with_budget(intervals);
-            Ok(move |motion: &PlanarMotion<f32>| Contact::of(&scene.solve(motion, &method)?))
+            Ok(move |motion: &PlanarMotion<f32>| Contact::of(&simulated(&scene, motion, method, intervals)?))
         })
     }
 }

@@ -5,7 +5,7 @@ use microimpact::{Coulomb, InputError, Parameter, PlanarMotion, Sphere};
 
 use crate::error::Error;
 use crate::memory;
-use crate::simulation::ContactScene;
+use crate::simulation::{ALL_INTERVALS, ContactScene, simulated};
 use crate::status::{Failure, Motion, Status, finish, followed};
 
 /// What a table says of an impact.
@@ -201,7 +201,7 @@ impl ContactScene {
         let (scene, method) = Self { radius, friction: 1.0, ..*self }.check()?;
         let along = 10.0 * speed;
         let motion = Motion { approach: speed, tangential: along, peripheral: 0.0 }.check()?;
-        let impact = scene.solve(&motion, &method)?;
+        let impact = simulated(&scene, &motion, method, ALL_INTERVALS)?;
         let impulse = (along - impact.tangential.velocity()) / speed;
         Ok(TableRebound { restitution: impact.normal.overall_restitution(), impulse })
     }

@@ -104,7 +104,8 @@ impl<C, S, T: Real, const CLASSES: usize, const BINS: usize> Station<C, S, T, CL
     }
 
     /// Answers a request. `received` is what the way from the host has counted so far, and `configure` makes a classifier of a scene
-    /// that the host sends, or refuses it: [`fixed_scene`] refuses every scene.
+    /// that the host sends, or returns a [`Refusal`], to which `?` converts an [`InputError`](crate::InputError): [`fixed_scene`] refuses
+    /// every scene.
     ///
     /// ```
     /// use microimpact::instrument::link::{Received, Refusal, Reply, Request, Station};
