@@ -215,6 +215,54 @@ static void integers(void)
     assert(microimpact_fixed_classify(NULL, &motion, &result, &error) == MICROIMPACT_STATUS_POINTER);
 }
 
+/* The simulation in integers as in floating point. */
+static void contact_in_integers(void)
+{
+    MicroimpactContactScene scene;
+    const float unit = 4.0f, one = (float)MICROIMPACT_FIXED_ONE;
+    MicroimpactFixedContact fixed;
+    MicroimpactFixedMotion motion = {MICROIMPACT_FIXED_ONE, 0, 0};
+    MicroimpactFixedImpact impact;
+    MicroimpactContact expected;
+    MicroimpactError error;
+    size_t written, classes[6] = {0};
+    memset(&scene, 0, sizeof scene), memset(&fixed, 0, sizeof fixed);
+    scene.radius = 5.06e-6f, scene.density = 2600.0f, scene.stiffness = 7.5e10f, scene.material_damping = 10.5f;
+    scene.adhesion_strength = 250.0f, scene.adhesion_damping = 6.25f, scene.friction = 0.1f, scene.tolerance = 1e-6f;
+    assert(microimpact_fixed_simulate(&fixed, &motion, &impact, NULL) == MICROIMPACT_STATUS_UNMADE);
+    assert(microimpact_fixed_contact_init(&scene, unit, &fixed, &error) == MICROIMPACT_STATUS_OK);
+    for (int i = 4; i <= 40; i++) {
+        for (int j = -20; j <= 20; j++) {
+            MicroimpactMotion real = {0.25f * (float)i, 0.5f * (float)j, 0.125f * (float)(j * i % 13)};
+            motion.approach = (int32_t)(real.approach / unit * one), motion.tangential = (int32_t)(real.tangential / unit * one);
+            motion.peripheral = (int32_t)(real.peripheral / unit * one);
+            assert(microimpact_fixed_simulate(&fixed, &motion, &impact, &error) == MICROIMPACT_STATUS_OK);
+            assert(microimpact_simulate(&scene, &real, 1, &expected, 1, &written, NULL) == MICROIMPACT_STATUS_OK);
+            assert(impact.impact_class == expected.impact_class);
+            assert(fabsf((float)impact.tangential / one * unit - expected.tangential) < 4e-4f);
+            assert(fabsf((float)impact.peripheral / one * unit - expected.spin * scene.radius) < 4e-4f);
+            assert(fabsf((float)impact.restitution / one - expected.restitution) < 1e-4f);
+            classes[impact.impact_class]++;
+        }
+    }
+    assert(classes[MICROIMPACT_CLASS_REBOUND_SLIDING] > 100 && classes[MICROIMPACT_CLASS_REBOUND_ROLLING] > 100);
+    assert(classes[MICROIMPACT_CLASS_CAPTURED_ROLLING] > 50 && classes[MICROIMPACT_CLASS_CAPTURED_RESTING] > 0);
+    motion.approach = MICROIMPACT_FIXED_ONE / 20;
+    assert(microimpact_fixed_simulate(&fixed, &motion, &impact, &error) == MICROIMPACT_STATUS_INPUT);
+    assert(microimpact_fixed_simulate(NULL, &motion, &impact, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_fixed_simulate(&fixed, NULL, &impact, &error) == MICROIMPACT_STATUS_POINTER);
+    motion.approach = MICROIMPACT_FIXED_ONE;
+    assert(microimpact_fixed_simulate(&fixed, &motion, NULL, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_fixed_contact_init(NULL, unit, &fixed, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_fixed_contact_init(&scene, unit, NULL, &error) == MICROIMPACT_STATUS_POINTER);
+    assert(microimpact_fixed_contact_init(&scene, 0.0f, &fixed, &error) == MICROIMPACT_STATUS_INPUT);
+    scene.ends_by_force = 1;
+    assert(microimpact_fixed_contact_init(&scene, unit, &fixed, &error) == MICROIMPACT_STATUS_CHOICE);
+    scene.ends_by_force = 0, scene.dmt_work = 0.1f;
+    assert(microimpact_fixed_contact_init(&scene, unit, &fixed, &error) == MICROIMPACT_STATUS_INPUT);
+    assert(error.fault == MICROIMPACT_FAULT_OTHER_LAW);
+}
+
 /* At the critical speed every second sphere rebounds, if only the speed is uncertain. */
 static void probabilities(void)
 {
@@ -298,6 +346,7 @@ int main(void)
     critical_speed_in_steps();
     spheres();
     integers();
+    contact_in_integers();
     probabilities();
     fits();
     return 0;

@@ -44,6 +44,7 @@ static MicroimpactContactScene contact;
 static MicroimpactCompliantScene compliant;
 static MicroimpactSceneConfig scenes[3];
 static MicroimpactFixedBody fixed;
+static MicroimpactFixedContact fixed_contact;
 static MicroimpactMotion motion;
 static MicroimpactBoundaryTable boundary;
 static int32_t cells[12][4];
@@ -117,6 +118,12 @@ static void fixed_classify(void)
     static MicroimpactFixedResult c;
     microimpact_fixed_classify(&fixed, &fixed_motion, &c, &error);
 }
+static void fixed_contact_init(void) { MicroimpactFixedContact made; microimpact_fixed_contact_init(&contact, 8.0f, &made, &error); }
+static void fixed_simulate(void)
+{
+    static MicroimpactFixedImpact c;
+    microimpact_fixed_simulate(&fixed_contact, &fixed_motion, &c, &error);
+}
 static void boundary_make(void) { microimpact_boundary_make(&contact, 2e-6f, cells, COUNT(cells), &boundary, &error); }
 static void boundary_begin(void) { microimpact_boundary_begin(&contact, 2e-6f, cells, COUNT(cells), &boundary_maker, &error); }
 static void boundary_step(void)
@@ -175,7 +182,8 @@ static const struct {
     {"scene_critical_speed, contact", critical_contact, 0},
     {"critical_speed_begin", critical_begin, 0}, {"critical_speed_step, a trial", critical_step, STEPS}, {"scene_probabilities, rigid body", probabilities_rigid, 1},
     {"scene_probabilities, contact", probabilities_contact, 0}, {"sphere_hollow", sphere_hollow, 0}, {"sphere_coated", sphere_coated, 0},
-    {"fixed_init", fixed_init, 0}, {"fixed_classify", fixed_classify, 1}, {"boundary_make, 12 cells", boundary_make, 0},
+    {"fixed_init", fixed_init, 0}, {"fixed_classify", fixed_classify, 1},
+    {"fixed_contact_init", fixed_contact_init, 0}, {"fixed_simulate", fixed_simulate, 1}, {"boundary_make, 12 cells", boundary_make, 0},
     {"boundary_begin, 12 cells", boundary_begin, 0}, {"boundary_step, a critical speed of 12 cells", boundary_step, STEPS},
     {"boundary_check, 12 cells", boundary_check, 0}, {"boundary_classify", boundary_classify, 1}, {"restitution_make", restitution_make, 0},
     {"restitution_begin", restitution_begin, 0}, {"restitution_step, a critical speed or a simulation", restitution_step, STEPS},
@@ -229,6 +237,7 @@ static void prepare(void)
         measured[i].rebound.value = speed * 130.0f / (130.0f + speed) - 1.5f / speed + (i % 3 == 0 ? 0.05f : -0.02f);
     }
     microimpact_fixed_init(&body, 8.0f, &fixed, NULL);
+    microimpact_fixed_contact_init(&contact, 8.0f, &fixed_contact, NULL);
     move(2.8f, 1.0f);
 }
 

@@ -20,7 +20,7 @@
 #define MICROIMPACT_LAYOUT_4 \
     MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_3, sizeof(MicroimpactSceneConfig)), sizeof(MicroimpactSceneImpact)), sizeof(MicroimpactEvent)), sizeof(MicroimpactQueue))
 #define MICROIMPACT_LAYOUT_5 \
-    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_4, sizeof(MicroimpactTally)), sizeof(MicroimpactTallyReport)), sizeof(MicroimpactFixedBody) + sizeof(MicroimpactFixedMotion)), sizeof(MicroimpactFixedResult))
+    MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_4, sizeof(MicroimpactTally)), sizeof(MicroimpactTallyReport)), sizeof(MicroimpactFixedBody) + sizeof(MicroimpactFixedMotion)), sizeof(MicroimpactFixedResult) + sizeof(MicroimpactFixedContact) + sizeof(MicroimpactFixedImpact))
 /* To be compared with what microimpact_layout returns. */
 #define MICROIMPACT_LAYOUT \
     MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_FOLD(MICROIMPACT_LAYOUT_5, sizeof(MicroimpactUncertainMotion) + sizeof(MicroimpactUncertainClass)), sizeof(MicroimpactMeasuredImpact) + sizeof(MicroimpactFitRoom)), sizeof(MicroimpactFit)), sizeof(MicroimpactBoundaryMaker) + sizeof(MicroimpactRestitutionMaker) + sizeof(MicroimpactCriticalSearch))
@@ -446,6 +446,34 @@ typedef struct MicroimpactContactScene {
   uint32_t ends_by_force;
 } MicroimpactContactScene;
 
+/* Room for a contact in integers, which microimpact_fixed_contact_init makes. */
+typedef struct MicroimpactFixedContact {
+  /* What is in it concerns the library alone. */
+  uint32_t words[10];
+} MicroimpactFixedContact;
+
+/* A motion before the impact in 2^-24 of the unit of speed: the approach speed from 0.004 to 8 units, the others up to 8. */
+typedef struct MicroimpactFixedMotion {
+  /* Approach speed, positive. */
+  int32_t approach;
+  /* Tangential velocity. */
+  int32_t tangential;
+  /* Peripheral velocity, spin times radius. */
+  int32_t peripheral;
+} MicroimpactFixedMotion;
+
+/* What became of a sphere, and its velocities after the impact, in 2^-24. */
+typedef struct MicroimpactFixedImpact {
+  /* What became of the sphere. */
+  MicroimpactClass impact_class;
+  /* Overall restitution, zero for a capture. */
+  int32_t restitution;
+  /* Tangential velocity after the impact, in the unit of speed. */
+  int32_t tangential;
+  /* Peripheral velocity after the impact, in the unit of speed. */
+  int32_t peripheral;
+} MicroimpactFixedImpact;
+
 /* A rigid body with R = k/(k + v), a work of adhesion and friction. Zero leaves a term out. */
 typedef struct MicroimpactRigidScene {
   /* Radius of the sphere, m. */
@@ -465,16 +493,6 @@ typedef struct MicroimpactFixedBody {
   /* What is in it concerns the library alone. */
   uint32_t words[8];
 } MicroimpactFixedBody;
-
-/* A motion before the impact in 2^-24 of the unit of speed: the approach speed from 0.004 to 8 units, the others up to 8. */
-typedef struct MicroimpactFixedMotion {
-  /* Approach speed, positive. */
-  int32_t approach;
-  /* Tangential velocity. */
-  int32_t tangential;
-  /* Peripheral velocity, spin times radius. */
-  int32_t peripheral;
-} MicroimpactFixedMotion;
 
 /* A class, and what goes with it, in 2^-24. A margin that does not exist is negative. */
 typedef struct MicroimpactFixedResult {
@@ -847,6 +865,32 @@ MicroimpactStatus microimpact_fit_material_damping(const struct MicroimpactConta
                                                    float restitution,
                                                    float *material_damping,
                                                    struct MicroimpactError *error);
+
+/*
+ Makes a contact in integers of a scene and a unit of speed, m/s, near the speeds that occur. The scene has hysteretic damping, a ring
+ of adhesion and friction, each of which may be zero; another adhesion, damping or end of contact is refused. This takes floating point;
+ what it makes can be copied, stored and made on another machine of the same byte order. The error may be null. Re-entrant.
+
+ # Safety
+ Each pointer is null or points to what its type says, and nobody else uses it during the call.
+ */
+MicroimpactStatus microimpact_fixed_contact_init(const struct MicroimpactContactScene *scene,
+                                                 float unit,
+                                                 struct MicroimpactFixedContact *contact,
+                                                 struct MicroimpactError *error);
+
+/*
+ Simulates an impact in integers alone, by the method of fixed cost with 5 nodes and 3 iterations; the approach speed must be 0.1 to 8
+ units. A number that is refused is the exception, of which the error tells in floating point. Damping that is too strong for the method
+ is MICROIMPACT_STATUS_UNSOLVED. The error may be null. Re-entrant.
+
+ # Safety
+ Each pointer is null or points to what its type says, and nobody else uses it during the call.
+ */
+MicroimpactStatus microimpact_fixed_simulate(const struct MicroimpactFixedContact *contact,
+                                             const struct MicroimpactFixedMotion *motion,
+                                             struct MicroimpactFixedImpact *impact,
+                                             struct MicroimpactError *error);
 
 /*
  Makes a rigid body in integers of a scene and a unit of speed, m/s, near the speeds that occur. This takes floating point; what it

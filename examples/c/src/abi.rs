@@ -4,6 +4,7 @@ use crate::critical_steps::CriticalSearch;
 use crate::error::Error;
 use crate::event::Event;
 use crate::fit::{Fit, FitRoom, MeasuredImpact};
+use crate::fixed_contact::{FixedContact, FixedImpact};
 use crate::fixed_point::{FixedBody, FixedMotion, FixedResult};
 use crate::probability::{UncertainClass, UncertainMotion};
 use crate::queue::Queue;
@@ -52,7 +53,7 @@ const SIZES: [usize; 28] = [
     size_of::<Tally>(),
     size_of::<TallyReport>(),
     size_of::<FixedBody>() + size_of::<FixedMotion>(),
-    size_of::<FixedResult>(),
+    size_of::<FixedResult>() + size_of::<FixedContact>() + size_of::<FixedImpact>(),
     size_of::<UncertainMotion>() + size_of::<UncertainClass>(),
     size_of::<MeasuredImpact>() + size_of::<FitRoom>(),
     size_of::<Fit>(),
