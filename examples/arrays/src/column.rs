@@ -11,6 +11,7 @@ pub enum Column<'a> {
 
 impl Column<'_> {
     /// The number of a row. A row beyond the end of the column has NaN, which every model refuses.
+    #[inline]
     #[must_use]
     pub fn at(&self, row: usize) -> f64 {
         match self {

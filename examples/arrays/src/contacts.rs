@@ -1,6 +1,6 @@
 //! Scenes of the contact simulation: spheres, laws of contact, and what happens along the surface.
 
-use microimpact::contact::{AnyLaw, AnyScene, Contact, JkrEnd};
+use microimpact::contact::{AnyLaw, AnyScene, Contact, HertzLaw, JkrEnd};
 use microimpact::{InputError, Real, Sphere, Stiffness};
 
 use crate::Column;
@@ -111,10 +111,26 @@ impl Default for Contacts<'_> {
 impl Contacts<'_> {
     /// The sphere of a row.
     pub(crate) fn sphere(&self, row: usize) -> Result<Sphere<f64>, InputError> {
-        Sphere::new(self.radius.at(row), self.density.at(row), self.gyration_ratio.at(row))
+        self.sphere_of(|column| column.at(row))
     }
 
-    /// The law of contact whose numbers `at` takes from the columns: those of a row, or of several in lanes.
+    /// The sphere whose numbers `at` takes from the columns: those of a row, or of several in lanes.
+    pub(crate) fn sphere_of<T: Real>(&self, at: impl Fn(&Column<'_>) -> T) -> Result<Sphere<T>, InputError> {
+        Sphere::new(at(&self.radius), at(&self.density), at(&self.gyration_ratio))
+    }
+
+    pub(crate) fn friction(&self) -> Column<'_> {
+        let (Surface::Coulomb { friction } | Surface::Peeling { friction, .. } | Surface::Compliant { friction, .. }) =
+            self.surface;
+        friction
+    }
+
+    /// Hertz's contact, without anything else.
+    pub(crate) fn hertz<T: Real>(&self, at: impl Fn(&Column<'_>) -> T) -> Result<HertzLaw<T>, InputError> {
+        Ok(HertzLaw::new(Stiffness::new(at(&self.stiffness))?))
+    }
+
+    /// Their law of contact.
     pub(crate) fn law<T: Real>(&self, at: impl Fn(&Column<'_>) -> T) -> Result<AnyLaw<T>, InputError> {
         let stiffness = Stiffness::new(at(&self.stiffness))?;
         let law = match &self.law {
@@ -149,8 +165,6 @@ impl Contacts<'_> {
         sphere: Sphere<T>,
         at: impl Fn(&Column<'_>) -> T,
     ) -> Result<AnyScene<T>, InputError> {
-        let (Surface::Coulomb { friction } | Surface::Peeling { friction, .. } | Surface::Compliant { friction, .. }) =
-            &self.surface;
-        Contact::new(sphere, self.law(&at)?).with_friction(at(friction))
+        Contact::new(sphere, self.law(&at)?).with_friction(at(&self.friction()))
     }
 }

@@ -2,12 +2,10 @@
 
 use std::ops::Range;
 
-use microimpact::space::{Departing, SpatialMotion};
 use microimpact::{Class, InputError};
 use rayon::prelude::*;
 
 use crate::Quantity;
-use crate::motions::Arrival;
 
 /// How the computation of a row ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,89 +54,6 @@ pub(crate) trait Answer {
     fn number(&self, quantity: Quantity) -> f64;
 }
 
-/// The result of a row with every quantity.
-pub(crate) struct Record {
-    status: RowStatus,
-    class: Option<Class>,
-    numbers: [f64; Quantity::COUNT],
-}
-
-impl Record {
-    /// No result.
-    pub(crate) fn without(status: RowStatus) -> Self {
-        Self { status, class: None, numbers: [f64::NAN; Quantity::COUNT] }
-    }
-
-    /// A class, and no numbers so far.
-    pub(crate) fn of(class: Class) -> Self {
-        Self { class: Some(class), ..Self::without(RowStatus::Solved) }
-    }
-
-    /// Whether the sphere rebounds or is captured, beyond doubt.
-    pub(crate) fn is_decided(&self) -> bool {
-        self.class.is_some_and(|class| class != Class::Undecided)
-    }
-
-    pub(crate) fn put(&mut self, quantity: Quantity, number: f64) {
-        self.numbers[quantity as usize] = number;
-    }
-
-    pub(crate) fn put_some(&mut self, quantity: Quantity, number: Option<f64>) {
-        self.put(quantity, number.unwrap_or(f64::NAN));
-    }
-
-    /// The motions in space after an impact, if it takes place there.
-    pub(crate) fn put_departure(&mut self, arrival: &Arrival, impact: &impl Departing<f64>) {
-        let bodies = arrival.after(impact);
-        for quantity in DEPARTURES.into_iter().flatten() {
-            self.put(quantity, departure(&bodies, quantity));
-        }
-    }
-}
-
-impl Answer for Record {
-    fn status(&self) -> RowStatus {
-        self.status
-    }
-
-    fn class(&self) -> Option<Class> {
-        self.class
-    }
-
-    fn number(&self, quantity: Quantity) -> f64 {
-        self.numbers[quantity as usize]
-    }
-}
-
-/// Velocity and spin of one sphere, and of the second of two.
-const DEPARTURES: [[Quantity; 6]; 2] = [
-    [
-        Quantity::VelocityOutX,
-        Quantity::VelocityOutY,
-        Quantity::VelocityOutZ,
-        Quantity::SpinOutX,
-        Quantity::SpinOutY,
-        Quantity::SpinOutZ,
-    ],
-    [
-        Quantity::Velocity2OutX,
-        Quantity::Velocity2OutY,
-        Quantity::Velocity2OutZ,
-        Quantity::Spin2OutX,
-        Quantity::Spin2OutY,
-        Quantity::Spin2OutZ,
-    ],
-];
-
-/// A component of velocity or spin of one sphere or two after an impact; NaN if there is no such sphere.
-pub(crate) fn departure(bodies: &[SpatialMotion<f64>], quantity: Quantity) -> f64 {
-    let found = bodies.iter().zip(DEPARTURES).find_map(|(body, quantities)| {
-        let place = quantities.into_iter().position(|other| other == quantity)?;
-        body.velocity().into_iter().chain(body.spin()).nth(place)
-    });
-    found.unwrap_or(f64::NAN)
-}
-
 /// Rows that a thread takes at a time: enough that the rows cost more than the change.
 const ROWS: usize = 256;
 
@@ -151,20 +66,27 @@ pub(crate) struct Part<'a> {
 }
 
 impl<'a> Part<'a> {
-    fn rows(&self) -> Range<usize> {
+    pub(crate) fn rows(&self) -> Range<usize> {
         self.first..self.first + self.status.len()
     }
 
-    fn slot(&mut self, row: usize) -> Slot<'_, 'a> {
+    /// Where the result of one of its rows belongs.
+    #[inline]
+    pub(crate) fn slot(&mut self, row: usize) -> Slot<'_, 'a> {
         Slot { place: row - self.first, part: self }
     }
 
-    fn refuse(&mut self, row: usize, error: InputError) {
-        self.status[row - self.first] = RowStatus::Refused(error);
+    /// Fills the slot of a row, or says why it is refused.
+    #[inline]
+    pub(crate) fn fill(&mut self, row: usize, compute: impl FnOnce(&mut Slot<'_, '_>) -> Result<(), InputError>) {
+        let mut slot = self.slot(row);
+        if let Err(error) = compute(&mut slot) {
+            slot.fail(RowStatus::Refused(error));
+        }
     }
 }
 
-/// Where the result of a row belongs.
+/// Where the result of a row belongs. Until there is one, the method did not converge.
 pub(crate) struct Slot<'p, 'a> {
     part: &'p mut Part<'a>,
     place: usize,
@@ -172,61 +94,47 @@ pub(crate) struct Slot<'p, 'a> {
 
 impl Slot<'_, '_> {
     /// Takes from a result what was asked for.
-    pub(crate) fn put(self, answer: &impl Answer) {
-        let Self { part, place } = self;
+    #[inline(always)]
+    pub(crate) fn put(&mut self, answer: &impl Answer) {
+        let (part, place) = (&mut *self.part, self.place);
         part.status[place] = answer.status();
         part.class[place] = answer.class();
         for (quantity, numbers) in &mut part.quantities {
             numbers[place] = answer.number(*quantity);
         }
     }
-}
 
-/// Computes rows on all threads.
-pub(crate) fn gather<A: Answer>(
-    count: usize,
-    quantities: &[Quantity],
-    row: impl Fn(usize) -> Result<A, InputError> + Sync,
-) -> Impacts {
-    fill(count, quantities, |index, slot| {
-        slot.put(&row(index)?);
-        Ok(())
-    })
-}
+    /// There is no result.
+    pub(crate) fn fail(&mut self, status: RowStatus) {
+        let (part, place) = (&mut *self.part, self.place);
+        part.status[place] = status;
+        part.class[place] = None;
+        for (_, numbers) in &mut part.quantities {
+            numbers[place] = f64::NAN;
+        }
+    }
 
-/// Computes ranges of rows on all threads; `compute` hands the answers of its rows over in their order.
-pub(crate) fn gather_ranges<A: Answer>(
-    count: usize,
-    quantities: &[Quantity],
-    compute: impl Fn(Range<usize>, &mut dyn FnMut(Result<A, InputError>)) + Sync,
-) -> Impacts {
-    fill_parts(count, quantities, |part| {
-        let mut rows = part.rows();
-        compute(part.rows(), &mut |answer| match (rows.next(), answer) {
-            (Some(row), Ok(answer)) => part.slot(row).put(&answer),
-            (Some(row), Err(error)) => part.refuse(row, error),
-            (None, _) => {}
-        });
-    })
+    /// Whether the sphere rebounds or is captured, beyond doubt.
+    pub(crate) fn is_decided(&self) -> bool {
+        self.part.class[self.place].is_some_and(|class| class != Class::Undecided)
+    }
 }
 
 /// Fills rows on all threads; `row` puts the result of a row into its slot.
 pub(crate) fn fill(
     count: usize,
     quantities: &[Quantity],
-    row: impl Fn(usize, Slot<'_, '_>) -> Result<(), InputError> + Sync,
+    row: impl Fn(usize, &mut Slot<'_, '_>) -> Result<(), InputError> + Sync,
 ) -> Impacts {
     fill_parts(count, quantities, |part| {
         for index in part.rows() {
-            if let Err(error) = row(index, part.slot(index)) {
-                part.refuse(index, error);
-            }
+            part.fill(index, |slot| row(index, slot));
         }
     })
 }
 
 /// Fills parts of the rows on all threads, each of which writes its rows where they belong.
-fn fill_parts(count: usize, quantities: &[Quantity], compute: impl Fn(&mut Part<'_>) + Sync) -> Impacts {
+pub(crate) fn fill_parts(count: usize, quantities: &[Quantity], compute: impl Fn(&mut Part<'_>) + Sync) -> Impacts {
     let mut impacts = Impacts {
         status: vec![RowStatus::NotConverged; count],
         class: vec![None; count],

@@ -3,13 +3,14 @@
 use std::array;
 
 use microimpact::contact::{AnyLaw, Contact, FixedCost, Impulses, Method, Times};
-use microimpact::{Approach, InputError, NormalMotion, Oblique, Real, Sphere};
+use microimpact::{Approach, InputError, NormalMotion, Oblique, PlanarMotion, Real, Sphere};
 
-use crate::impacts::{Record, gather_ranges};
-use crate::motions::Arrival;
+use crate::impacts::{Part, fill_parts};
+use crate::motions::{Arrival, Place, in_plane};
 use crate::quantity::Asked;
-use crate::simulate::{by_law, record};
-use crate::{Column, Contacts, F64x4, Impacts, Motions, Quantity, Surface};
+use crate::simulate::by_law;
+use crate::simulated::Simulated;
+use crate::{Column, Contacts, Damping, F64x4, Impacts, Law, Motions, Quantity, Surface};
 
 /// Rows that are computed at once.
 const LANES: usize = 4;
@@ -47,59 +48,92 @@ impl Contacts<'_> {
         quantities: &[Quantity],
     ) -> Impacts {
         let asked = Asked::by(quantities);
-        let alone = |row: usize| {
-            let record = self.row(motions, row, method, asked)?;
-            if record.is_decided() { Ok(record) } else { self.row(motions, row, otherwise, asked) }
-        };
-        gather_ranges(count, quantities, |rows, put| {
-            let mut next = rows.start;
-            while next < rows.end {
-                let fits = asked != Asked::All && next + LANES <= rows.end;
-                let together = if fits { self.together(motions, next, method, asked) } else { None };
-                let Some(together) = together else {
-                    put(alone(next));
-                    next += 1;
-                    continue;
-                };
-                for record in together {
-                    put(if record.is_decided() { Ok(record) } else { alone(next) });
-                    next += 1;
+        fill_parts(count, quantities, |part| {
+            let mut next = part.rows().start;
+            while next < part.rows().end {
+                let fits = asked != Asked::All && next + LANES <= part.rows().end;
+                let group = if fits { self.group(motions, next) } else { None };
+                let solved = group.and_then(|group| self.put_group(&group, method, asked, part).ok());
+                let rows = if solved.is_some() { LANES } else { 1 };
+                for row in next..next + rows {
+                    part.fill(row, |slot| {
+                        if solved.is_none() {
+                            self.row(motions, row, method, asked, slot)?;
+                        }
+                        if slot.is_decided() { Ok(()) } else { self.row(motions, row, otherwise, asked, slot) }
+                    });
                 }
+                next += rows;
             }
         })
     }
 
-    /// The results of the rows from `first` on; `None` if they are to be computed one by one.
-    fn together<const N: usize, const M: usize>(
-        &self,
-        motions: &Motions<'_>,
-        first: usize,
-        method: &FixedCost<N, M>,
-        asked: Asked,
-    ) -> Option<[Record; LANES]> {
-        let Surface::Coulomb { friction } = self.surface else {
+    /// The rows from `first` on, if they can be computed at once.
+    fn group(&self, motions: &Motions<'_>, first: usize) -> Option<Group> {
+        let at = |column: &Column<'_>| in_lanes(column, first);
+        // With a force the method looks for a barrier, which differs from lane to lane.
+        if !matches!(self.surface, Surface::Coulomb { .. }) || at(&self.external_force) != F64x4::ZERO {
             return None;
-        };
+        }
+        if let Motions::Planar { speed_normal, speed_tangential, spin } = motions {
+            let sphere = self.sphere_of(at).ok()?;
+            let before = in_plane([speed_normal, speed_tangential, spin], &sphere, at).ok()?;
+            return Some(Group { first, sphere, before, places: [const { Place::Plane }; LANES] });
+        }
         let arrivals = [0, 1, 2, 3].map(|lane| motions.arrival(self.sphere(first + lane).ok()?, first + lane).ok());
         let [Some(a), Some(b), Some(c), Some(d)] = arrivals else {
             return None;
         };
-        self.in_lanes([a, b, c, d], friction, first, method, asked).ok()
+        Group::of(first, [a, b, c, d]).ok()
     }
 
-    fn in_lanes<const N: usize, const M: usize>(
+    /// Puts the results of some rows into their slots.
+    fn put_group<const N: usize, const M: usize>(
         &self,
-        arrivals: [Arrival; LANES],
-        friction: Column<'_>,
-        first: usize,
+        Group { first, sphere, before, places }: &Group,
         method: &FixedCost<N, M>,
         asked: Asked,
-    ) -> Result<[Record; LANES], InputError> {
+        part: &mut Part<'_>,
+    ) -> Result<(), InputError> {
+        let at = |column: &Column<'_>| in_lanes(column, *first);
+        by_law!(self, at, law => {
+            let scene = Contact::new(*sphere, law).with_friction(at(&self.friction()))?;
+            if asked == Asked::End {
+                let impacts = scene.solve_lanes::<f64, _, N, M, LANES>(before, method)?;
+                for (lane, (impact, place)) in impacts.iter().zip(places).enumerate() {
+                    part.slot(first + lane).put(&Simulated::new(place, impact, None));
+                }
+            } else {
+                let impacts = scene.solve_lanes_for::<f64, _, _, N, M, LANES>(before, method, (Times, Impulses))?;
+                for (lane, ((impact, outputs), place)) in impacts.iter().zip(places).enumerate() {
+                    part.slot(first + lane).put(&Simulated::new(place, impact, Some((*outputs).into())));
+                }
+            }
+        });
+        Ok(())
+    }
+}
+
+/// The numbers of a column from a row on.
+#[inline]
+fn in_lanes(column: &Column<'_>, first: usize) -> F64x4 {
+    match column {
+        Column::All(number) => F64x4::constant(*number),
+        Column::Each(_) => F64x4::from(array::from_fn(|lane| column.at(first + lane))),
+    }
+}
+
+/// Rows that are computed at once: the first, spheres and planar motions, and where they are in space.
+struct Group {
+    first: usize,
+    sphere: Sphere<F64x4>,
+    before: PlanarMotion<F64x4>,
+    places: [Place; LANES],
+}
+
+impl Group {
+    fn of(first: usize, arrivals: [Arrival; LANES]) -> Result<Self, InputError> {
         let of = |number: fn(&Arrival) -> f64| F64x4::from(arrivals.each_ref().map(number));
-        let at = |column: &Column<'_>| match column {
-            Column::All(number) => F64x4::constant(*number),
-            Column::Each(_) => F64x4::from(array::from_fn(|lane| column.at(first + lane))),
-        };
         let sphere = Sphere::new(
             of(|arrival| arrival.sphere.radius()),
             of(|arrival| arrival.sphere.density()),
@@ -108,18 +142,6 @@ impl Contacts<'_> {
         let before = NormalMotion::new(of(|arrival| arrival.motion.normal().speed()))?
             .with_tangential(of(|arrival| arrival.motion.tangential()))?
             .with_peripheral_velocity(of(|arrival| arrival.motion.peripheral()))?;
-        by_law!(self.law(at)?, law => {
-            let scene = Contact::new(sphere, law).with_friction(at(&friction))?;
-            Ok(if asked == Asked::End {
-                let impacts = scene.solve_lanes::<f64, _, N, M, LANES>(&before, method)?;
-                array::from_fn(|lane| record(&arrivals[lane], &impacts[lane], None))
-            } else {
-                let impacts = scene.solve_lanes_for::<f64, _, _, N, M, LANES>(&before, method, (Times, Impulses))?;
-                array::from_fn(|lane| {
-                    let (impact, outputs) = &impacts[lane];
-                    record(&arrivals[lane], impact, Some((*outputs).into()))
-                })
-            })
-        })
+        Ok(Self { first, sphere, before, places: arrivals.map(|arrival| arrival.place) })
     }
 }

@@ -33,6 +33,7 @@
 
 mod column;
 mod contacts;
+mod departure;
 mod impacts;
 mod in_lanes;
 mod lanes;
@@ -40,6 +41,7 @@ mod motions;
 mod quantity;
 mod rigid_bodies;
 mod simulate;
+mod simulated;
 
 pub use column::Column;
 pub use contacts::{Contacts, Damping, Law, Surface};

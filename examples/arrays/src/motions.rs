@@ -1,7 +1,7 @@
 //! How spheres arrive.
 
 use microimpact::space::{Departing, Pair, PairIncidence, SpatialMotion, Wall, WallIncidence};
-use microimpact::{Fault, InputError, NormalMotion, Oblique, Parameter, PlanarMotion, Sphere, SurfaceMotion};
+use microimpact::{Fault, InputError, NormalMotion, Oblique, Parameter, PlanarMotion, Real, Sphere, SurfaceMotion};
 
 use crate::Column;
 
@@ -49,14 +49,24 @@ pub enum Motions<'a> {
 pub(crate) struct Arrival {
     pub(crate) sphere: Sphere<f64>,
     pub(crate) motion: PlanarMotion<f64>,
-    place: Place,
+    pub(crate) place: Place,
 }
 
-// Boxed, so that motions in a plane do not move their bytes about.
-enum Place {
+/// Where an impact takes place.
+pub(crate) enum Place {
     Plane,
-    Wall(Box<WallIncidence<f64>>),
-    Pair(Box<PairIncidence<f64>>),
+    Wall(WallIncidence<f64>),
+    Pair(PairIncidence<f64>),
+}
+
+/// A motion in a plane of the numbers that `at` takes from its columns: those of a row, or of several in lanes.
+#[inline]
+pub(crate) fn in_plane<T: Real>(
+    [speed_normal, speed_tangential, spin]: [&Column<'_>; 3],
+    sphere: &Sphere<T>,
+    at: impl Fn(&Column<'_>) -> T,
+) -> Result<PlanarMotion<T>, InputError> {
+    NormalMotion::new(at(speed_normal))?.with_tangential(at(speed_tangential))?.with_spin(sphere, at(spin))
 }
 
 /// The same planar motion as a motion of that type.
@@ -66,40 +76,36 @@ fn planar(incidence: &impl Oblique<f64>) -> Result<PlanarMotion<f64>, InputError
 
 impl Motions<'_> {
     /// The arrival of a sphere in a row.
+    #[inline]
     pub(crate) fn arrival(&self, sphere: Sphere<f64>, row: usize) -> Result<Arrival, InputError> {
         let vector = |columns| Column::vector(columns, row);
         match self {
             Self::Planar { speed_normal, speed_tangential, spin } => {
-                let motion = NormalMotion::new(speed_normal.at(row))?
-                    .with_tangential(speed_tangential.at(row))?
-                    .with_spin(&sphere, spin.at(row))?;
+                let motion = in_plane([speed_normal, speed_tangential, spin], &sphere, |column| column.at(row))?;
                 Ok(Arrival { sphere, motion, place: Place::Plane })
             }
             Self::Wall { velocity, spin, normal, wall_velocity } => {
                 let before = SpatialMotion::new(vector(velocity), vector(spin))?;
                 let incidence = Wall::moving(vector(normal), vector(wall_velocity))?.incidence(&sphere, &before)?;
-                Ok(Arrival { sphere, motion: planar(&incidence)?, place: Place::Wall(Box::new(incidence)) })
+                Ok(Arrival { sphere, motion: planar(&incidence)?, place: Place::Wall(incidence) })
             }
             Self::Pair { velocities, spins, normal, radius, density, gyration_ratio } => {
                 let second = Sphere::new(radius.at(row), density.at(row), gyration_ratio.at(row))?;
                 let motion = |body: usize| SpatialMotion::new(vector(&velocities[body]), vector(&spins[body]));
                 let pair = Pair::new(sphere, second);
                 let incidence = pair.incidence(vector(normal), [&motion(0)?, &motion(1)?])?;
-                Ok(Arrival {
-                    sphere: pair.reduced(),
-                    motion: planar(&incidence)?,
-                    place: Place::Pair(Box::new(incidence)),
-                })
+                Ok(Arrival { sphere: pair.reduced(), motion: planar(&incidence)?, place: Place::Pair(incidence) })
             }
         }
     }
 }
 
-impl Arrival {
+impl Place {
     /// How the contact point moves after the impact: a sphere that the plane of the impact shows at rest may roll sideways.
+    #[inline]
     pub(crate) fn motion_after(&self, in_plane: SurfaceMotion) -> SurfaceMotion {
-        match &self.place {
-            Place::Wall(incidence) if in_plane == SurfaceMotion::Resting && incidence.sideways() != 0.0 => {
+        match self {
+            Self::Wall(incidence) if in_plane == SurfaceMotion::Resting && incidence.sideways() != 0.0 => {
                 SurfaceMotion::Rolling
             }
             _ => in_plane,
@@ -107,19 +113,18 @@ impl Arrival {
     }
 
     /// The motions in space after an impact of one sphere or two; none in a plane, or where they are not known.
-    pub(crate) fn after(&self, impact: &impl Departing<f64>) -> Vec<SpatialMotion<f64>> {
-        let after = match &self.place {
-            Place::Plane => None,
-            Place::Wall(incidence) => incidence.after(impact).map(|motion| vec![motion]),
-            Place::Pair(incidence) => incidence.after(impact).map(Vec::from),
-        };
-        after.unwrap_or_default()
+    pub(crate) fn after(&self, impact: &impl Departing<f64>) -> [Option<SpatialMotion<f64>>; 2] {
+        match self {
+            Self::Plane => [None; 2],
+            Self::Wall(incidence) => [incidence.after(impact), None],
+            Self::Pair(incidence) => incidence.after(impact).map_or([None; 2], |bodies| bodies.map(Some)),
+        }
     }
 
     /// Checks a number against which a spin about one axis acts: what it does in space is not known.
     pub(crate) fn check_about_one_axis(&self, parameter: Parameter, value: f64) -> Result<(), InputError> {
-        match self.place {
-            Place::Plane => Ok(()),
+        match self {
+            Self::Plane => Ok(()),
             _ if value == 0.0 => Ok(()),
             _ => Err(InputError { parameter, fault: Fault::OtherLaw, value: value as f32 }),
         }
@@ -127,8 +132,8 @@ impl Arrival {
 
     /// Checks an external force, which acts on one body.
     pub(crate) fn check_on_one_body(&self, force: f64) -> Result<(), InputError> {
-        match self.place {
-            Place::Pair(_) if force != 0.0 => {
+        match self {
+            Self::Pair(_) if force != 0.0 => {
                 Err(InputError { parameter: Parameter::ExternalForce, fault: Fault::TwoBodies, value: force as f32 })
             }
             _ => Ok(()),
