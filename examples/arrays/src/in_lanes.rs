@@ -5,7 +5,7 @@ use std::array;
 use microimpact::contact::{AnyLaw, Contact, FixedCost, Impulses, Method, Times};
 use microimpact::{Approach, InputError, NormalMotion, Oblique, PlanarMotion, Real, Sphere};
 
-use crate::impacts::{Part, fill_parts};
+use crate::impacts::{Part, Slot, fill_parts};
 use crate::motions::{Arrival, Place, in_plane};
 use crate::quantity::Asked;
 use crate::simulate::by_law;
@@ -48,9 +48,24 @@ impl Contacts<'_> {
         quantities: &[Quantity],
     ) -> Impacts {
         let asked = Asked::by(quantities);
+        let otherwise = |row: usize, slot: &mut Slot<'_, '_>| self.row(motions, row, otherwise, asked, slot);
+        self.simulate_groups(motions, count, method, quantities, || false, otherwise)
+    }
+
+    /// The same until `stop` is true; `otherwise` puts a row that the method does not decide into its slot.
+    pub(crate) fn simulate_groups<const N: usize, const M: usize>(
+        &self,
+        motions: &Motions<'_>,
+        count: usize,
+        method: &FixedCost<N, M>,
+        quantities: &[Quantity],
+        stop: impl Fn() -> bool + Sync,
+        otherwise: impl Fn(usize, &mut Slot<'_, '_>) -> Result<(), InputError> + Sync,
+    ) -> Impacts {
+        let asked = Asked::by(quantities);
         fill_parts(count, quantities, |part| {
             let mut next = part.rows().start;
-            while next < part.rows().end {
+            while next < part.rows().end && !stop() {
                 let fits = asked != Asked::All && next + LANES <= part.rows().end;
                 let group = if fits { self.group(motions, next) } else { None };
                 let solved = group.and_then(|group| self.put_group(&group, method, asked, part).ok());
@@ -60,7 +75,7 @@ impl Contacts<'_> {
                         if solved.is_none() {
                             self.row(motions, row, method, asked, slot)?;
                         }
-                        if slot.is_decided() { Ok(()) } else { self.row(motions, row, otherwise, asked, slot) }
+                        if slot.is_decided() { Ok(()) } else { otherwise(row, slot) }
                     });
                 }
                 next += rows;

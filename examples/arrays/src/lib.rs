@@ -50,4 +50,3 @@ pub use lanes::{F32x8, F64x4};
 pub use motions::Motions;
 pub use quantity::Quantity;
 pub use rigid_bodies::{Adhesion, Restitution, RigidBodies};
-pub use simulate::{OUTPUTS, Outputs};

@@ -1,9 +1,9 @@
 //! Rows by the contact simulation.
 
-use methods::{Simulator, Solution};
+use methods::{MethodChoice, Refusal, Simulator, Solution, WithFixedCost, with_fixed_cost};
 use microimpact::contact::{
-    AnyLaw, AnyScene, Contact, ContactImpulses, ContactTimes, ContactWorks, Energy, ErrorControl, Impulses, Method,
-    SimulatedImpact, Slip, SlipHistory, Times, Works,
+    Adaptive, AnyLaw, AnyScene, Contact, ContactImpulses, ContactTimes, ContactWorks, Energy, ErrorControl, FixedCost,
+    Impulses, Method, SimulatedImpact, Slip, SlipHistory, Times, Works,
 };
 use microimpact::rigid::EnergyLedger;
 use microimpact::space::Departing;
@@ -17,11 +17,11 @@ use crate::simulated::{Along, Followed, Simulated};
 use crate::{Column, Contacts, Damping, Impacts, Law, Motions, Quantity, RowStatus, Surface};
 
 /// What a simulation tells of an impact besides how it ends.
-pub type Outputs =
+pub(crate) type Outputs =
     ((ContactTimes<f64>, ContactImpulses<f64>, ContactWorks<f64>), (SlipHistory<f64>, Option<EnergyLedger<f64>>));
 
 /// Asks for it.
-pub const OUTPUTS: ((Times, Impulses, Works), (Slip, Energy)) = ((Times, Impulses, Works), (Slip, Energy));
+const OUTPUTS: ((Times, Impulses, Works), (Slip, Energy)) = ((Times, Impulses, Works), (Slip, Energy));
 
 /// Computes the same with each law by its own type, whose numbers `at` takes from the columns: a solver that asks for the law at every
 /// step takes more than half as much time again, and one that asks for the damping a fifth.
@@ -94,12 +94,16 @@ impl Contacts<'_> {
         fill(count, quantities, |row, slot| if stop() { Ok(()) } else { self.row(motions, row, method, asked, slot) })
     }
 
-    /// Simulates the impacts of `count` rows on all threads, by a method that is chosen at run time and may be slow. With compliance
-    /// along the surface, a row is unsupported unless the method is `Adaptive`, which alone has the margin of friction. Once `stop` is
-    /// true, all rows that are left end without convergence.
+    /// Simulates the impacts of `count` rows on all threads, by a method that is chosen at run time. `FixedCost` computes four rows at a
+    /// time where [`simulate_in_lanes`](Self::simulate_in_lanes) does, `Collocation` and `RungeKuttaGill` are slow. With compliance along
+    /// the surface, a row is unsupported unless the method is `Adaptive`, which alone has the margin of friction. Once `stop` is true,
+    /// all rows that are left end without convergence.
+    ///
+    /// # Errors
+    /// A number of the method that is not offered.
     ///
     /// ```
-    /// use impact_arrays::{Column, Contacts, Motions, OUTPUTS, Quantity, RowStatus};
+    /// use impact_arrays::{Column, Contacts, Motions, Quantity, RowStatus};
     /// use methods::{MethodChoice, Refusal};
     ///
     /// let radii = [1e-6, 2e-6];
@@ -107,12 +111,32 @@ impl Contacts<'_> {
     /// let contacts = Contacts { radius, density, stiffness, ..Contacts::default() };
     /// let all = Column::All;
     /// let motions = Motions::Planar { speed_normal: all(2.8), speed_tangential: all(0.0), spin: all(0.0) };
-    /// let simulator = MethodChoice::FixedCost { nodes: 7, iterations: 3 }.simulator(OUTPUTS)?;
-    /// let impacts = contacts.simulate_by(&simulator, &motions, radii.len(), &[Quantity::ContactTime], || false);
+    /// let method = MethodChoice::FixedCost { nodes: 7, iterations: 3 };
+    /// let impacts = contacts.simulate_by(method, &motions, radii.len(), &[Quantity::ContactTime], || false)?;
     /// assert_eq!(impacts.status, [RowStatus::Solved; 2]);
     /// # Ok::<(), Refusal>(())
     /// ```
     pub fn simulate_by(
+        &self,
+        method: MethodChoice<f64>,
+        motions: &Motions<'_>,
+        count: usize,
+        quantities: &[Quantity],
+        stop: impl Fn() -> bool + Sync,
+    ) -> Result<Impacts, Refusal> {
+        match (method, self.surface) {
+            (MethodChoice::Adaptive { tolerance }, _) => {
+                Ok(self.simulate_until(motions, count, &Adaptive::new(tolerance)?, quantities, stop))
+            }
+            (MethodChoice::FixedCost { nodes, iterations }, Surface::Coulomb { .. }) => {
+                with_fixed_cost(nodes, iterations, InGroups { contacts: self, motions, count, quantities, stop })
+            }
+            _ => Ok(self.simulate_slowly(&method.simulator(OUTPUTS)?, motions, count, quantities, stop)),
+        }
+    }
+
+    /// Simulates them with the law and the method as values, of which there is one copy.
+    fn simulate_slowly(
         &self,
         simulator: &Simulator<f64, Outputs>,
         motions: &Motions<'_>,
@@ -203,6 +227,24 @@ impl Contacts<'_> {
     ) -> Option<Vec<Result<CriticalSpeed<f64>, InputError>>> {
         let speed = |row: usize| self.scene(row)?.critical_speed(method);
         (0..count).into_par_iter().map(|row| if stop() { None } else { Some(speed(row)) }).collect()
+    }
+}
+
+/// Simulates rows by a `FixedCost` whose nodes are chosen at run time.
+struct InGroups<'a, S> {
+    contacts: &'a Contacts<'a>,
+    motions: &'a Motions<'a>,
+    count: usize,
+    quantities: &'a [Quantity],
+    stop: S,
+}
+
+impl<S: Fn() -> bool + Sync> WithFixedCost for InGroups<'_, S> {
+    type Result = Impacts;
+
+    fn with<const N: usize, const M: usize>(self, method: &FixedCost<N, M>) -> Impacts {
+        let Self { contacts, motions, count, quantities, stop } = self;
+        contacts.simulate_groups(motions, count, method, quantities, stop, |_, _| Ok(()))
     }
 }
 

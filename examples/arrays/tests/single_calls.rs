@@ -1,7 +1,7 @@
 //! Rows agree with single calls of the library, and each row has a status of its own.
 
 use impact_arrays::{
-    Adhesion, Column, Contacts, Damping, Law, Motions, OUTPUTS, Quantity, Restitution, RigidBodies, RowStatus, Surface,
+    Adhesion, Column, Contacts, Damping, Law, Motions, Quantity, Restitution, RigidBodies, RowStatus, Surface,
 };
 use methods::{MethodChoice, Refusal};
 use microimpact::contact::{Adaptive, Collocation, Contact, FixedCost, JkrEnd, Method, RungeKuttaGill, Slip, Times};
@@ -270,8 +270,7 @@ fn chosen_methods_agree_with_their_types() -> Result<(), Refusal> {
         let law = Law::Ring { strength: Column::All(250.0), damping: Column::All(6.25) };
         let contacts = Contacts { law, ..spheres(&radius) };
         let quantities = [Quantity::OverallRestitution, Quantity::SpinOut, Quantity::ContactTime];
-        let simulator = choice.simulator(OUTPUTS)?;
-        let impacts = contacts.simulate_by(&simulator, &planar(&speed, 3.0), ROWS, &quantities, || false);
+        let impacts = contacts.simulate_by(choice, &planar(&speed, 3.0), ROWS, &quantities, || false)?;
         let mut rebounds = 0;
         for row in (0..ROWS).step_by(7) {
             let sphere = Sphere::solid(radius[row], 2600.0)?;
@@ -279,9 +278,11 @@ fn chosen_methods_agree_with_their_types() -> Result<(), Refusal> {
             let hertz = Contact::hertz(sphere, Stiffness::new(7.5e10)?).with_damping(10.5)?;
             let scene = hertz.with_ring(250.0, 6.25)?.with_friction(0.1)?;
             // By the method that is compiled for it too, a scene without a moment.
-            let (impact, ((times, ..), _)) = match choice {
-                MethodChoice::Adaptive { .. } => scene.solve_for(&before, method, OUTPUTS)?,
-                _ => scene.with_peeling(0.0)?.solve_for(&before, method, OUTPUTS)?,
+            let (impact, times) = match choice {
+                MethodChoice::Adaptive { .. } | MethodChoice::FixedCost { .. } => {
+                    scene.solve_for(&before, method, Times)?
+                }
+                _ => scene.with_peeling(0.0)?.solve_for(&before, method, Times)?,
             };
             assert_eq!(impacts.class[row], impact.class(), "{choice:?}, row {row}");
             let Some(time) = times.contact else { continue };
@@ -298,8 +299,8 @@ fn chosen_methods_agree_with_their_types() -> Result<(), Refusal> {
         let jkr = Contacts { law: Law::Jkr { work: Column::All(0.4), end: JkrEnd::PullOff }, ..contacts };
         let represented = matches!(choice, MethodChoice::Adaptive { .. } | MethodChoice::Collocation { .. });
         let expected = if represented { RowStatus::Solved } else { RowStatus::Unsupported };
-        assert_eq!(jkr.simulate_by(&simulator, &planar(&speed, 3.0), ROWS, &[], || false).status, [expected; ROWS]);
-        let stopped = contacts.simulate_by(&simulator, &planar(&speed, 3.0), ROWS, &quantities, || true);
+        assert_eq!(jkr.simulate_by(choice, &planar(&speed, 3.0), ROWS, &[], || false)?.status, [expected; ROWS]);
+        let stopped = contacts.simulate_by(choice, &planar(&speed, 3.0), ROWS, &quantities, || true)?;
         assert_eq!(stopped.status, [RowStatus::NotConverged; ROWS]);
 
         let surface = Surface::Compliant { friction: Column::All(0.1), stiffness_ratio: Column::All(0.8) };
@@ -308,7 +309,7 @@ fn chosen_methods_agree_with_their_types() -> Result<(), Refusal> {
             MethodChoice::Adaptive { .. } => RowStatus::Solved,
             _ => RowStatus::Unsupported,
         };
-        assert_eq!(compliant.simulate_by(&simulator, &planar(&speed, 3.0), 1, &[], || false).status, [expected]);
+        assert_eq!(compliant.simulate_by(choice, &planar(&speed, 3.0), 1, &[], || false)?.status, [expected]);
         Ok(())
     }
     compare(MethodChoice::Adaptive { tolerance: 1e-6 }, &Adaptive::new(1e-6)?)?;

@@ -2,10 +2,9 @@
 
 use std::sync::atomic::Ordering;
 
-use impact_arrays::{Contacts, Impacts, Motions, OUTPUTS, Quantity};
+use impact_arrays::{Contacts, Impacts, Motions, Quantity};
 use methods::{COLLOCATION_NODES, FIXED_COST_NODES, MethodChoice, Refusal, STEPS, default};
 use microimpact::Parameter;
-use microimpact::contact::Adaptive;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -40,17 +39,10 @@ impl Method {
         count: usize,
         outputs: &[Quantity],
     ) -> PyResult<Impacts> {
-        // The default is compiled for each law, and follows the contact only for what needs it.
-        if let Self::Adaptive { tolerance } = *self {
-            let method = Adaptive::new(tolerance).map_err(refused)?;
-            return until_interrupted(python, |stop| {
-                contacts.simulate_until(motions, count, &method, outputs, || stop.load(Ordering::Relaxed))
-            });
-        }
-        let simulator = self.choice().simulator(OUTPUTS).map_err(of_method)?;
         until_interrupted(python, |stop| {
-            contacts.simulate_by(&simulator, motions, count, outputs, || stop.load(Ordering::Relaxed))
-        })
+            contacts.simulate_by(self.choice(), motions, count, outputs, || stop.load(Ordering::Relaxed))
+        })?
+        .map_err(of_method)
     }
 
     /// Why an impact has no result where the method does not converge, and where it cannot represent the law.

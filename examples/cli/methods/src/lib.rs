@@ -196,6 +196,15 @@ impl<T: OfferedNodes> MethodChoice<T> {
     }
 }
 
+/// What is done with a `FixedCost` whose nodes are chosen at run time: by [`with_fixed_cost`].
+pub trait WithFixedCost {
+    /// Its result.
+    type Result;
+
+    /// Does it.
+    fn with<const N: usize, const M: usize>(self, method: &FixedCost<N, M>) -> Self::Result;
+}
+
 /// Energy of a sphere that has crept to rest, over the depth of the well: it is within a thousandth of its place.
 const ENERGY_AT_REST: f64 = 1e-6;
 
@@ -281,6 +290,41 @@ macro_rules! offer {
             match nodes {
                 $($phase => {
                     Ok(Simulator::by(FixedCost::<$phase>::new(iterations)?.with_outputs::<$outputs>(), outputs))
+                })*
+                _ => Err(Refusal::Nodes { nodes, offered: FIXED_COST_NODES }),
+            }
+        }
+
+        /// Does something with `FixedCost`, with as many nodes for outputs as they need.
+        ///
+        /// # Errors
+        /// A number of nodes that is not offered, or of iterations outside its range.
+        ///
+        /// ```
+        /// use methods::{Refusal, WithFixedCost, with_fixed_cost};
+        /// use microimpact::contact::FixedCost;
+        ///
+        /// struct Nodes;
+        ///
+        /// impl WithFixedCost for Nodes {
+        ///     type Result = usize;
+        ///
+        ///     fn with<const N: usize, const M: usize>(self, _: &FixedCost<N, M>) -> usize {
+        ///         N
+        ///     }
+        /// }
+        ///
+        /// assert_eq!(with_fixed_cost(7, 3, Nodes), Ok(7));
+        /// assert!(matches!(with_fixed_cost(4, 3, Nodes), Err(Refusal::Nodes { nodes: 4, .. })));
+        /// ```
+        pub fn with_fixed_cost<A: WithFixedCost>(
+            nodes: u32,
+            iterations: u32,
+            action: A,
+        ) -> Result<A::Result, Refusal> {
+            match nodes {
+                $($phase => {
+                    Ok(action.with(&FixedCost::<$phase>::new(iterations)?.with_outputs::<$outputs>()))
                 })*
                 _ => Err(Refusal::Nodes { nodes, offered: FIXED_COST_NODES }),
             }
