@@ -5,7 +5,7 @@ use methods::course;
 use microimpact::contact::{Adaptive, Sample, Trajectory};
 use microimpact::{InputError, NormalMotion};
 use numpy::IntoPyArray;
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -44,7 +44,7 @@ pub(crate) fn trajectory<'py>(
         }
     };
     let Some(trajectory) = solve().map_err(refused)? else {
-        return Err(PyRuntimeError::new_err("tolerance: the simulation did not converge; use a larger tolerance"));
+        return Err(PyValueError::new_err("tolerance: the simulation did not converge; use a larger tolerance"));
     };
     let samples = PyDict::new(python);
     let numbers: [Named; 5] = [

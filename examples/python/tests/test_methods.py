@@ -81,6 +81,28 @@ def test_without_convergence():
     assert impacts.status.tolist() == [mi.Status.SOLVED, mi.Status.NOT_CONVERGED]
 
 
+def test_rows_of_fixed_cost_are_single_calls():
+    rows = np.arange(203)
+    speeds = 0.5 * 1.02**rows
+    # A row in seven is damped too strongly for the method, and a row in eleven has a number outside its range.
+    zeta_h, radii = np.where(rows % 7 == 3, 1e5, 10.5), np.where(rows % 11 == 5, -1.0, 5.06e-6)
+    names, quantities = ["contact_time"], ["overall_restitution", "speed_tangential_out", "spin_out", "contact_time"]
+
+    def simulate(row):
+        contact = mi.Ring(stiffness=7.5e10, adhesion=250, zeta_a=6.25, zeta_h=zeta_h[row])
+        scene = mi.Scene(radius=radii[row], density=2600, contact=contact, friction=0.1)
+        return scene.simulate(speeds[row], 3.0, method=mi.FixedCost(), outputs=names, errors="status")
+
+    together, alone = simulate(rows), [simulate(row) for row in rows]
+    assert together.status.tolist() == [impact.status for impact in alone]
+    assert set(together.status) == {mi.Status.SOLVED, mi.Status.NOT_CONVERGED, mi.Status.REFUSED}
+    assert together.impact_class.tolist() == [impact.impact_class for impact in alone]
+    assert {mi.Class.REBOUND_ROLLING, mi.Class.CAPTURED_ROLLING} <= set(together.impact_class)
+    for name in quantities:
+        expected = np.array([getattr(impact, name) for impact in alone])
+        np.testing.assert_allclose(getattr(together, name), expected, rtol=1e-12, err_msg=name)
+
+
 @pytest.mark.parametrize(
     ("make", "words"),
     [

@@ -122,7 +122,8 @@ function showNumbers({ columns, row, critical, simulated }) {
     const simulation = [
         ["Largest indentation", "δ", inUnits(row.max_indentation_m, "m")],
         ["Contact time", "t", inUnits(row.contact_time_s, "s")],
-        ["Slips for", "", slip],
+        row.phases ? ["Phases of stick and slip", "", row.phases] : ["Slips for", "", slip],
+        ...(row.speed_over_yield ? [["Approach speed over that of yield", "", digits(row.speed_over_yield)]] : []),
     ];
     const rigidBody = [
         ["Impulse ratio", "μ", digits(row.impulse_ratio_out)],

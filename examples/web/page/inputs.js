@@ -50,20 +50,27 @@ const SURFACE = [
     {
         aside: true, key: "restitution_law", label: "Restitution without adhesion", start: "speed", where: RIGID_BODY, choices: {
             speed: "falls with the speed, R = k/(k + v)",
+            power: "by a power of the speed, R = kᵖ/(kᵖ + vᵖ)",
+            yield: "elastic-plastic sphere (Thornton)",
             constant: "the same at every speed",
         },
     },
-    { column: "restitution_speed_m_s", label: "Speed of restitution", symbol: "k", unit: "m/s", si: 1, least: 1, most: 10000, start: 130, where: { ...RIGID_BODY, restitution_law: ["speed"] } },
+    { column: "restitution_speed_m_s", label: "Speed of restitution", symbol: "k", unit: "m/s", si: 1, least: 1, most: 10000, start: 130, where: { ...RIGID_BODY, restitution_law: ["speed", "power"] } },
+    { column: "restitution_power", label: "Power of restitution", symbol: "p", unit: "1", si: 1, least: 0.01, most: 1, start: 0.5, where: { ...RIGID_BODY, restitution_law: ["power"] } },
+    { column: "yield_speed_m_s", label: "Speed at which it starts to yield", symbol: "v_y", unit: "m/s", si: 1, least: 0.001, most: 1000, start: 0.5, where: { ...RIGID_BODY, restitution_law: ["yield"] } },
     { column: "restitution", label: "Restitution", symbol: "R", unit: "1", si: 1, least: 0, most: 1, start: 0.978, where: { ...RIGID_BODY, restitution_law: ["constant"] } },
     {
         aside: true, key: "adhesion_law", label: "Adhesion", start: "work", where: RIGID_BODY, choices: {
             none: "none",
             work: "work of adhesion",
             coefficient: "coefficient",
+            speed: "coefficient by speed, ρ = l^q/(l^q + v^q)",
         },
     },
     { column: "work_of_adhesion_j", label: "Work of adhesion", symbol: "W_A", unit: "pJ", si: 1e-12, least: 0.001, most: 1000, start: 2.22, where: { ...RIGID_BODY, adhesion_law: ["work"] } },
     { column: "adhesion_coefficient", label: "Adhesion coefficient", symbol: "ρ", unit: "1", si: 1, least: 0, most: 1, start: 0.237, where: { ...RIGID_BODY, adhesion_law: ["coefficient"] } },
+    { column: "adhesion_speed_m_s", label: "Speed of adhesion", symbol: "l", unit: "m/s", si: 1, least: 0.001, most: 1000, start: 1, where: { ...RIGID_BODY, adhesion_law: ["speed"] } },
+    { column: "adhesion_power", label: "Power of adhesion", symbol: "q", unit: "1", si: 1, least: 0.01, most: 16, start: 2, where: { ...RIGID_BODY, adhesion_law: ["speed"] } },
     { column: "friction", label: "Friction", symbol: "f", unit: "1", si: 1, least: 0, most: 1, start: 0.1 },
 ];
 
@@ -82,6 +89,18 @@ const MOTION = [
     { column: "spin_rad_s", label: "Spin", symbol: "ω", unit: "10³ rad/s", si: 1e3, least: -1000, most: 1000, start: 146 },
 ];
 
+// The program knows compliance with these terms alone.
+const COMPLIANT = { ...SIMULATION, law: ["hertz"], damping: ["none", "hysteretic"] };
+const ALONG = [
+    { column: "peeling_n_m", optional: true, label: "Peeling moment", symbol: "λ", unit: "pN m", si: 1e-12, least: 0, most: 100, start: 0, where: { ...SIMULATION, law: ["ring"] } },
+    {
+        aside: true, key: "compliance", label: "Contact that sticks", start: "rigid", where: COMPLIANT,
+        choices: { rigid: "is rigid", elastic: "is elastic (Maw, Barber, Fawcett)" },
+    },
+    { column: "stiffness_ratio", label: "Tangential over normal stiffness", symbol: "χ", unit: "1", si: 1, least: 0.1, most: 2, start: 0.83, where: { ...COMPLIANT, compliance: ["elastic"] } },
+    { column: "rolling_arm_m", optional: true, label: "Rolling-dissipation arm", symbol: "μₘa_c", unit: "nm", si: 1e-9, least: 0, most: 1000, start: 0, where: RIGID_BODY },
+];
+
 const MORE = [
     { column: "gyration_ratio", optional: true, label: "Squared radius of gyration over r²: 0.4 solid, 0.667 hollow", symbol: "κ", unit: "1", si: 1, least: 0.2, most: 0.667, start: 0.4 },
     { column: "external_force_n", optional: true, label: "External force, away from the surface", symbol: "F", unit: "µN", si: 1e-6, least: -100, most: 100, start: 0, where: SIMULATION },
@@ -93,21 +112,36 @@ const MORE = [
         column: "end_rule", key: "end_of_jkr", optional: true, label: "Contact ends", start: "snap-off", where: { ...SIMULATION, law: ["jkr"] },
         choices: { "snap-off": "where the contact snaps off", "pull-off": "at the largest tension" },
     },
+    { column: "yield_pressure_pa", optional: true, label: "Contact pressure at which it yields, 0 where not known", symbol: "p_y", unit: "GPa", si: 1e9, least: 0, most: 20, start: 0, where: SIMULATION },
 ];
 
-// Standard errors in percent of the number.
+// Standard errors: in percent of a number that is not zero, or in the unit of a number that may be zero.
 const error = (errorOf, column, label, symbol, where = {}) =>
     ({ errorOf, column, label, symbol, unit: "%", least: 0, most: 50, start: 0, where });
+const errorIn = (unit, si, most, column, label, symbol, where = {}) =>
+    ({ optional: true, column, label, symbol, unit, si, least: 0, most, start: 0, where });
 const ERRORS = [
     error("radius_m", "radius_error_m", "of the radius", "r"),
+    error("density_kg_m3", "density_error_kg_m3", "of the density", "ρ"),
     error("stiffness_pa", "stiffness_error_pa", "of the stiffness", "K", SIMULATION),
     error("adhesion_n_m", "adhesion_error_n_m", "of the strength of adhesion", "f₀", { ...SIMULATION, law: ["ring"] }),
+    error("zeta_a", "zeta_a_error", "of the damping of adhesion", "ζ_A", { ...SIMULATION, law: ["ring"] }),
     error("work_of_adhesion_j_m2", "work_of_adhesion_error_j_m2", "of the work of adhesion", "G", { ...SIMULATION, law: ["dmt", "jkr"] }),
     error("zeta_h", "zeta_h_error", "of the hysteretic damping", "ζ_H", { ...SIMULATION, damping: ["hysteretic"] }),
+    error("restitution_speed_m_s", "restitution_speed_error_m_s", "of the speed of restitution", "k", { ...RIGID_BODY, restitution_law: ["speed", "power"] }),
+    error("yield_speed_m_s", "yield_speed_error_m_s", "of the speed of yield", "v_y", { ...RIGID_BODY, restitution_law: ["yield"] }),
+    errorIn("1", 1, 0.2, "restitution_error", "of the restitution", "R", { ...RIGID_BODY, restitution_law: ["constant"] }),
+    error("work_of_adhesion_j", "work_of_adhesion_error_j", "of the work of adhesion", "W_A", { ...RIGID_BODY, adhesion_law: ["work"] }),
+    errorIn("1", 1, 0.2, "adhesion_coefficient_error", "of the adhesion coefficient", "ρ", { ...RIGID_BODY, adhesion_law: ["coefficient"] }),
+    error("adhesion_speed_m_s", "adhesion_speed_error_m_s", "of the speed of adhesion", "l", { ...RIGID_BODY, adhesion_law: ["speed"] }),
+    errorIn("1", 1, 0.2, "friction_error", "of the friction", "f"),
     error("speed_normal_m_s", "speed_normal_error_m_s", "of the approach speed", "v_n"),
+    errorIn("m/s", 1, 5, "speed_tangential_error_m_s", "of the tangential velocity", "v_t"),
+    errorIn("10³ rad/s", 1e3, 100, "spin_error_rad_s", "of the spin", "ω"),
+    errorIn("µN", 1e-6, 10, "external_force_error_n", "of the external force", "F", SIMULATION),
 ];
 
-const INPUTS = [...MODEL, ...PARTICLE, ...SURFACE, ...MOTION, ...MORE, ...ERRORS];
+const INPUTS = [...MODEL, ...PARTICLE, ...SURFACE, ...MOTION, ...ALONG, ...MORE, ...ERRORS];
 
 // Columns of a file for which the page offers a choice, with what they hold, its symbol, and the model that reads them if it is
 // one; the others are read by their names.
@@ -146,6 +180,10 @@ const GROUPS = [
     { needed: [], columns: ["law", "adhesion_n_m", "zeta_a", "work_of_adhesion_j_m2", "end_rule"] },
     { needed: [], columns: ["zeta_h", "damping", "damping_value"] },
     { needed: [], columns: ["external_force_n"] },
+    { needed: [], columns: ["peeling_n_m"] },
+    { needed: [], columns: ["stiffness_ratio"] },
+    { needed: [], columns: ["rolling_arm_m"] },
+    { needed: [], columns: ["yield_pressure_pa"] },
     { needed: [RIGID], columns: ["restitution", "restitution_speed_m_s", "restitution_power", "yield_speed_m_s"] },
     { needed: [], columns: ["adhesion_coefficient", "work_of_adhesion_j", "adhesion_speed_m_s", "adhesion_power"] },
 ];

@@ -41,7 +41,7 @@ class Scene {
     constructor(form, changed) {
         this.values = Object.fromEntries(INPUTS.map((input) => [keyOf(input), input.start]));
         this.rows = new Map();
-        const places = { "scene-model": MODEL, particle: PARTICLE, surface: SURFACE, motion: MOTION, more: MORE, errors: ERRORS };
+        const places = { "scene-model": MODEL, particle: PARTICLE, surface: SURFACE, motion: MOTION, along: ALONG, more: MORE, errors: ERRORS };
         for (const [id, inputs] of Object.entries(places)) {
             for (const input of inputs) {
                 const { row, show } = input.choices ? this.choice(input) : this.number(input);
@@ -148,6 +148,10 @@ class Scene {
 
     showTerms() {
         for (const [input, { row }] of this.rows) row.hidden = !this.has(input);
+        // A fold without a term is none.
+        for (const fold of document.querySelectorAll("#scene details")) {
+            fold.hidden = [...fold.children].slice(1).every((row) => row.hidden);
+        }
     }
 
     // What the user asks for, by columns of the program, in SI units; a standard error of zero has no column.
