@@ -14,12 +14,33 @@ pub struct RestitutionOptions {
     /// Restitution: number of radii, of equal ratios [default: 25; 1 in acutrace and comsol]
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=MOST_RADII))]
     radii: Option<u32>,
-    /// Restitution: largest approach speed, m/s
-    #[arg(long, default_value_t = 100.0)]
-    pub fastest: f64,
-    /// Restitution: largest error between two speeds, 0.0001 to 0.1
-    #[arg(long, default_value_t = 0.002, value_name = "ERROR")]
-    restitution_error: f64,
+    /// Restitution: largest approach speed, m/s [default: 100]
+    #[arg(long)]
+    fastest: Option<f64>,
+    /// Restitution: largest error between two speeds, 0.0001 to 0.1 [default: 0.002]
+    #[arg(long, value_name = "ERROR")]
+    restitution_error: Option<f64>,
+}
+
+impl RestitutionOptions {
+    /// The largest approach speed, m/s.
+    pub fn fastest(&self) -> f64 {
+        self.fastest.unwrap_or(100.0)
+    }
+
+    fn error(&self) -> f64 {
+        self.restitution_error.unwrap_or(0.002)
+    }
+
+    /// The first option that is given, if there is one.
+    pub fn given(&self) -> Option<&'static str> {
+        self.given_of_grid().or(self.fastest.map(|_| "--fastest"))
+    }
+
+    /// The same of those that a table without a grid of radii and speeds has no use for.
+    pub fn given_of_grid(&self) -> Option<&'static str> {
+        self.radii.map(|_| "--radii").or(self.restitution_error.map(|_| "--restitution-error"))
+    }
 }
 
 const MOST_RADII: i64 = 64;
@@ -91,7 +112,7 @@ fn table(
     options: &RestitutionOptions,
     subject: String,
 ) -> Result<Table, Box<dyn Error>> {
-    let RestitutionOptions { fastest, restitution_error: tolerance, .. } = *options;
+    let (fastest, tolerance) = (options.fastest(), options.error());
     if !(ERRORS.0..=ERRORS.1).contains(&tolerance) {
         let (least, most) = ERRORS;
         return Err(format!("--restitution-error {tolerance} is refused: enter a number from {least} to {most}").into());

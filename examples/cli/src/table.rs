@@ -155,11 +155,25 @@ impl Options {
 fn run(options: &Options, streams: &mut Streams<'_>) -> Result<(), Box<dyn Error>> {
     let (law, to) = (options.law.law()?, &mut *streams.output);
     let written = match options.format.content() {
-        Content::CriticalSpeeds(written) => written,
+        Content::CriticalSpeeds(written) => {
+            if let Some(option) = options.restitution.given() {
+                return Err(format!(
+                    "{option} is refused: a table of critical speeds has no use for it; leave it out, or choose a --format of restitution"
+                )
+                .into());
+            }
+            written
+        }
         Content::RestitutionConstant => {
+            if let Some(option) = options.restitution.given_of_grid() {
+                return Err(format!(
+                    "{option} is refused: a table of restitution for firmware has cells, by --cells, and states its error; leave it out"
+                )
+                .into());
+            }
             let subject = Subject {
                 smallest_radius: options.smallest_radius,
-                fastest: options.restitution.fastest,
+                fastest: options.restitution.fastest(),
                 density: options.density,
                 law,
                 materials: options.materials(),

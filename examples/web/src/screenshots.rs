@@ -8,7 +8,7 @@ use crate::check::{READY, choose};
 
 /// Name, width and height of the window, and colour scheme.
 const PICTURES: [(&str, (u32, u32), &str); 4] = [
-    ("phone-light", (360, 740), "light"),
+    ("phone-light", (390, 740), "light"),
     ("phone-dark", (360, 740), "dark"),
     ("desktop-light", (1280, 900), "light"),
     ("desktop-dark", (1280, 900), "dark"),
@@ -32,7 +32,7 @@ pub fn write(browser: &mut Browser, file: &Path, table: &[u8]) -> Result<(), Str
 
         choose(browser, "law", "hertz")?;
         choose(browser, "damping", "viscoelastic")?;
-        browser.value("document.getElementById('errors').open = true")?;
+        browser.value("for (const fold of document.querySelectorAll('#scene details')) fold.open = true")?;
         drop_file(browser, "own.csv", b"half width;solid;k;speed\n2,5;2600;75;2,8\n")?;
         choose(browser, "column-radius_m", "half width")?;
         browser.wait_for(READY)?;

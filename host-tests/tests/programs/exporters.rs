@@ -247,6 +247,9 @@ fn the_range_is_stated() {
 fn what_cannot_be_a_table_is_refused() {
     for (arguments, words) in [
         (&["--format", "comsol", "--radii", "2"][..], "--radii 2 is refused"),
+        (&["--format", "csv", "--radii", "3"], "--radii is refused: a table of critical speeds has no use for it"),
+        (&["--fastest", "3"], "--fastest is refused: a table of critical speeds has no use for it"),
+        (&["--format", "restitution-rust", "--radii", "3"], "--radii is refused: a table of restitution for firmware"),
         (&["--format", "fluent", "--restitution-error", "0.2"], "enter a number from 0.0001 to 0.1"),
         (&["--format", "openfoam", "--fastest", "0"], "approach speed"),
         (&["--format", "fluent", "--smallest-radius", "1e-9"], "captured at every speed"),

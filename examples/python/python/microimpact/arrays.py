@@ -96,7 +96,8 @@ def whole_number(name: str, value: object, low: int, high: int) -> int:
 
 
 class ByValue:
-    """Equality and hash by the values of the fields, which may be arrays: equal numbers in equal shapes."""
+    """Equality and hash by the values of the fields, which may be arrays: equal numbers in equal shapes. What holds an array or a list,
+    whose numbers may change, has no hash."""
 
     def _values(self) -> tuple[object, ...]:
         return (type(self), *(_value(field) for field in vars(self).values()))
@@ -105,6 +106,9 @@ class ByValue:
         return self._values() == other._values() if isinstance(other, ByValue) else NotImplemented
 
     def __hash__(self) -> int:
+        for name, field in vars(self).items():
+            if isinstance(field, np.ndarray | list):
+                raise TypeError(f"{name}: an array or a list has no hash, because its numbers may change; give a tuple")
         return hash(self._values())
 
 

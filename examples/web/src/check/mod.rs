@@ -36,6 +36,9 @@ pub fn page(file: &Path, permission: Permission) -> Result<(), String> {
     sliders::rigid_body(&mut browser)?;
     sliders::materials(&mut browser)?;
     sliders::angle_and_force(&mut browser)?;
+    sliders::columns(&mut browser)?;
+    sliders::folded(&mut browser)?;
+    sliders::errors(&mut browser)?;
     tables::cases(&mut browser, &cases)?;
     tables::mapping(&mut browser)?;
     tables::workbook(&mut browser)?;

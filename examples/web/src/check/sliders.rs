@@ -1,5 +1,7 @@
 //! The answer to what the user sets by sliders, and how the page is used without a mouse.
 
+use std::collections::BTreeSet;
+
 use serde_json::json;
 
 use super::{READY, choose, first_row, program, same};
@@ -13,7 +15,7 @@ const TAB: (&str, u32) = ("Tab", 9);
 const STEPS_TO_CAPTURE: u32 = 50;
 
 /// More tab stops than the page has.
-const MOST_STOPS: u32 = 120;
+const MOST_STOPS: u32 = 200;
 
 /// The paper's Table 1 in SI units, at which the sliders start. Its program halves the printed damping of adhesion.
 const TABLE_1: [(&str, f64); 10] = [
@@ -35,6 +37,146 @@ const OTHER_TERMS: [(&str, &str, &str, f64); 3] = [
     ("damping", "viscoelastic", "damping_value", 1e-9),
     ("damping", "constant", "damping_value", 0.9),
 ];
+
+/// Columns of `classify` without a control: those in place of a column that has one, and those of motions in space, which begin or end so.
+const INSTEAD: [&str; 4] = ["name", "diameter_m", "diameter_error_m", "impulse_ratio"];
+const IN_SPACE: [&str; 4] = ["velocity_", "normal_", "wall_", "spin_"];
+const OF_SECOND: &str = "_2";
+
+/// A term that is folded away and where it is there, with its number in the unit of its slider and in SI units, and a quantity of the
+/// program that it changes.
+struct Folded {
+    choices: &'static [(&'static str, &'static str)],
+    column: &'static str,
+    entered: &'static str,
+    number: f64,
+    changes: &'static str,
+}
+
+const FOLDED: [Folded; 4] = [
+    Folded { choices: &[], column: "peeling_n_m", entered: "2", number: 2e-12, changes: "spin_out_rad_s" },
+    Folded {
+        choices: &[("law", "hertz"), ("compliance", "elastic")],
+        column: "stiffness_ratio",
+        entered: "1.5",
+        number: 1.5,
+        changes: "spin_out_rad_s",
+    },
+    Folded { choices: &[], column: "yield_pressure_pa", entered: "2", number: 2e9, changes: "speed_over_yield" },
+    Folded {
+        choices: &[("scene_model", "rigid-body")],
+        column: "rolling_arm_m",
+        entered: "100",
+        number: 1e-7,
+        changes: "spin_out_rad_s",
+    },
+];
+
+/// Every column that `classify` reads has a control, but for other ways to give a number and for motions in space.
+pub fn columns(browser: &mut Browser) -> Result<(), String> {
+    let offered = browser.value("[...new Set(INPUTS.map((input) => input.column).filter(Boolean))]")?;
+    let offered: Vec<&str> = offered.as_array().into_iter().flatten().filter_map(|name| name.as_str()).collect();
+    let list = program(&["columns", "--format", "csv"], b"")?;
+    let mut rows = csv::Reader::from_reader(list.as_bytes());
+    let place = |name: &str, names: &csv::StringRecord| names.iter().position(|other| other == name).unwrap_or(0);
+    let names = rows.headers().map_err(|error| error.to_string())?.clone();
+    let (column, read_by) = (place("column", &names), place("read_by", &names));
+    let read: Vec<String> = (rows.records().filter_map(Result::ok))
+        .filter(|row| row[read_by].contains("classify"))
+        .map(|row| row[column].to_owned())
+        .collect();
+    let in_space = |name: &str| {
+        IN_SPACE.iter().any(|start| name.starts_with(start)) && !name.starts_with("spin_rad") && !name.contains("error")
+    };
+    let elsewhere = |name: &str| INSTEAD.contains(&name) || in_space(name) || name.contains(OF_SECOND);
+    let missing: Vec<&String> =
+        read.iter().filter(|name| !elsewhere(name) && !offered.contains(&name.as_str())).collect();
+    if read.len() < 60 || !missing.is_empty() {
+        return Err(format!("of {} columns of classify the page lacks {missing:?}", read.len()));
+    }
+    Ok(())
+}
+
+/// Terms that are folded away reach the program and change its answer, which the page shows.
+pub fn folded(browser: &mut Browser) -> Result<(), String> {
+    for Folded { choices, column, entered, number, changes } in FOLDED {
+        for (control, option) in choices {
+            choose(browser, control, option)?;
+        }
+        enter(browser, "speed_tangential_m_s", "5")?;
+        browser.wait_for(READY)?;
+        let without = browser.text(&format!(
+            "table(Object.fromEntries(Object.entries(scene.columns()).filter(([name]) => name !== '{column}')))"
+        ))?;
+        enter(browser, column, entered)?;
+        browser.wait_for(READY)?;
+        let found = browser.text(&format!("scene.columns().{column}"))?;
+        if found.parse() != Ok(number) {
+            return Err(format!("{column} is {found} and not {number}"));
+        }
+        answered(browser)?;
+        let model = browser.text("scene.values.scene_model")?;
+        let classify =
+            |table: &str| program(&["classify", "-", "--model", &model, "--format", "csv"], table.as_bytes());
+        let with = classify(&browser.text("table(scene.columns())")?)?;
+        if first_row(&with, changes)? == first_row(&classify(&without)?, changes).unwrap_or_default() {
+            return Err(format!("{column} does not change {changes}"));
+        }
+        let spin = first_row(&with, "spin_out_rad_s")?;
+        let shown = browser.text("document.getElementById('numbers').textContent")?;
+        let expected = browser.text(&format!("inUnits({}, 'rad/s')", json!(spin)))?;
+        if !shown.contains(&expected) {
+            return Err(format!("{column}: the page does not show the spin {expected}"));
+        }
+        reset(browser)?;
+    }
+    Ok(())
+}
+
+/// Each standard error that the page has reaches the program, and the page shows the probabilities of the program.
+pub fn errors(browser: &mut Browser) -> Result<(), String> {
+    let scenes: [&[(&str, &str)]; 5] = [
+        &[],
+        &[("law", "dmt")],
+        &[("scene_model", "rigid-body")],
+        &[("scene_model", "rigid-body"), ("restitution_law", "yield"), ("adhesion_law", "speed")],
+        &[("scene_model", "rigid-body"), ("restitution_law", "constant"), ("adhesion_law", "coefficient")],
+    ];
+    let mut seen = BTreeSet::new();
+    for choices in scenes {
+        for (control, option) in choices {
+            choose(browser, control, option)?;
+        }
+        enter(browser, "speed_tangential_m_s", "2")?;
+        browser.value(
+            "for (const input of ERRORS.filter((input) => scene.has(input))) { const field = document.getElementById(keyOf(input)); \
+             field.value = input.most / 20; field.dispatchEvent(new Event('input')); }",
+        )?;
+        browser.wait_for(READY)?;
+        answered(browser)?;
+        let (model, table) = (browser.text("scene.values.scene_model")?, browser.text("table(scene.columns())")?);
+        seen.extend(table.lines().next().into_iter().flat_map(|names| names.split(',')).map(str::to_owned));
+        let classified = program(&["classify", "-", "--model", &model, "--format", "csv"], table.as_bytes())?;
+        let shown = browser.text("document.getElementById('margin').textContent")?;
+        for (class, words) in [("rebound_rolling", "rebound, rolling"), ("captured_rolling", "captured, rolling")] {
+            let probability = first_row(&classified, &format!("probability_{class}"))?;
+            let probability: f64 = probability.parse().map_err(|_| format!("{class} has no probability: {table}"))?;
+            if probability >= 0.0005 && !shown.contains(&format!("{words} {probability:.3}")) {
+                return Err(format!("the probability of {class} is {probability}; the page shows {shown}"));
+            }
+        }
+        reset(browser)?;
+    }
+    let offered = browser.value("ERRORS.map((input) => input.column)")?;
+    let missed: Vec<_> = offered
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter_map(|name| name.as_str())
+        .filter(|name| !seen.contains(*name))
+        .collect();
+    if missed.is_empty() { Ok(()) } else { Err(format!("these do not reach the program: {missed:?}")) }
+}
 
 /// The sliders give the program numbers in SI units.
 pub fn units(browser: &mut Browser) -> Result<(), String> {
@@ -117,7 +259,10 @@ pub fn names_of_controls(browser: &mut Browser) -> Result<(), String> {
     if nameless != json!([]) {
         return Err(format!("controls without a name: {nameless}"));
     }
-    browser.value("document.activeElement.blur(); window.stops = new Set()")?;
+    browser.value(
+        "for (const fold of document.querySelectorAll('#scene details')) fold.open = true; \
+         document.activeElement.blur(); window.stops = new Set()",
+    )?;
     for _ in 0..MOST_STOPS {
         browser.press(TAB.0, TAB.1)?;
         let outlined = browser.value(
@@ -136,6 +281,7 @@ pub fn names_of_controls(browser: &mut Browser) -> Result<(), String> {
         "[...document.querySelectorAll('input, select, button, summary')].filter((control) => \
          control.checkVisibility() && !stops.has(control)).map((control) => control.outerHTML)",
     )?;
+    browser.value("for (const fold of document.querySelectorAll('#scene details')) fold.open = false")?;
     if missed == json!([]) { Ok(()) } else { Err(format!("the keyboard does not reach {missed}")) }
 }
 
@@ -198,7 +344,9 @@ fn enter(browser: &mut Browser, id: &str, number: &str) -> Result<(), String> {
 /// The rigid body has the class, the restitution and the critical speed of the program, by each law.
 pub fn rigid_body(browser: &mut Browser) -> Result<(), String> {
     choose(browser, "scene_model", "rigid-body")?;
-    for (restitution, adhesion) in [("speed", "work"), ("constant", "coefficient"), ("speed", "none")] {
+    let laws =
+        [("speed", "work"), ("constant", "coefficient"), ("speed", "none"), ("power", "speed"), ("yield", "work")];
+    for (restitution, adhesion) in laws {
         choose(browser, "restitution_law", restitution)?;
         choose(browser, "adhesion_law", adhesion)?;
         browser.wait_for(READY)?;
