@@ -31,7 +31,7 @@ pub fn write(browser: &mut Browser, file: &Path, table: &[u8]) -> Result<(), Str
         browser.screenshot(&file.with_file_name(format!("{name}-whole.png")), true)?;
 
         choose(browser, "law", "hertz")?;
-        choose(browser, "damping", "viscoelastic")?;
+        choose(browser, "compliance", "elastic")?;
         browser.value("for (const fold of document.querySelectorAll('#scene details')) fold.open = true")?;
         drop_file(browser, "own.csv", b"half width;solid;k;speed\n2,5;2600;75;2,8\n")?;
         choose(browser, "column-radius_m", "half width")?;

@@ -96,8 +96,8 @@ def whole_number(name: str, value: object, low: int, high: int) -> int:
 
 
 class ByValue:
-    """Equality and hash by the values of the fields, which may be arrays: equal numbers in equal shapes. What holds an array or a list,
-    whose numbers may change, has no hash."""
+    """Equality and hash by the values of the fields, which may be arrays: equal numbers in equal shapes. What holds an array or a
+    list, whose numbers may change, has no hash."""
 
     def _values(self) -> tuple[object, ...]:
         return (type(self), *(_value(field) for field in vars(self).values()))

@@ -40,8 +40,8 @@ class FixedCost:
     An impact that this does not resolve has the status `NOT_CONVERGED`, and one close to the critical speed is undecided. It does not
     follow a captured sphere beyond its peak, and cannot represent the law `Jkr` and the end rule "no-force".
 
-    Four rows are computed at a time where the outputs are at most times and impulses, and there is no external force, peeling moment or
-    `stiffness_ratio`.
+    Four rows are computed at a time where the outputs are at most times and impulses, and there is no external force, peeling moment
+    or `stiffness_ratio`.
     """
 
     nodes: int = _native.FIXED_COST_NODES[2]
