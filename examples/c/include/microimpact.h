@@ -1069,8 +1069,8 @@ MicroimpactStatus microimpact_contact_init(const struct MicroimpactContactScene 
 /*
  Simulates `count` impacts into a buffer with room for `capacity` results, in the order of the motions, and writes how many
  there are, of those before the first that fails. The error may be null. Re-entrant.
- On a Cortex-M3, at most 623583 instructions and 1672 bytes of stack.
- On a Cortex-M3, the shared grid, at most 10474103 instructions and 2032 bytes of stack.
+ On a Cortex-M3, at most 623584 instructions and 1672 bytes of stack.
+ On a Cortex-M3, the shared grid, at most 10474104 instructions and 2032 bytes of stack.
 
  # Safety
  Each pointer is null or points to what its type says, the motions to `count` of them and the results to room for

@@ -28,8 +28,7 @@ struct Searching {
     search: CriticalSpeedSearch<f32>,
 }
 
-const _: () = assert!(size_of::<Searching>() <= size_of::<CriticalSearch>());
-const _: () = assert!(align_of::<Searching>() <= align_of::<CriticalSearch>());
+const _: () = assert!(memory::fits_in::<Searching, CriticalSearch>());
 
 /// Begins the search for the speed that microimpact_scene_critical_speed writes. The scene is copied; a contact needs a tolerance, not
 /// iterations. Nothing is computed as yet. The error may be null. Re-entrant.

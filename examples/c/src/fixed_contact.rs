@@ -1,7 +1,7 @@
 //! The simulation of a contact in integers, for processors without floating point.
 
 use microimpact::contact::{Contact, FixedCost, RingScene, Status as RunStatus};
-use microimpact::{Coulomb, Fault, FixedPoint, InFixedPoint, InputError, Parameter, PlanarMotion, Sphere, Stiffness};
+use microimpact::{Coulomb, Fault, FixedPoint, InFixedPoint, InputError, Parameter, Sphere, Stiffness};
 
 use crate::error::Error;
 use crate::fixed_point::FixedMotion;
@@ -113,8 +113,7 @@ pub unsafe extern "C" fn microimpact_fixed_simulate(
             if made.mark != MARK {
                 return Err(Failure::Status(Status::Unmade));
             }
-            let FixedMotion { approach, tangential, peripheral } = followed(memory::read(motion))?;
-            let motion = PlanarMotion::in_units([approach, tangential, peripheral].map(FixedPoint::from_bits))?;
+            let motion = followed(memory::read(motion))?.check()?;
             let solved = made.scene.solve(&motion, &FixedCost::<5>::new(ITERATIONS)?.with_outputs::<7>())?;
             let class = solved.class().filter(|_| solved.run.status == RunStatus::Solved);
             let class = class.ok_or(Failure::Status(Status::Unsolved))?;

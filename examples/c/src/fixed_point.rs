@@ -1,7 +1,7 @@
 //! The rigid-body model in integers, for processors without floating point.
 
 use microimpact::rigid::WorkOfAdhesion;
-use microimpact::{Coulomb, FixedPoint, InFixedPoint, PlanarMotion, RigidBody, SpeedRestitution};
+use microimpact::{Coulomb, FixedPoint, InFixedPoint, InputError, PlanarMotion, RigidBody, SpeedRestitution};
 
 use crate::error::Error;
 use crate::memory;
@@ -62,6 +62,12 @@ pub struct FixedResult {
     pub peripheral: i32,
 }
 
+impl FixedMotion {
+    pub(crate) fn check(self) -> Result<PlanarMotion<FixedPoint>, InputError> {
+        PlanarMotion::in_units([self.approach, self.tangential, self.peripheral].map(FixedPoint::from_bits))
+    }
+}
+
 /// Makes a rigid body in integers of a scene and a unit of speed, m/s, near the speeds that occur. This takes floating point; what it
 /// makes can be copied, stored and made on another machine of the same byte order. The error may be null. Re-entrant.
 ///
@@ -103,8 +109,7 @@ pub unsafe extern "C" fn microimpact_fixed_classify(
             if made.mark != MARK {
                 return Err(Failure::Status(Status::Unmade));
             }
-            let FixedMotion { approach, tangential, peripheral } = followed(memory::read(motion))?;
-            let motion = PlanarMotion::in_units([approach, tangential, peripheral].map(FixedPoint::from_bits))?;
+            let motion = followed(memory::read(motion))?.check()?;
             let impact = made.scene.impact(&motion);
             let classification = made.scene.classify_impact(&impact);
             let margin = |margin: Option<FixedPoint>| margin.map_or(-FIXED_ONE, FixedPoint::to_bits);

@@ -2,6 +2,11 @@
 
 use core::slice;
 
+/// Whether a `T` fits into the room that C has for it.
+pub(crate) const fn fits_in<T, Room>() -> bool {
+    size_of::<T>() <= size_of::<Room>() && align_of::<T>() <= align_of::<Room>()
+}
+
 /// What a pointer of C points to; `None` if it is null or misaligned.
 ///
 /// # Safety

@@ -150,12 +150,7 @@ pub unsafe extern "C" fn microimpact_simulate(
     error: *mut Error,
 ) -> Status {
     // SAFETY: the contract of this function.
-    unsafe {
-        simulate_each(motions, count, results, capacity, written, error, || {
-            let (scene, method) = followed(memory::read(scene))?.check()?;
-            Ok(move |motion: &PlanarMotion<f32>| Contact::of(&simulated(&scene, motion, method, ALL_INTERVALS)?))
-        })
-    }
+    unsafe { simulate_each(motions, count, results, capacity, written, error, || within(scene, ALL_INTERVALS)) }
 }
 
 /// As many intervals as the method allows.
@@ -191,12 +186,20 @@ pub unsafe extern "C" fn microimpact_simulate_within(
     error: *mut Error,
 ) -> Status {
     // SAFETY: the contract of this function.
-    unsafe {
-        simulate_each(motions, count, results, capacity, written, error, || {
-            let (scene, method) = followed(memory::read(scene))?.check()?;
-            Ok(move |motion: &PlanarMotion<f32>| Contact::of(&simulated(&scene, motion, method, intervals)?))
-        })
-    }
+    unsafe { simulate_each(motions, count, results, capacity, written, error, || within(scene, intervals)) }
+}
+
+/// What simulates the impacts of a scene in at most so many intervals.
+///
+/// # Safety
+/// The scene is null or points to one, and nobody writes to it during the call.
+unsafe fn within(
+    scene: *const ContactScene,
+    intervals: u32,
+) -> Result<impl Fn(&PlanarMotion<f32>) -> Result<Contact, Failure>, Failure> {
+    // SAFETY: the contract of this function is that of the function in `memory`.
+    let (scene, method) = followed(unsafe { memory::read(scene) })?.check()?;
+    Ok(move |motion: &PlanarMotion<f32>| Contact::of(&simulated(&scene, motion, method, intervals)?))
 }
 
 /// Simulates impacts by the solver that `solver` makes, as microimpact_simulate says.

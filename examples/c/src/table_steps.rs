@@ -72,12 +72,9 @@ type SurfaceMaker = RestitutionTableMaker<f32, 8, 6, 10>;
 /// Calls that a restitution table takes.
 const RESTITUTION_CALLS: usize = BoundaryTableMaker::<8>::CALLS + SurfaceMaker::CALLS;
 
-const fn fits<T, Room>() -> bool {
-    size_of::<T>() <= size_of::<Room>() && align_of::<T>() <= align_of::<Room>()
-}
-
-const _: () = assert!(fits::<MakingBoundary, BoundaryMaker>());
-const _: () = assert!(fits::<MakingCells, RestitutionMaker>() && fits::<MakingSurface, RestitutionMaker>());
+const _: () = assert!(memory::fits_in::<MakingBoundary, BoundaryMaker>());
+const _: () =
+    assert!(memory::fits_in::<MakingCells, RestitutionMaker>() && memory::fits_in::<MakingSurface, RestitutionMaker>());
 
 /// Begins a boundary table as microimpact_boundary_make makes it, in cells of the caller, which the maker keeps pointing to: until the
 /// table is complete, they belong to it. The scene is copied. Nothing is computed as yet. The error may be null. Re-entrant.
