@@ -28,16 +28,16 @@ const OUTPUTS: ((Times, Impulses, Works), (Slip, Energy)) = ((Times, Impulses, W
 macro_rules! by_law {
     ($contacts:expr, $at:expr, $law:ident => $result:expr) => {{
         let Contacts { law, damping, external_force, .. } = $contacts;
-        match (law, damping) {
-            (Law::Hertz, Damping::Hysteretic(zeta)) if *external_force == Column::All(0.0) => {
+        match (law, damping, external_force) {
+            (Law::Hertz, Damping::Hysteretic(zeta), Column::All(0.0)) => {
                 let $law = $contacts.hertz($at)?.with_damping($at(zeta))?;
                 $result
             }
-            (Law::Ring { strength, damping }, Damping::Hysteretic(zeta)) if *external_force == Column::All(0.0) => {
+            (Law::Ring { strength, damping }, Damping::Hysteretic(zeta), Column::All(0.0)) => {
                 let $law = $contacts.hertz($at)?.with_ring($at(strength), $at(damping))?.with_damping($at(zeta))?;
                 $result
             }
-            (Law::Dmt { work }, Damping::Hysteretic(zeta)) if *external_force == Column::All(0.0) => {
+            (Law::Dmt { work }, Damping::Hysteretic(zeta), Column::All(0.0)) => {
                 let $law = $contacts.hertz($at)?.with_dmt($at(work))?.with_damping($at(zeta))?;
                 $result
             }
