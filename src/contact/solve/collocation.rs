@@ -120,10 +120,10 @@ impl<const N: usize, T: Real> Collocation<N, T> {
         Budgeted::new(self, if intervals < MOST_INTERVALS { intervals } else { MOST_INTERVALS })
     }
 
-    pub(super) fn control(&self, timed: bool) -> Control<T> {
+    pub(super) fn control(&self, timed: bool, observed: bool) -> Control<T> {
         let times = if timed { T::constant(TIMED) } else { T::constant(UNTIMED) };
         let converged = (T::constant(CONVERGED) * self.tolerance).max(T::constant(LEAST_CHANGE) * T::EPSILON);
-        Control { converged, error: self.tolerance, times, approach: T::ZERO }
+        Control { converged, error: self.tolerance, times, observed, approach: T::ZERO }
     }
 }
 
@@ -173,7 +173,7 @@ impl<T: Nodes<N>, const N: usize> Collocation<N, T> {
         L: ContactLaw<T>,
         O: Observer<T>,
     {
-        let mut follower = Follower::arriving(law, energy, self.control(O::TIMED), observer);
+        let mut follower = Follower::arriving(law, energy, self.control(O::TIMED, O::OBSERVES), observer);
         follower.most_intervals = intervals;
         let mut path = follower.contact::<N>(O::TO_TURNING_POINT);
         if path.statistics.intervals + path.statistics.refused >= intervals && path.end != End::Undecided {
@@ -227,7 +227,7 @@ impl<T: Nodes<N>, const N: usize> ErrorControl<T> for Collocation<N, T> {
         observer: &mut O,
         criterion: &RestCriterion<T>,
     ) -> (NormalPath<T>, Option<Settling<T>>) {
-        let mut follower = Follower::arriving(law, energy, self.control(true), observer);
+        let mut follower = Follower::arriving(law, energy, self.control(true, true), observer);
         let mut path = follower.contact::<N>(true);
         let settling = (path.end == End::Capture).then(|| follower.settle::<N>(&mut path, criterion));
         (path, settling)

@@ -50,7 +50,7 @@ const MOST_HALVINGS: u32 = 60;
 pub(super) fn try_energy<const N: usize, T: Nodes<N>, L: ContactLaw<T>>(tolerance: T, law: &L, energy: T) -> Trial<T> {
     let (half, two) = (T::constant(0.5), T::constant(2.0));
     let converged = (T::constant(CONVERGED) * tolerance).max(T::constant(LEAST_CHANGE) * T::EPSILON);
-    let mut control = Control { converged, error: tolerance, times: T::ZERO, approach: T::ZERO };
+    let mut control = Control { converged, error: tolerance, times: T::ZERO, observed: false, approach: T::ZERO };
     // Adhesion that catches a sphere nearer to the surface than it lets go takes energy even without damping.
     let first = law.start();
     let caught = |barrier: T| first > barrier && law.potential(first) < law.potential(barrier);

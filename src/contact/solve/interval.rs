@@ -8,6 +8,7 @@
 // Indices run over arrays of the length that their loops count to.
 #![allow(clippy::indexing_slicing, clippy::needless_range_loop)]
 
+use super::balance::{self, Balance};
 use super::nodes::Nodes;
 use crate::Real;
 use crate::contact::law::ContactLaw;
@@ -22,6 +23,8 @@ pub(crate) struct Control<T> {
     /// Weight of the error of the time of an interval: more than one if times are asked for, less if only the end of the motion is,
     /// because energies depend little on its slow end, which makes times inexact.
     pub(crate) times: T,
+    /// Whether anything but the end of the motion is asked for.
+    pub(crate) observed: bool,
     /// Square of the speed before the impact, which errors of the energy count against; zero where they count against what moves.
     pub(crate) approach: T,
 }
@@ -206,6 +209,9 @@ const NEWTON_ROUNDING: f64 = 4.0;
 /// Estimated error over the square of the part that the nodes do not resolve.
 const TAIL_ERROR: f64 = 0.02;
 
+/// The same of a work.
+const WORK_ERROR: f64 = 0.25;
+
 /// Weight of the second highest coefficient: the highest may vanish by chance.
 const SECOND_COEFFICIENT: f64 = 0.3;
 
@@ -268,6 +274,63 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
         }
         self.iterations += 1;
         dot(&step, &step)
+    }
+
+    /// The same by the squares of a balance; `loss` is what is left of the losses.
+    #[inline]
+    fn iterate_balanced(
+        &mut self,
+        balance: &mut Balance<T, N>,
+        free: &[T; N],
+        loss: &[T; N],
+        lost: impl Fn(T, T) -> T,
+        table: &[[T; N]; N],
+    ) -> T {
+        let sums = integrals(table, &self.power);
+        let mut change = T::ZERO;
+        for j in 0..N {
+            if !balance.improve(j, lost(free[j], sums[j])) {
+                // Not converged, whatever the step.
+                change = free[j].max(T::ONE);
+            }
+            let step = balance.speed(j) - self.speed[j];
+            self.speed[j] = balance.speed(j);
+            change = change + step * step;
+        }
+        self.take_unbalanced(balance, loss);
+        self.iterations += 1;
+        change
+    }
+
+    fn converge_balanced(
+        &mut self,
+        balance: &mut Balance<T, N>,
+        (free, loss): (&[T; N], &[T; N]),
+        table: &[[T; N]; N],
+        control: &Control<T>,
+    ) -> bool {
+        let scale = (self.speed[0] * self.speed[0]).max(self.speed[N - 1] * self.speed[N - 1]);
+        self.take_unbalanced(balance, loss);
+        (self.change, self.iterations) = (T::constant(NO_CHANGE_YET), 0);
+        loop {
+            let change = self.iterate_balanced(balance, free, loss, |free, lost| free - lost, table);
+            for j in 0..N {
+                self.half_inverse[j] = T::constant(0.5) / self.speed[j];
+            }
+            match self.has_converged(change, scale, control) {
+                Progress::Converged => return true,
+                Progress::Converging if self.iterations < MOST_BALANCED => {}
+                _ => return false,
+            }
+        }
+    }
+
+    /// Takes in what is left of the losses at the present speeds.
+    #[inline]
+    fn take_unbalanced(&mut self, balance: &Balance<T, N>, loss: &[T; N]) {
+        for j in 0..N {
+            self.power[j] = loss[j] * self.speed[j] / balance.growth(j);
+        }
     }
 
     /// Changes all speeds by a fraction of themselves, unless the fraction is so large that an iteration does better. Returns the
@@ -360,6 +423,23 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
     }
 }
 
+impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
+    /// The same of an interval solved by the squares of a balance, of which `loss` is all that damping takes: what the nodes do not
+    /// resolve of that counts where it is observed, and times where they are asked for.
+    fn error_balanced(&mut self, scale: T, rate: &[T; N], loss: &[T; N], control: &Control<T>) -> T {
+        let timed = control.times > T::ONE;
+        let error = self.error(scale, rate, &if timed { *control } else { Control { times: T::ZERO, ..*control } });
+        if !control.observed {
+            return error;
+        }
+        self.take_losses(loss);
+        // A work counts against the energy of the impact.
+        let tail = dot(&T::HIGHEST_COEFFICIENT, &self.power).abs();
+        let whole = dot(&T::WEIGHTS, &self.power).abs() + scale + T::SMALLEST;
+        error.max(T::constant(WORK_ERROR) * (tail / whole) * (tail / whole.max(control.approach)))
+    }
+}
+
 /// The part of the times that the nodes do not resolve, as a fraction of them.
 #[inline]
 pub(crate) fn tail_of_times<T: Nodes<N>, const N: usize>(rate: &[T; N]) -> T {
@@ -393,6 +473,7 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     let (mut s, mut free, mut loss, mut length) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
     let slow = from.speed_squared < from.energy.abs();
     let (mut possible, mut contracting, mut reach, mut taken) = (true, true, T::ZERO, [T::ZERO; N]);
+    let mut weak = true;
     for j in 0..N {
         let step = T::Z[j] * (first + second * T::Z[j]);
         s[j] = from.s + step;
@@ -410,6 +491,7 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
         taken[j] = half * (reach + half * here);
         reach = reach + here;
         contracting &= reach * reach < T::constant(ITERATION_LIMIT) * free[j];
+        weak &= reach * reach < T::constant(WEAK) * free[j];
     }
     if course.reversed {
         loss = loss.map(|loss| -loss);
@@ -418,9 +500,21 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     let mut state = Iterations::from(from.s.max(s[N - 1]), &free, &loss, &taken);
     let mut accepted = possible;
     let mut newton = false;
-    if possible && !(contracting && state.converge(&free, &loss, &T::INTEGRATION, control)) {
-        newton = true;
-        accepted = solve_strongly_damped(&free, &loss, &mut state, control);
+    let balanced = possible
+        && !weak
+        && !course.rebound
+        && control.approach > T::ZERO
+        && pass_balanced(law, from, (&s, &length, (first, second)), course, control, &mut state);
+    if possible && !balanced {
+        if state.iterations > 0 {
+            let before = state.iterations;
+            state = Iterations::from(from.s.max(s[N - 1]), &free, &loss, &taken);
+            *evaluations += before * N as u32;
+        }
+        if !(contracting && state.converge(&free, &loss, &T::INTEGRATION, control)) {
+            newton = true;
+            accepted = solve_strongly_damped(&free, &loss, &mut state, control);
+        }
     }
     *evaluations += state.iterations * N as u32;
     let lost = dot(&T::WEIGHTS, &state.power);
@@ -429,7 +523,13 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
         accepted &= state.speed[j] > T::ZERO;
         rate[j] = length[j] * law.indentation_slope(s[j]) / state.speed[j];
     }
-    let error = if possible { state.error(free[0].max(free[N - 1]), &rate, control) } else { T::ONE };
+    let error = if balanced {
+        state.error_balanced(free[0].max(free[N - 1]), &rate, &loss, control)
+    } else if possible {
+        state.error(free[0].max(free[N - 1]), &rate, control)
+    } else {
+        T::ONE
+    };
     // Strong damping makes the forces near the nodes almost balance. What remains is less exact than its quadrature.
     let error = if newton && control.times > T::ONE {
         (T::constant(STRONG_DAMPING_TIMES) * error).max(T::constant(STRONG_DAMPING_SPEED) * error.sqrt())
@@ -439,14 +539,59 @@ pub(crate) fn pass<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     let last = state.speed[N - 1];
     // Newton's method knows the speed at the end, iterations know the energy lost; where almost all is lost the one counts,
     // elsewhere the other.
-    let speed_squared = if newton { last * last } else { free[N - 1] - lost };
-    let energy = if newton && speed_squared < T::constant(END_FROM_SPEED) * from.energy.abs() {
+    let speed_squared = if newton || balanced { last * last } else { free[N - 1] - lost };
+    let energy = if balanced || newton && speed_squared < T::constant(END_FROM_SPEED) * from.energy.abs() {
         half * speed_squared + law.potential(s[N - 1])
     } else {
         from.energy - half * lost
     };
     let end = Point { s: s[N - 1], energy, speed_squared };
     Interval { s, y: state.speed, rate, end, accepted: accepted && error <= control.error, error, forward: true }
+}
+
+/// The speeds of an interval away from turning points by the squares of a balance; `false` where that does not converge.
+#[inline(never)]
+fn pass_balanced<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
+    law: &L,
+    from: &Point<T>,
+    (s, length, (first, second)): (&[T; N], &[T; N], (T, T)),
+    course: Course,
+    control: &Control<T>,
+    state: &mut Iterations<T, N>,
+) -> bool {
+    let ratio = balance::ratio(law, s[N - 1], course);
+    let speed = from.speed_squared.max(T::ZERO).sqrt();
+    let drag = ratio * speed;
+    if !drag.is_finite() || drag.abs() < T::constant(STRONG) || T::ONE + drag < T::EPSILON.sqrt() {
+        return false;
+    }
+    let before = balance::square(ratio, speed);
+    let sign = if course.reversed { -T::ONE } else { T::ONE };
+    let (mut square, mut loss) = ([T::ZERO; N], [T::ZERO; N]);
+    for j in 0..N {
+        let step = T::Z[j] * (first + second * T::Z[j]);
+        square[j] = before - (T::constant(2.0) * law.mean_slope(s[j], from.s) * step);
+        loss[j] = (sign + sign) * length[j] * balance::unbalanced(law, ratio, s[j], course);
+    }
+    if square.iter().any(|square| *square <= T::ZERO) {
+        return false;
+    }
+    let mut balance = Balance::new([ratio; N], &square);
+    let (mut reach, mut whole) = (T::ZERO, T::ZERO);
+    for j in 0..N {
+        let growth = balance.growth(j);
+        let speed = balance.speed(j);
+        whole = whole + T::WEIGHTS[j] * length[j] * law.loss(s[j], course.rebound);
+        reach = reach + T::WEIGHTS[j] * loss[j].abs() / (growth * growth);
+        if !(reach * growth < speed) {
+            return false;
+        }
+        state.speed[j] = speed;
+    }
+    if reach > whole {
+        return false;
+    }
+    state.converge_balanced(&mut balance, (&square, &loss), &T::INTEGRATION, control)
 }
 
 /// From a turning point `peak`, where the sphere rests, down to `peak` - `depth`.
@@ -475,16 +620,61 @@ pub(crate) fn leave<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     }
     let mut state = Iterations::from(peak.max(s[N - 1]), &free, &loss, &taken_from_turning_point(&loss));
     let contraction = T::constant(TURNING_CONTRACTION) * strongest * state.half_inverse[0];
-    let mut accepted = possible
-        && contraction < T::constant(LEAVING_LIMIT)
-        && state.converge(&free, &loss, &T::TURNING_INTEGRATION, control);
+    let contracts = contraction < T::constant(LEAVING_LIMIT);
+    let mut accepted = possible && contracts && state.converge(&free, &loss, &T::TURNING_INTEGRATION, control);
+    let mut balanced = false;
+    if possible && !contracts && control.approach > T::ZERO {
+        balanced = leave_balanced(law, (peak, depth), (&s, &free), course, control, &mut state);
+        accepted = balanced;
+    }
     *evaluations += state.iterations * N as u32;
     let lost = half * dot(&T::TURNING_WEIGHTS, &state.power);
     let (rate, y) = from_turning_point(law, &s, &state, depth.abs(), &mut accepted);
-    let error = state.error(free[N - 1], &rate, control);
-    let speed_squared = two * (depth * law.mean_slope(peak, s[N - 1]) - lost);
-    let end = Point { s: s[N - 1], energy: energy - lost, speed_squared };
+    let error = if balanced {
+        state.error_balanced(free[N - 1], &rate, &loss, control)
+    } else if possible && contracts {
+        state.error(free[N - 1], &rate, control)
+    } else {
+        T::ONE
+    };
+    let (last, place) = (state.speed[N - 1], s[N - 1]);
+    let speed_squared = if balanced { last * last } else { two * (depth * law.mean_slope(peak, place) - lost) };
+    let energy = if balanced { law.potential(place) + half * speed_squared } else { energy - lost };
+    let end = Point { s: place, energy, speed_squared };
     Interval { s, y, rate, end, accepted: accepted && error <= control.error, error, forward: true }
+}
+
+/// The speeds of an interval that begins at a turning point by the squares of a balance; `false` where that does not converge.
+#[inline(never)]
+fn leave_balanced<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
+    law: &L,
+    (peak, depth): (T, T),
+    (s, free): (&[T; N], &[T; N]),
+    course: Course,
+    control: &Control<T>,
+    state: &mut Iterations<T, N>,
+) -> bool {
+    let ratio = balance::ratio(law, peak, course);
+    if !ratio.is_finite() || ratio == T::ZERO {
+        return false;
+    }
+    let sign = if course.reversed { -T::ONE } else { T::ONE };
+    let mut loss = [T::ZERO; N];
+    for j in 0..N {
+        loss[j] = sign * T::constant(4.0) * depth.abs() * balance::unbalanced(law, ratio, s[j], course);
+    }
+    let mut balance = Balance::new(T::Z.map(|z| ratio * z), free);
+    let mut reach = T::ZERO;
+    for j in 0..N {
+        let (growth, speed) = (balance.growth(j), balance.speed(j));
+        reach = reach.max(loss[j].abs() / (growth * growth));
+        let contraction = T::constant(0.5 * TURNING_CONTRACTION) * reach * growth;
+        if !(contraction < T::constant(LEAVING_LIMIT) * speed) {
+            return false;
+        }
+        state.speed[j] = speed;
+    }
+    state.converge_balanced(&mut balance, (free, &loss), &T::TURNING_INTEGRATION, control)
 }
 
 /// To a turning point ahead, which is found on the way; `guess` is a first value of it. z runs from there, against time.
@@ -499,8 +689,16 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
 ) -> Interval<T, N> {
     let (two, half) = (T::constant(2.0), T::constant(0.5));
     let inwards = guess > from.s;
-    let mut depth = undamped_distance(law, from, guess);
+    let mut depth = distance_to_stop(law, from.s, from.speed_squared, guess);
     let mut turning = from.s + depth;
+    if control.approach > T::ZERO
+        && !course.rebound
+        && law.slope(turning) > T::ZERO
+        && (law.slope(from.s) >= T::ZERO || from.s <= law.start())
+        && let Some(stop) = stop(law, from, guess, course)
+    {
+        return arrive_balanced(law, from, &stop, course, control, evaluations);
+    }
     let refused = |turning: T, possible: bool| Interval {
         s: [turning; N],
         y: [T::ZERO; N],
@@ -599,17 +797,165 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     Interval { s, y, rate, end, accepted: accepted && error <= control.error, error, forward: false }
 }
 
-/// Distance from a point to where its kinetic energy would be spent without losses: Newton's method from beyond.
-fn undamped_distance<T: Real>(law: &impl ContactLaw<T>, from: &Point<T>, guess: T) -> T {
+/// Square of the losses over that of the speed up to which plain iterations are tried first.
+const WEAK: f64 = 0.1;
+
+/// Iterations that an interval by the squares of a balance may take.
+const MOST_BALANCED: u32 = 10;
+
+/// Least c y.
+const STRONG: f64 = 0.5;
+
+/// Largest c^2 G/2 of an interval at a turning point where times are asked for.
+pub(super) const DEEPEST: f64 = 7.0;
+pub(super) const SHALLOW: f64 = 5.0;
+
+/// Where force and damping together stop the sphere, if damping is strong.
+pub(super) struct Stop<T> {
+    pub(super) distance: T,
+    pub(super) ratio: T,
+    pub(super) square: T,
+}
+
+impl<T: Real> Stop<T> {
+    pub(super) fn depth(&self) -> T {
+        T::constant(0.5) * self.ratio * self.ratio * self.square
+    }
+}
+
+pub(super) fn stop<T: Real>(law: &impl ContactLaw<T>, from: &Point<T>, guess: T, course: Course) -> Option<Stop<T>> {
+    if course.reversed {
+        return None;
+    }
+    let inwards = guess > from.s;
+    let speed = from.speed_squared.max(T::ZERO).sqrt();
+    let (mut square, mut turning, mut ratio) = (from.speed_squared, guess, T::ZERO);
+    for _ in 0..2 {
+        let distance = distance_to_stop(law, from.s, square, turning);
+        turning = from.s + distance;
+        if (distance > T::ZERO) != inwards || turning <= law.end() {
+            return None;
+        }
+        ratio = balance::ratio(law, turning, course);
+        if !(ratio * speed > T::constant(STRONG) && (ratio * speed).is_finite()) {
+            return None;
+        }
+        square = balance::square(ratio, speed);
+    }
+    let distance = distance_to_stop(law, from.s, square, turning);
+    ((distance > T::ZERO) == inwards && from.s + distance > law.end()).then_some(Stop { distance, ratio, square })
+}
+
+/// The same by the squares of a balance.
+#[inline(never)]
+fn arrive_balanced<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
+    law: &L,
+    from: &Point<T>,
+    stop: &Stop<T>,
+    course: Course,
+    control: &Control<T>,
+    evaluations: &mut u32,
+) -> Interval<T, N> {
+    let (two, half) = (T::constant(2.0), T::constant(0.5));
+    let &Stop { distance: mut depth, ratio, square } = stop;
+    let mut turning = from.s + depth;
+    let inwards = depth > T::ZERO;
+    let refused = |turning: T| Interval {
+        s: [turning; N],
+        y: [T::ZERO; N],
+        rate: [T::ZERO; N],
+        end: Point { s: turning, energy: from.energy, speed_squared: T::ZERO },
+        accepted: false,
+        error: T::ONE,
+        forward: false,
+    };
+    // A sphere that is still being accelerated came from where it was slow: close behind it the speed has a root, and times a
+    // singularity that the nodes may not show.
+    let rise = -(T::constant(4.0) * depth * law.slope(from.s));
+    if control.times > T::ONE && from.speed_squared < T::constant(NEAREST_ROOT) * rise
+        || control.observed && stop.depth() > T::constant(DEEPEST)
+    {
+        return refused(turning);
+    }
+    let (mut s, mut free, mut loss) = ([T::ZERO; N], [T::ZERO; N], [T::ZERO; N]);
+    let describe = |turning: T, depth: T, s: &mut [T; N], free: &mut [T; N], loss: &mut [T; N]| {
+        let factor = T::constant(4.0) * depth.abs();
+        for j in 0..N {
+            s[j] = turning - depth * T::Z[j] * T::Z[j];
+            free[j] = two * depth * law.mean_slope(turning, s[j]);
+            loss[j] = factor * balance::unbalanced(law, ratio, s[j], course);
+        }
+    };
+    describe(turning, depth, &mut s, &mut free, &mut loss);
+    if free.iter().any(|free| *free <= T::ZERO) {
+        return refused(turning);
+    }
+    let mut balance = Balance::new(T::Z.map(|z| ratio * z), &free);
+    let mut state = Iterations::from(turning.max(from.s), &free, &loss, &[T::ZERO; N]);
+    let (mut reach, mut accepted) = (T::ZERO, false);
+    for j in 0..N {
+        let (growth, speed) = (balance.growth(j), balance.speed(j));
+        reach = reach.max(loss[j].abs() / (growth * growth));
+        let contraction = T::constant(0.5 * TURNING_CONTRACTION) * reach * growth;
+        if !(contraction < T::constant(LEAVING_LIMIT) * speed) {
+            return refused(turning);
+        }
+        state.speed[j] = speed;
+    }
+    state.take_unbalanced(&balance, &loss);
+    loop {
+        let change =
+            state.iterate_balanced(&mut balance, &free, &loss, |free, lost| free + lost, &T::TURNING_INTEGRATION);
+        for j in 0..N {
+            state.half_inverse[j] = half / state.speed[j];
+        }
+        let lost = half * dot(&T::TURNING_WEIGHTS, &state.power);
+        let excess = law.mean_slope(turning, from.s) * depth + lost - half * square;
+        let power =
+            T::constant(LOSS_POWER_OF_DEPTH) + T::constant(law.energy_power() - 1.0) * depth.max(T::ZERO) / turning;
+        let step = excess / (law.slope(turning) + power * lost / depth);
+        let scale = from.speed_squared;
+        let change = change + step * step;
+        depth = depth - step;
+        turning = from.s + depth;
+        if (depth > T::ZERO) != inwards || turning <= law.end() {
+            break;
+        }
+        match state.has_converged(change, scale, control) {
+            Progress::Converged => {
+                accepted = true;
+                break;
+            }
+            Progress::Diverging => break,
+            Progress::Converging if state.iterations >= MOST_BALANCED => break,
+            Progress::Converging => {
+                describe(turning, depth, &mut s, &mut free, &mut loss);
+                state.take_unbalanced(&balance, &loss);
+            }
+        }
+    }
+    *evaluations += state.iterations * N as u32;
+    let (rate, y) = from_turning_point(law, &s, &state, depth.abs(), &mut accepted);
+    let last = state.speed[N - 1];
+    for j in 0..N {
+        loss[j] = T::constant(4.0) * depth.abs() * law.loss(s[j], course.rebound);
+    }
+    let error = state.error_balanced(from.speed_squared.max(last * last), &rate, &loss, control);
+    let end = Point { s: turning, energy: law.potential(turning), speed_squared: T::ZERO };
+    Interval { s, y, rate, end, accepted: accepted && error <= control.error, error, forward: false }
+}
+
+/// Distance from a point to where the square of a speed would be spent without losses: Newton's method from beyond.
+pub(super) fn distance_to_stop<T: Real>(law: &impl ContactLaw<T>, from: T, square: T, guess: T) -> T {
     let half = T::constant(0.5);
-    let mut distance = guess - from.s;
-    let slope = law.slope(from.s);
-    if slope * distance > T::ZERO && from.speed_squared < T::constant(2.0) * slope * distance {
-        distance = half * from.speed_squared / slope;
+    let mut distance = guess - from;
+    let slope = law.slope(from);
+    if slope * distance > T::ZERO && square < T::constant(2.0) * slope * distance {
+        distance = half * square / slope;
     }
     for _ in 0..UNDAMPED_STEPS {
-        let excess = law.mean_slope(from.s + distance, from.s) * distance - half * from.speed_squared;
-        let step = excess / law.slope(from.s + distance);
+        let excess = law.mean_slope(from + distance, from) * distance - half * square;
+        let step = excess / law.slope(from + distance);
         distance = distance - step;
         if step.abs() < T::constant(UNDAMPED_ACCURACY) * distance.abs() {
             break;

@@ -1,6 +1,7 @@
 //! Methods that solve the normal motion. They know a law of contact by its functions alone.
 
 mod adaptive;
+mod balance;
 mod budgeted;
 mod collocation;
 pub(super) mod critical;

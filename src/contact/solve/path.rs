@@ -1,6 +1,10 @@
 //! The whole normal motion: approach, peak, rebound, and separation or capture.
 
-use super::interval::{Control, Course, Interval, Point, TURNING_CONTRACTION, arrive, leave, pass};
+use super::balance;
+use super::interval::{
+    Control, Course, DEEPEST, Interval, Point, SHALLOW, TURNING_CONTRACTION, arrive, distance_to_stop, leave, pass,
+    stop,
+};
 use super::nodes::Nodes;
 use super::observer::Observer;
 use super::well;
@@ -145,6 +149,9 @@ const PEAK_ENERGY: f64 = 0.999;
 
 /// Longest interval, over the distance in which damping alone stops the sphere.
 const BRAKING_FRACTION: f64 = 0.55;
+
+/// Fraction of the square.
+const LEFT: f64 = 0.25;
 
 /// Longest interval, over the distance to the undamped turning point, where the speed has a root.
 pub(super) const UNDAMPED_FRACTION: f64 = 0.7;
@@ -380,6 +387,14 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             } else {
                 length = self.first_length();
             }
+            if self.control.approach > T::ZERO
+                && let Some(accepted) = self.pass_balanced::<N>(beyond)?
+            {
+                if accepted {
+                    continue;
+                }
+                length = self.braked_length(length, beyond);
+            }
             loop {
                 if self.law.may_have_barrier()
                     && let Some(place) = self.in_front_of
@@ -455,14 +470,53 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     fn braked_length(&self, length: T, undamped_turning_point: T) -> T {
         let (speed, loss) = (self.at.speed_squared.sqrt(), self.law.loss(self.at.s, false));
         let mut length = length;
+        if undamped_turning_point > self.at.s {
+            length = length.min(T::constant(UNDAMPED_FRACTION) * (undamped_turning_point - self.at.s));
+        }
         let reach = T::constant(BRAKING_FRACTION) * speed;
         if loss * length > reach {
             length = reach / loss;
         }
-        if undamped_turning_point > self.at.s {
-            length = length.min(T::constant(UNDAMPED_FRACTION) * (undamped_turning_point - self.at.s));
-        }
         length
+    }
+
+    /// Intervals ...
+    fn pass_balanced<const N: usize>(&mut self, beyond: T) -> Result<Option<bool>, End>
+    where
+        T: Nodes<N>,
+    {
+        let (law, course) = (self.law, Course::APPROACH);
+        let at = self.at;
+        let Some(stop) = stop(law, &at, beyond, course) else { return Ok(None) };
+        // What an interval to the turning point is left.
+        let within = stop.square - T::constant(2.0 * SHALLOW) / (stop.ratio * stop.ratio);
+        if within <= T::ZERO {
+            return Ok(None);
+        }
+        let deep = T::ONE - distance_to_stop(law, at.s, within, at.s + stop.distance) / stop.distance;
+        let speed = at.speed_squared.max(T::ZERO).sqrt();
+        let (mut tried, mut left) = (None, T::constant(LEFT));
+        while left < T::constant(0.7) {
+            let part = T::ONE - left.max(deep).min(T::ONE).sqrt();
+            let (first, second) = (T::constant(2.0) * part * stop.distance, -(part * part * stop.distance));
+            let length = first + second;
+            let rest = |s: T| balance::unbalanced(law, stop.ratio, s, course).abs();
+            let rest = rest(at.s).max(rest(at.s + T::constant(0.5) * length));
+            if rest * length > T::constant(BRAKING_FRACTION) * speed * (T::ONE + stop.ratio * speed) {
+                return Ok(tried);
+            }
+            let evaluations = &mut self.statistics.evaluations;
+            let mut interval: Interval<T, N> =
+                pass(self.law, &self.at, (first, second), course, &self.control, evaluations);
+            self.check(&mut interval);
+            let factor = self.length_factor(N, &interval);
+            tried = Some(self.take(&interval, course, None)?);
+            if tried == Some(true) {
+                break;
+            }
+            left = T::ONE - (T::ONE - left) * factor.min(T::constant(REFUSED_SHRINK));
+        }
+        Ok(tried)
     }
 
     /// From the peak to separation (`Err`) or to the turning point of a captured sphere (`Ok`, zero if not followed).
@@ -524,7 +578,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                     return Err(self.release::<N>((step, &interval.end), None, pass));
                 }
                 if self.take(&interval, Course::REBOUND, None)? {
-                    length = length * factor;
+                    length = if self.is_balanced() { self.at.s - outermost } else { length * factor };
                     if to_the_end {
                         self.at.s = outermost;
                     }
@@ -550,6 +604,15 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             let separates = passed || surplus > uncertain || well::well(self.law).is_none();
             Err(if separates { End::Separation } else { End::Undecided })
         }
+    }
+
+    /// Whether the speed is that of balance.
+    fn is_balanced(&self) -> bool {
+        let (law, course) = (self.law, Course::REBOUND);
+        let ratio = balance::ratio(law, self.at.s, course);
+        let drag = -ratio * self.at.speed_squared.max(T::ZERO).sqrt();
+        let middle = T::constant(0.5) * (self.at.s + law.end());
+        (drag - T::ONE).abs() < T::constant(0.03) && balance::unbalanced(law, ratio, middle, course) == T::ZERO
     }
 
     /// Whether contact has ended because damping cancels the elastic force.
@@ -613,12 +676,19 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let signed = |length: T| if course.rebound { length } else { -length };
         let from = self.at.s;
         let mut depth = longest;
+        let ratio = balance::ratio(self.law, from, course);
+        if !course.reversed && ratio < T::ZERO && self.control.approach > T::ZERO {
+            let rest = balance::unbalanced(self.law, ratio, from - signed(longest), course);
+            if self.control.observed || rest.abs() > T::ZERO {
+                let deepest = T::constant(DEEPEST) / (ratio * ratio * signed(self.law.slope(from)));
+                depth = depth.min(deepest);
+            }
+        }
         // The error that an iteration leaves grows with the root of the depth.
+        let mut first = true;
         let reach = T::constant(2.0 * TURNING_CONTRACTION) * self.law.loss(from, course.rebound);
         let stiffness = T::constant(LEAVING_DEPTH) * signed(self.law.slope(from));
-        if reach * reach * depth > stiffness {
-            depth = stiffness / (reach * reach);
-        }
+        let limit = if reach * reach * depth > stiffness { stiffness / (reach * reach) } else { depth };
         let leave_by = |follower: &mut Self, depth: T| {
             let (energy, evaluations) = (follower.at.energy, &mut follower.statistics.evaluations);
             let mut interval: Interval<T, N> =
@@ -635,7 +705,12 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             if self.take(&interval, course, Some(from))? {
                 return Ok(depth);
             }
-            depth = depth * factor.min(T::constant(REFUSED_SHRINK));
+            if first && interval.error >= T::ONE {
+                depth = depth.min(limit);
+            } else {
+                depth = depth * factor.min(T::constant(REFUSED_SHRINK));
+            }
+            first = false;
             if depth <= T::EPSILON * T::EPSILON {
                 return Err(End::Budget);
             }
@@ -655,6 +730,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let half_way = s - half * distance;
         if length >= T::constant(WHOLE_DEPARTURE) * distance
             && self.at.energy < T::constant(SLOW_DEPARTURE) * self.law.potential(half_way).abs()
+            && !self.is_balanced()
         {
             return T::constant(SLOW_DEPARTURE_LENGTH) * distance;
         }

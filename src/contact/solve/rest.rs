@@ -312,7 +312,7 @@ mod tests {
         const TURNING_POINTS: u32 = if cfg!(miri) { 5 } else { 1001 };
         let (adhesion, damping, force) = (Ring { strength: 0.5, damping: 0.0 }, NoDamping, NoForce);
         let law = HertzLaw { stiffness: 1.0, damping, adhesion, force };
-        let control = Collocation::<12, f64>::new(1e-12)?.control(true);
+        let control = Collocation::<12, f64>::new(1e-12)?.control(true, true);
         for turning in [0.05_f64, 0.3, 0.5, 0.547] {
             let energy = law.potential(turning);
             let at = Point { s: turning, energy, speed_squared: 0.0 };

@@ -114,6 +114,42 @@ impl<'a, T: Real, L: ContactLaw<T>> Turning<'a, T, L> {
     }
 }
 
+/// The path of an interval away from turning points: s + first z + second z^2.
+struct Along<T> {
+    first: T,
+    second: T,
+}
+
+impl<T: Real> Along<T> {
+    fn of<const N: usize>(from: T, whole: &Interval<T, N>) -> Self
+    where
+        T: Nodes<N>,
+    {
+        let length = whole.end.s - from;
+        let (z, s) = T::Z.iter().zip(&whole.s).nth(N / 2).map_or((T::ONE, from), |(z, s)| (*z, *s));
+        let second = (length * z - (s - from)) / (z * (T::ONE - z) + T::SMALLEST);
+        let second = if second.abs() <= T::EPSILON.sqrt() * length.abs() { T::ZERO } else { second };
+        Self { first: length - second, second }
+    }
+
+    /// Where the path has gone so far.
+    fn place(&self, gone: T) -> T {
+        let root = (self.first * self.first + T::constant(4.0) * self.second * gone).max(T::ZERO).sqrt();
+        (gone + gone) / if self.first < T::ZERO { self.first - root } else { self.first + root }
+    }
+
+    /// The path up to z, on 0..1.
+    fn until(&self, z: T) -> (T, T) {
+        (self.first * z, self.second * z * z)
+    }
+
+    /// The path from z on.
+    fn after(&self, z: T) -> (T, T) {
+        let rest = T::ONE - z;
+        ((self.first + T::constant(2.0) * self.second * z) * rest, self.second * rest * rest)
+    }
+}
+
 impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
     /// An interval that is already accepted is not refused for the parts that it is divided into.
     fn unlimited(&self) -> Control<T> {
@@ -135,10 +171,10 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
         let mut evaluations = 0;
         let [first, second]: [Interval<T, N>; 2] = match turning_point {
             None => {
-                let first: Interval<T, N> =
-                    pass(law, &from, (place - from.s, T::ZERO), course, &control, &mut evaluations);
-                let rest = (whole.end.s - place, T::ZERO);
-                [first, pass(law, &first.end, rest, course, &control, &mut evaluations)]
+                let along = Along::of(from.s, whole);
+                let z = along.place(place - from.s);
+                let first: Interval<T, N> = pass(law, &from, along.until(z), course, &control, &mut evaluations);
+                [first, pass(law, &first.end, along.after(z), course, &control, &mut evaluations)]
             }
             Some(peak) => {
                 let turning = Turning::of(law, &from, whole, course, peak, &control);
@@ -186,17 +222,17 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
     where
         T: Nodes<N>,
     {
-        let (law, from, to) = (self.law, self.at, whole.end.s);
+        let (law, from, along) = (self.law, self.at, Along::of(self.at.s, whole));
         let evaluations = &mut self.statistics.evaluations;
-        let (_, first, late) = find_end_of_slip(law, self.observer, z, self.control.error, |z| {
-            let interval: Interval<T, N> = pass(law, &from, ((to - from.s) * z, T::ZERO), course, control, evaluations);
+        let (z, first, late) = find_end_of_slip(law, self.observer, z, self.control.error, |z| {
+            let interval: Interval<T, N> = pass(law, &from, along.until(z), course, control, evaluations);
             FirstPart { rate: interval.rate.last().copied().unwrap_or(T::ZERO) / z, interval }
         });
         let mut middle = first.end;
         if course.rebound && middle.speed_squared < T::ZERO {
             middle.energy = whole.end.energy;
         }
-        let mut after = || pass(law, &middle, (to - middle.s, T::ZERO), course, control, evaluations);
+        let mut after = || pass(law, &middle, along.after(z), course, control, evaluations);
         self.observer.observe_rolling(law, whole, &first, late, &mut after, course.rebound);
     }
 
