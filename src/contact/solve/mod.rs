@@ -1,11 +1,11 @@
 //! Methods that solve the normal motion. They know a law of contact by its functions alone.
 
 mod adaptive;
-mod balance;
 mod budgeted;
 mod collocation;
 pub(super) mod critical;
 pub(super) mod critical_search;
+mod damped_square;
 mod fixed_cost;
 mod gill;
 pub(super) mod integrals;
@@ -17,8 +17,8 @@ mod phase;
 pub(super) mod quantities;
 mod rest;
 mod run;
-
 mod split;
+mod strong_damping;
 mod well;
 
 pub use adaptive::{Adaptive, AdaptiveNodes};

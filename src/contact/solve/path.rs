@@ -1,12 +1,12 @@
 //! The whole normal motion: approach, peak, rebound, and separation or capture.
 
-use super::balance;
+use super::damped_square::{loss_over_force, remaining_loss};
 use super::interval::{
-    Control, Course, DEEPEST, Interval, Point, SHALLOW, TURNING_CONTRACTION, arrive, distance_to_stop, leave, pass,
-    stop,
+    Control, Course, Interval, Point, TURNING_CONTRACTION, arrive, distance_to_stop, leave, pass,
 };
 use super::nodes::Nodes;
 use super::observer::Observer;
+use super::strong_damping::{DEEPEST, LEAST_DRAG, Stop};
 use super::well;
 use crate::contact::law::ContactLaw;
 use crate::numbers::{NotConverged, root};
@@ -150,8 +150,15 @@ const PEAK_ENERGY: f64 = 0.999;
 /// Longest interval, over the distance in which damping alone stops the sphere.
 const BRAKING_FRACTION: f64 = 0.55;
 
-/// Fraction of the square.
+/// Part of the distance to the turning point that an interval of damped squares leaves, which the interval to it can take.
 const LEFT: f64 = 0.25;
+
+/// Largest such part for which damped squares are tried: beyond it an interval is too short to be worth it.
+const MOST_LEFT: f64 = 0.7;
+
+/// c^2 G/2 at the end of such an interval whose times or works are asked for: with a margin to what the interval to the turning point
+/// may have.
+const SHALLOW: f64 = 5.0;
 
 /// Longest interval, over the distance to the undamped turning point, where the speed has a root.
 pub(super) const UNDAMPED_FRACTION: f64 = 0.7;
@@ -164,6 +171,9 @@ const SHALLOW_DEPARTURE: f64 = 0.4;
 
 /// The next interval then, over the first: away from the turning point the speed is smoother.
 const AFTER_SHALLOW_DEPARTURE: f64 = 4.0;
+
+/// Roundings of a speed within which it is that of balance.
+const BALANCE_ROUNDINGS: f64 = 8.0;
 
 /// Square of the losses of the first interval from a turning point over that of its speed; with it iterations converge.
 const LEAVING_DEPTH: f64 = 0.2;
@@ -388,7 +398,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 length = self.first_length();
             }
             if self.control.approach > T::ZERO
-                && let Some(accepted) = self.pass_balanced::<N>(beyond)?
+                && let Some(accepted) = self.pass_strongly_damped::<N>(beyond)?
             {
                 if accepted {
                     continue;
@@ -480,43 +490,44 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         length
     }
 
-    /// Intervals ...
-    fn pass_balanced<const N: usize>(&mut self, beyond: T) -> Result<Option<bool>, End>
+    /// Tries intervals of damped squares on the way in, ever shorter ones along a path that is quadratic towards the turning point, where
+    /// the speed has a root. Whether one was accepted; `None` where damping is too weak, or the turning point near enough.
+    fn pass_strongly_damped<const N: usize>(&mut self, beyond: T) -> Result<Option<bool>, End>
     where
         T: Nodes<N>,
     {
-        let (law, course) = (self.law, Course::APPROACH);
-        let at = self.at;
-        let Some(stop) = stop(law, &at, beyond, course) else { return Ok(None) };
-        // What an interval to the turning point is left.
+        let (law, course, at) = (self.law, Course::APPROACH, self.at);
+        let Some(stop) = Stop::damped(law, &at, beyond, course) else {
+            return Ok(None);
+        };
         let within = stop.square - T::constant(2.0 * SHALLOW) / (stop.ratio * stop.ratio);
         if within <= T::ZERO {
             return Ok(None);
         }
-        let deep = T::ONE - distance_to_stop(law, at.s, within, at.s + stop.distance) / stop.distance;
+        let shallow = T::ONE - distance_to_stop(law, at.s, within, at.s + stop.distance) / stop.distance;
         let speed = at.speed_squared.max(T::ZERO).sqrt();
-        let (mut tried, mut left) = (None, T::constant(LEFT));
-        while left < T::constant(0.7) {
-            let part = T::ONE - left.max(deep).min(T::ONE).sqrt();
+        let (mut accepted, mut left) = (None, T::constant(LEFT));
+        while left < T::constant(MOST_LEFT) {
+            let part = T::ONE - left.max(shallow).min(T::ONE).sqrt();
             let (first, second) = (T::constant(2.0) * part * stop.distance, -(part * part * stop.distance));
             let length = first + second;
-            let rest = |s: T| balance::unbalanced(law, stop.ratio, s, course).abs();
-            let rest = rest(at.s).max(rest(at.s + T::constant(0.5) * length));
-            if rest * length > T::constant(BRAKING_FRACTION) * speed * (T::ONE + stop.ratio * speed) {
-                return Ok(tried);
+            let remaining = |s: T| remaining_loss(law, stop.ratio, s, course).abs();
+            let remaining = remaining(at.s).max(remaining(at.s + T::constant(0.5) * length));
+            if remaining * length > T::constant(BRAKING_FRACTION) * speed * (T::ONE + stop.ratio * speed) {
+                break;
             }
             let evaluations = &mut self.statistics.evaluations;
             let mut interval: Interval<T, N> =
                 pass(self.law, &self.at, (first, second), course, &self.control, evaluations);
             self.check(&mut interval);
             let factor = self.length_factor(N, &interval);
-            tried = Some(self.take(&interval, course, None)?);
-            if tried == Some(true) {
+            accepted = Some(self.take(&interval, course, None)?);
+            if accepted == Some(true) {
                 break;
             }
             left = T::ONE - (T::ONE - left) * factor.min(T::constant(REFUSED_SHRINK));
         }
-        Ok(tried)
+        Ok(accepted)
     }
 
     /// From the peak to separation (`Err`) or to the turning point of a captured sphere (`Ok`, zero if not followed).
@@ -578,7 +589,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                     return Err(self.release::<N>((step, &interval.end), None, pass));
                 }
                 if self.take(&interval, Course::REBOUND, None)? {
-                    length = if self.is_balanced() { self.at.s - outermost } else { length * factor };
+                    length = self.relaxing_length(length * factor, self.at.s - outermost);
                     if to_the_end {
                         self.at.s = outermost;
                     }
@@ -606,13 +617,35 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         }
     }
 
-    /// Whether the speed is that of balance.
+    /// How far the speed of a rebound is from that at which force and damping are equal, as 1 + c y; with c. `None` where damping is weak,
+    /// or not in proportion to the force.
+    fn distance_from_balance(&self) -> Option<(T, T)> {
+        let (law, at, course) = (self.law, self.at, Course::REBOUND);
+        if self.control.approach <= T::ZERO {
+            return None;
+        }
+        let ratio = loss_over_force(law, at.s, course);
+        let drag = -ratio * at.speed_squared.max(T::ZERO).sqrt();
+        let half_way = T::constant(0.5) * (at.s + law.end());
+        let hunt_crossley =
+            drag > T::constant(LEAST_DRAG) && remaining_loss(law, ratio, half_way, course) == T::ZERO;
+        hunt_crossley.then_some((T::ONE - drag, ratio))
+    }
+
+    /// Whether a rebound goes on at the speed of balance, but for less than the tolerance.
     fn is_balanced(&self) -> bool {
-        let (law, course) = (self.law, Course::REBOUND);
-        let ratio = balance::ratio(law, self.at.s, course);
-        let drag = -ratio * self.at.speed_squared.max(T::ZERO).sqrt();
-        let middle = T::constant(0.5) * (self.at.s + law.end());
-        (drag - T::ONE).abs() < T::constant(0.03) && balance::unbalanced(law, ratio, middle, course) == T::ZERO
+        let least = self.control.error.max(T::constant(BALANCE_ROUNDINGS) * T::EPSILON);
+        self.distance_from_balance().is_some_and(|(distance, _)| distance.abs() < least)
+    }
+
+    /// The next interval of a rebound. Where the speed tends to that of balance, it does so as e^w, of which the nodes resolve so much;
+    /// once it has, one interval takes `all` that remains.
+    fn relaxing_length(&self, length: T, all: T) -> T {
+        match self.distance_from_balance() {
+            None => length,
+            Some(_) if self.is_balanced() => all,
+            Some((_, ratio)) => T::constant(DEEPEST) / (ratio * ratio * self.law.slope(self.at.s)),
+        }
     }
 
     /// Whether contact has ended because damping cancels the elastic force.
@@ -676,16 +709,14 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let signed = |length: T| if course.rebound { length } else { -length };
         let from = self.at.s;
         let mut depth = longest;
-        let ratio = balance::ratio(self.law, from, course);
+        let ratio = loss_over_force(self.law, from, course);
         if !course.reversed && ratio < T::ZERO && self.control.approach > T::ZERO {
-            let rest = balance::unbalanced(self.law, ratio, from - signed(longest), course);
-            if self.control.observed || rest.abs() > T::ZERO {
-                let deepest = T::constant(DEEPEST) / (ratio * ratio * signed(self.law.slope(from)));
-                depth = depth.min(deepest);
+            let exact = remaining_loss(self.law, ratio, from - signed(longest), course) == T::ZERO;
+            if self.control.observed || !exact {
+                depth = depth.min(T::constant(DEEPEST) / (ratio * ratio * signed(self.law.slope(from))));
             }
         }
-        // The error that an iteration leaves grows with the root of the depth.
-        let mut first = true;
+        // The error that an iteration leaves grows with the root of the depth. Damped squares may do without this limit.
         let reach = T::constant(2.0 * TURNING_CONTRACTION) * self.law.loss(from, course.rebound);
         let stiffness = T::constant(LEAVING_DEPTH) * signed(self.law.slope(from));
         let limit = if reach * reach * depth > stiffness { stiffness / (reach * reach) } else { depth };
@@ -696,6 +727,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             follower.check(&mut interval);
             interval
         };
+        let mut first = true;
         loop {
             let interval = leave_by(self, depth);
             let factor = self.length_factor(N, &interval);
