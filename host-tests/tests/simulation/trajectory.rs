@@ -14,7 +14,7 @@ type Impact<T, const N: usize> = (SimulatedImpact<T, TangentialVelocities<T>>, (
 struct Scene(f64, f64, f64, f64, f64);
 
 /// Rebound and capture, sliding and rolling, from no damping to so strong a one that a sphere creeps in without a peak.
-const SCENES: [Scene; 9] = [
+const SCENES: [Scene; 10] = [
     Scene(2.8, -0.738, 10.5, 250.0, 6.25),
     Scene(2.8, 5.0, 10.5, 250.0, 6.25),
     Scene(2.8, 0.1, 0.0, 0.0, 0.0),
@@ -24,6 +24,7 @@ const SCENES: [Scene; 9] = [
     Scene(1.0, 0.2, 10.5, 250.0, 0.0),
     Scene(1.0, 0.01, 1000.0, 250.0, 6.25),
     Scene(30.0, 3.0, 1e5, 250.0, 6.25),
+    Scene(0.3, 0.01, 300.0, 250.0, 6.25),
 ];
 
 fn sphere<T: Real>() -> Sphere<T> {

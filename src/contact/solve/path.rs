@@ -1,9 +1,7 @@
 //! The whole normal motion: approach, peak, rebound, and separation or capture.
 
 use super::damped_square::{loss_over_force, remaining_loss};
-use super::interval::{
-    Control, Course, Interval, Point, TURNING_CONTRACTION, arrive, distance_to_stop, leave, pass,
-};
+use super::interval::{Control, Course, Interval, Point, TURNING_CONTRACTION, arrive, distance_to_stop, leave, pass};
 use super::nodes::Nodes;
 use super::observer::Observer;
 use super::strong_damping::{DEEPEST, LEAST_DRAG, Stop};
@@ -627,8 +625,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let ratio = loss_over_force(law, at.s, course);
         let drag = -ratio * at.speed_squared.max(T::ZERO).sqrt();
         let half_way = T::constant(0.5) * (at.s + law.end());
-        let hunt_crossley =
-            drag > T::constant(LEAST_DRAG) && remaining_loss(law, ratio, half_way, course) == T::ZERO;
+        let hunt_crossley = drag > T::constant(LEAST_DRAG) && remaining_loss(law, ratio, half_way, course) == T::ZERO;
         hunt_crossley.then_some((T::ONE - drag, ratio))
     }
 

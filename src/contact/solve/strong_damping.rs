@@ -158,7 +158,9 @@ pub(super) fn leave_damped<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     control: &Control<T>,
     state: &mut Iterations<T, N>,
 ) -> bool {
-    let ratio = loss_over_force(law, peak, course);
+    // On the way out a remaining loss counts most in the end, where the speed is that of balance.
+    let place = if course.rebound && !course.reversed { s[N - 1] } else { peak };
+    let ratio = loss_over_force(law, place, course);
     if !ratio.is_finite() || ratio == T::ZERO {
         return false;
     }
@@ -245,13 +247,7 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
 
     /// Estimated error of an interval solved by damped squares, of which `loss` is all that damping takes: what the nodes do not resolve
     /// of that counts where it is observed, and times where they are asked for.
-    pub(super) fn error_damped(
-        &mut self,
-        scale: T,
-        rate: &[T; N],
-        loss: &[T; N],
-        control: &Control<T>,
-    ) -> T {
+    pub(super) fn error_damped(&mut self, scale: T, rate: &[T; N], loss: &[T; N], control: &Control<T>) -> T {
         let timed = control.times > T::ONE;
         let mut error = self.error(scale, rate, &if timed { *control } else { Control { times: T::ZERO, ..*control } });
         if control.observed {
