@@ -114,7 +114,8 @@ pub(super) fn pass_damped<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     control: &Control<T>,
     state: &mut Iterations<T, N>,
 ) -> bool {
-    let ratio = loss_over_force(law, s[N - 1], course);
+    // On the way out the end may be that of contact, where loss and force vanish; as nothing may remain, any other place will do.
+    let ratio = loss_over_force(law, if course.rebound { s[N / 2] } else { s[N - 1] }, course);
     let speed = from.speed_squared.max(T::ZERO).sqrt();
     let drag = ratio * speed;
     let beyond = T::ONE + drag < T::constant(-BEYOND_BALANCE) * T::EPSILON;
