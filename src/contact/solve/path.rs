@@ -380,7 +380,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             }
             // Without an external force no peak lies beyond one.
             let farthest = if self.law.may_have_barrier() { beyond } else { T::ONE };
-            if self.at.s > self.law.start() {
+            if self.at.s > self.law.start() || self.takes_whole_phases(beyond, Course::APPROACH) {
                 let arrival = self.arrive::<N>(beyond, Course::APPROACH);
                 if self.take(&arrival, Course::APPROACH, Some(arrival.end.s))? {
                     return Ok(());
@@ -542,7 +542,11 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         // that turned back in front of it.
         let mut passed = self.turned_back_outside(peak);
         let distance = peak - outermost;
-        let depth = self.leave_peak::<N>(T::constant(DEEPEST_DEPARTURE) * distance)?;
+        let whole = self.takes_whole_phases(peak, Course::REBOUND);
+        let depth = self.leave_peak::<N>(if whole { distance } else { T::constant(DEEPEST_DEPARTURE) * distance })?;
+        if depth == distance {
+            self.at.s = outermost;
+        }
         let mut length = if depth < T::constant(SHALLOW_DEPARTURE) * distance {
             T::constant(AFTER_SHALLOW_DEPARTURE) * depth
         } else {
@@ -613,6 +617,20 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             let separates = passed || surplus > uncertain || well::well(self.law).is_none();
             Err(if separates { End::Separation } else { End::Undecided })
         }
+    }
+
+    /// Whether nothing remains of the loss from first contact to a place near the peak, and nothing but the end of the motion is asked for:
+    /// then damped squares know the speed anywhere, whatever the nodes resolve.
+    fn takes_whole_phases(&self, peak: T, course: Course) -> bool {
+        let (law, control) = (self.law, &self.control);
+        let ratio = loss_over_force(law, peak, course);
+        let half_way = T::constant(0.5) * (peak + law.start());
+        control.approach > T::ZERO
+            && !control.observed
+            && !law.may_have_barrier()
+            && law.release_speed(peak).is_none()
+            && ratio.abs() * control.approach.sqrt() > T::constant(LEAST_DRAG)
+            && remaining_loss(law, ratio, half_way, course) == T::ZERO
     }
 
     /// How far the speed of a rebound is from that at which force and damping are equal, as 1 + c y; with c. `None` where damping is weak,

@@ -104,6 +104,11 @@ impl<T: Real> Stop<T> {
     }
 }
 
+/// The last node of an interval, but not the end of contact, where loss and force vanish.
+fn last_within_contact<T: Real, const N: usize>(law: &impl ContactLaw<T>, s: &[T; N]) -> T {
+    if s[N - 1] > law.end() { s[N - 1] } else { s[N - 2] }
+}
+
 /// The speeds of an interval away from turning points by damped squares; `false` where that does not converge.
 #[inline(never)]
 pub(super) fn pass_damped<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
@@ -114,8 +119,7 @@ pub(super) fn pass_damped<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     control: &Control<T>,
     state: &mut Iterations<T, N>,
 ) -> bool {
-    // On the way out the end may be that of contact, where loss and force vanish; as nothing may remain, any other place will do.
-    let ratio = loss_over_force(law, if course.rebound { s[N / 2] } else { s[N - 1] }, course);
+    let ratio = loss_over_force(law, last_within_contact(law, s), course);
     let speed = from.speed_squared.max(T::ZERO).sqrt();
     let drag = ratio * speed;
     let beyond = T::ONE + drag < T::constant(-BEYOND_BALANCE) * T::EPSILON;
@@ -160,7 +164,7 @@ pub(super) fn leave_damped<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     state: &mut Iterations<T, N>,
 ) -> bool {
     // On the way out a remaining loss counts most in the end, where the speed is that of balance.
-    let place = if course.rebound && !course.reversed { s[N - 1] } else { peak };
+    let place = if course.rebound && !course.reversed { last_within_contact(law, s) } else { peak };
     let ratio = loss_over_force(law, place, course);
     if !ratio.is_finite() || ratio == T::ZERO {
         return false;
