@@ -10,7 +10,9 @@
 
 use super::damped_square::remaining_loss;
 use super::nodes::Nodes;
-use super::strong_damping::{DEEPEST, RELAXING_ERROR, Stop, leave_damped, newton_error, pass_damped, solve_by_newton};
+use super::strong_damping::{
+    DEEPEST, RELAXING_ERROR, Stop, leave_damped, newton_error, opposes, pass_damped, solve_by_newton,
+};
 use crate::Real;
 use crate::contact::law::ContactLaw;
 
@@ -517,9 +519,7 @@ pub(crate) fn arrive<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     let (two, half) = (T::constant(2.0), T::constant(0.5));
     let inwards = guess > from.s;
     let undamped = Stop::undamped(law, from, guess);
-    // c measures the damping of the whole interval where the force opposes the motion throughout.
-    let opposed =
-        law.slope(from.s + undamped.distance) > T::ZERO && (law.slope(from.s) >= T::ZERO || from.s <= law.start());
+    let opposed = opposes(law, from.s, from.s + undamped.distance);
     let strong = if control.approach > T::ZERO && opposed { Stop::damped(law, from, guess, course) } else { None };
     let stop = strong.unwrap_or(undamped);
     let Stop { distance: mut depth, ratio, square } = stop;

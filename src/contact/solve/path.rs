@@ -504,9 +504,9 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         }
         let shallow = T::ONE - distance_to_stop(law, at.s, within, at.s + stop.distance) / stop.distance;
         let speed = at.speed_squared.max(T::ZERO).sqrt();
-        let (mut accepted, mut left) = (None, T::constant(LEFT));
+        let (mut accepted, mut left) = (None, T::constant(LEFT).max(shallow));
         while left < T::constant(MOST_LEFT) {
-            let part = T::ONE - left.max(shallow).min(T::ONE).sqrt();
+            let part = T::ONE - left.sqrt();
             let (first, second) = (T::constant(2.0) * part * stop.distance, -(part * part * stop.distance));
             let length = first + second;
             let remaining = |s: T| remaining_loss(law, stop.ratio, s, course).abs();
@@ -581,6 +581,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             } else {
                 length = self.departing_length(length);
             }
+            let mut refused = false;
             loop {
                 let to_the_end = length >= self.at.s - outermost;
                 let step = if to_the_end { outermost - self.at.s } else { -length };
@@ -591,12 +592,16 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                     return Err(self.release::<N>((step, &interval.end), None, pass));
                 }
                 if self.take(&interval, Course::REBOUND, None)? {
-                    length = self.relaxing_length(length * factor, self.at.s - outermost);
+                    length = length * factor;
+                    if !refused {
+                        length = self.relaxing_length(length, self.at.s - outermost);
+                    }
                     if to_the_end {
                         self.at.s = outermost;
                     }
                     break;
                 }
+                refused = true;
                 length = length * factor.min(T::constant(REFUSED_SHRINK));
                 if length <= T::EPSILON * T::EPSILON {
                     return if self.is_held() { Ok(T::ZERO) } else { Err(self.stuck(Course::REBOUND)) };

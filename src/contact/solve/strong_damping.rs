@@ -104,6 +104,12 @@ impl<T: Real> Stop<T> {
     }
 }
 
+/// Whether the force opposes a motion inwards from one place to another, so that the loss over the force at the end measures the
+/// damping of the whole interval. Adhesion may attract at first contact.
+pub(super) fn opposes<T: Real>(law: &impl ContactLaw<T>, from: T, to: T) -> bool {
+    law.slope(to) > T::ZERO && (law.slope(from) >= T::ZERO || from <= law.start())
+}
+
 /// The last node of an interval, but not the end of contact, where loss and force vanish.
 fn last_within_contact<T: Real, const N: usize>(law: &impl ContactLaw<T>, s: &[T; N]) -> T {
     if s[N - 1] > law.end() { s[N - 1] } else { s[N - 2] }
@@ -119,6 +125,9 @@ pub(super) fn pass_damped<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     control: &Control<T>,
     state: &mut Iterations<T, N>,
 ) -> bool {
+    if !course.rebound && !opposes(law, from.s, s[N - 1]) {
+        return false;
+    }
     let ratio = loss_over_force(law, last_within_contact(law, s), course);
     let speed = from.speed_squared.max(T::ZERO).sqrt();
     let drag = ratio * speed;
