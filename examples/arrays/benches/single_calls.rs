@@ -12,7 +12,7 @@ use impact_arrays::{
 };
 use microimpact::contact::{Adaptive, Contact, FixedCost, Method};
 use microimpact::rigid::SpeedRestitution;
-use microimpact::{InputError, NormalMotion, RigidBody, Sphere, Stiffness};
+use microimpact::{Class, InputError, NormalMotion, PlanarMotion, RigidBody, Sphere, Stiffness};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 /// Rows by each model: a measurement takes about a millisecond, in which other work rarely interrupts it.
@@ -25,17 +25,19 @@ const TURNS: usize = 300;
 /// How many times more rows all threads share.
 const MORE: usize = 64;
 
-/// The quantities that both compute.
+/// The quantities that both compute, besides class and status.
 const QUANTITIES: [Quantity; 2] = [Quantity::OverallRestitution, Quantity::SpinOut];
 
 /// Numbers of the paper's Table 1 in SI units.
 const DENSITY: f64 = 2600.0;
+const GYRATION_RATIO: f64 = 0.4;
 const STIFFNESS: f64 = 7.5e10;
 const ADHESION: f64 = 250.0;
 const ZETA_A: f64 = 6.25;
 const ZETA_H: f64 = 10.5;
 const FRICTION: f64 = 0.1;
 const TANGENTIAL: f64 = 1.0;
+const SPIN: f64 = 1.46e5;
 const RESTITUTION_SPEED: f64 = 130.0;
 const WORK_OF_ADHESION: f64 = 2.22e-12;
 
@@ -59,7 +61,7 @@ impl Rows {
         Motions::Planar {
             speed_normal: Column::Each(&self.speed),
             speed_tangential: Column::All(TANGENTIAL),
-            spin: Column::All(0.0),
+            spin: Column::All(SPIN),
         }
     }
 
@@ -73,24 +75,66 @@ fn given(number: f64) -> f64 {
     black_box(number)
 }
 
-fn rigid_body(radius: f64, speed: f64) -> Result<(f64, f64), InputError> {
-    let sphere = Sphere::solid(radius, given(DENSITY))?;
+/// What a single call gives: the class, if there is a result, and the quantities.
+type Answer = (Option<Class>, [f64; QUANTITIES.len()]);
+
+/// The columns of the loop, which it fills anew each time.
+struct Results {
+    status: Vec<Result<(), InputError>>,
+    class: Vec<Option<Class>>,
+    quantities: [Vec<f64>; QUANTITIES.len()],
+}
+
+impl Results {
+    fn of(rows: usize) -> Self {
+        Self {
+            status: vec![Ok(()); rows],
+            class: vec![None; rows],
+            quantities: QUANTITIES.map(|_| vec![f64::NAN; rows]),
+        }
+    }
+
+    /// Computes the first rows, each by a single call.
+    fn fill(&mut self, rows: &Rows, single_call: impl Fn(f64, f64) -> Result<Answer, InputError>) {
+        for (row, (radius, speed)) in rows.pairs().take(self.status.len()).enumerate() {
+            let answer = single_call(radius, speed);
+            self.status[row] = answer.map(|_| ());
+            let (class, numbers) = answer.unwrap_or((None, [f64::NAN; QUANTITIES.len()]));
+            self.class[row] = class;
+            for (column, number) in self.quantities.iter_mut().zip(numbers) {
+                column[row] = number;
+            }
+        }
+        black_box(self);
+    }
+}
+
+fn sphere(radius: f64) -> Result<Sphere<f64>, InputError> {
+    Sphere::new(radius, given(DENSITY), given(GYRATION_RATIO))
+}
+
+fn motion(sphere: &Sphere<f64>, speed: f64) -> Result<PlanarMotion<f64>, InputError> {
+    NormalMotion::new(speed)?.with_tangential(given(TANGENTIAL))?.with_spin(sphere, given(SPIN))
+}
+
+fn rigid_body(radius: f64, speed: f64) -> Result<Answer, InputError> {
+    let sphere = sphere(radius)?;
     let body = RigidBody::new(sphere, SpeedRestitution::new(given(RESTITUTION_SPEED))?)
         .with_work_of_adhesion(given(WORK_OF_ADHESION))?
         .with_friction(given(FRICTION))?;
-    let impact = body.impact(&NormalMotion::new(speed)?.with_tangential(given(TANGENTIAL))?);
-    black_box(body.classify_impact(&impact).class());
-    Ok((impact.normal.overall_restitution(), impact.tangential.spin(&sphere)))
+    let impact = body.impact(&motion(&sphere, speed)?);
+    let class = body.classify_impact(&impact).class();
+    Ok((Some(class), [impact.normal.overall_restitution(), impact.tangential.spin(&sphere)]))
 }
 
-fn simulation(radius: f64, speed: f64, method: &impl Method<f64>) -> Result<(f64, f64), InputError> {
-    let contact = Contact::hertz(Sphere::solid(radius, given(DENSITY))?, Stiffness::new(given(STIFFNESS))?)
+fn simulation(radius: f64, speed: f64, method: &impl Method<f64>) -> Result<Answer, InputError> {
+    let sphere = sphere(radius)?;
+    let contact = Contact::hertz(sphere, Stiffness::new(given(STIFFNESS))?)
         .with_damping(given(ZETA_H))?
         .with_ring(given(ADHESION), given(ZETA_A))?
         .with_friction(given(FRICTION))?;
-    let impact = contact.solve(&NormalMotion::new(speed)?.with_tangential(given(TANGENTIAL))?, method)?;
-    black_box(impact.class());
-    Ok((impact.normal.overall_restitution(), impact.tangential.spin()))
+    let impact = contact.solve(&motion(&sphere, speed)?, method)?;
+    Ok((impact.class(), [impact.normal.overall_restitution(), impact.tangential.spin()]))
 }
 
 /// Seconds of a run.
@@ -106,17 +150,16 @@ fn line(
     model: &str,
     rows: usize,
     one: &ThreadPool,
-    mut alone: impl FnMut() -> Result<(), InputError> + Send,
+    mut alone: impl FnMut() + Send,
     arrays: impl Fn(usize) -> Impacts + Sync,
-) -> Result<[String; 5], InputError> {
-    alone()?;
+) -> [String; 5] {
     let times = one.install(|| (0..TURNS).map(|_| (seconds(&mut alone), seconds(|| arrays(rows)))).collect::<Vec<_>>());
     let least = |times: &mut dyn Iterator<Item = f64>| times.fold(f64::INFINITY, f64::min) / rows as f64;
     let (alone, together) = (least(&mut times.iter().map(|both| both.0)), least(&mut times.iter().map(|both| both.1)));
     let nanoseconds = |seconds: f64| format!("{:.0}", 1e9 * seconds);
     let throughput = (MORE * rows) as f64 / seconds(|| arrays(MORE * rows));
     let ratio = format!("{:.2}", together / alone);
-    Ok([model.to_owned(), nanoseconds(alone), nanoseconds(together), ratio, format!("{throughput:.2e}")])
+    [model.to_owned(), nanoseconds(alone), nanoseconds(together), ratio, format!("{throughput:.2e}")]
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -128,22 +171,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     let bodies = RigidBodies {
         radius: Column::Each(&rows.radius),
         density: Column::All(DENSITY),
-        gyration_ratio: Column::All(0.4),
+        gyration_ratio: Column::All(GYRATION_RATIO),
         restitution: Restitution::Power { speed: Column::All(RESTITUTION_SPEED), power: Column::All(1.0) },
         adhesion: Adhesion::Work(Column::All(WORK_OF_ADHESION)),
         friction: Column::All(FRICTION),
         rolling_arm: Column::All(0.0),
     };
-    let mut results = vec![(0.0, 0.0); ROWS_OF_RIGID_BODIES];
-    let alone = || {
-        for (result, (radius, speed)) in results.iter_mut().zip(rows.pairs()) {
-            *result = rigid_body(radius, speed)?;
-        }
-        black_box(&results);
-        Ok(())
-    };
+    let mut results = Results::of(ROWS_OF_RIGID_BODIES);
+    let alone = || results.fill(&rows, rigid_body);
     let arrays = |count| bodies.classify(&rows.motions(), count, &QUANTITIES);
-    table.add_row(line("rigid body", ROWS_OF_RIGID_BODIES, &one, alone, arrays)?);
+    table.add_row(line("rigid body", ROWS_OF_RIGID_BODIES, &one, alone, arrays));
 
     let rows = Rows::new(MORE * ROWS_OF_SIMULATIONS);
     let contacts = Contacts {
@@ -156,22 +193,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         ..Contacts::default()
     };
     let method = Adaptive::new(1e-9)?;
-    let mut results = vec![(0.0, 0.0); ROWS_OF_SIMULATIONS];
-    let mut loop_by = |method: &dyn Fn(f64, f64) -> Result<(f64, f64), InputError>| {
-        for (result, (radius, speed)) in results.iter_mut().zip(rows.pairs()) {
-            *result = method(radius, speed)?;
-        }
-        black_box(&results);
-        Ok(())
-    };
-    let alone = || loop_by(&|radius, speed| simulation(radius, speed, &method));
+    let mut results = Results::of(ROWS_OF_SIMULATIONS);
+    let alone = || results.fill(&rows, |radius, speed| simulation(radius, speed, &method));
     let arrays = |count| contacts.simulate(&rows.motions(), count, &method, &QUANTITIES);
-    table.add_row(line("simulation, adaptive 1e-9", ROWS_OF_SIMULATIONS, &one, alone, arrays)?);
+    table.add_row(line("simulation, adaptive 1e-9", ROWS_OF_SIMULATIONS, &one, alone, arrays));
     // In lanes, as fast as the processor's vectors allow.
     let quick = FixedCost::<7>::new(3)?;
-    let alone = || loop_by(&|radius, speed| simulation(radius, speed, &quick));
+    let alone = || results.fill(&rows, |radius, speed| simulation(radius, speed, &quick));
     let arrays = |count| contacts.simulate_in_lanes(&rows.motions(), count, &quick, &method, &QUANTITIES);
-    table.add_row(line("simulation, FixedCost<7> in lanes", ROWS_OF_SIMULATIONS, &one, alone, arrays)?);
+    table.add_row(line("simulation, FixedCost<7> in lanes", ROWS_OF_SIMULATIONS, &one, alone, arrays));
     println!("{table}");
     Ok(())
 }
