@@ -52,9 +52,9 @@ impl<T: Real> Friction<T> {
     #[inline]
     pub(crate) fn against(slip: T, limit: T, contact_inertia: T) -> Self {
         let rolling = T::ZERO - contact_inertia * slip;
-        let sliding = if slip < T::ZERO { limit } else { -limit };
-        let rolls = rolling.abs() <= limit;
-        Self { total: if rolls { rolling } else { sliding }, sliding, holding: T::ZERO, rolling, rolls }
+        let sliding = T::ZERO.where_above(slip, limit, -limit);
+        let total = rolling.abs().where_above(limit, sliding, rolling);
+        Self { total, sliding, holding: T::ZERO, rolling, rolls: rolling.abs() <= limit }
     }
 
     /// Coulomb friction against a slip that a moment changes too. The angular impulse `moment` is divided by the radius.
@@ -84,8 +84,14 @@ impl<T: Real> Friction<T> {
     #[inline]
     pub(crate) fn velocities(&self, before: &impl Oblique<T>, moment: T, gyration_ratio: T) -> (T, T) {
         let velocity = before.tangential() + self.total;
-        let peripheral =
-            if self.rolls { velocity } else { before.peripheral() + (moment - self.total) / gyration_ratio };
+        let sliding = || before.peripheral() + (moment - self.total) / gyration_ratio;
+        let peripheral = if T::HAS_LANES {
+            self.rolling.abs().where_above(self.sliding.abs(), sliding(), velocity)
+        } else if self.rolls {
+            velocity
+        } else {
+            sliding()
+        };
         (velocity, peripheral)
     }
 

@@ -8,6 +8,7 @@ mod adhesion;
 mod energy;
 mod impulses;
 mod inverse;
+mod lanes;
 mod microforce;
 mod normal;
 mod restitution;

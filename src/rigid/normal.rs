@@ -29,6 +29,21 @@ pub struct NormalImpact<T> {
     rebound: T,
 }
 
+impl<T: Copy> NormalImpact<T> {
+    /// The same in another number type.
+    #[inline]
+    pub(crate) fn map<U>(&self, of: impl Fn(T) -> U) -> NormalImpact<U> {
+        NormalImpact {
+            approach: of(self.approach),
+            restitution: of(self.restitution),
+            body_approach: of(self.body_approach),
+            body_rebound: of(self.body_rebound),
+            departure: of(self.departure),
+            rebound: of(self.rebound),
+        }
+    }
+}
+
 impl<T: Real> NormalImpact<T> {
     /// Applies A5, A11, A14 and A8 in this order.
     #[inline]

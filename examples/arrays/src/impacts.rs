@@ -70,6 +70,22 @@ impl<'a> Part<'a> {
         self.first..self.first + self.status.len()
     }
 
+    /// Puts the results of `N` rows from `first` on, which are solved, where they belong.
+    #[inline]
+    pub(crate) fn put_group<const N: usize>(
+        &mut self,
+        first: usize,
+        class: [Class; N],
+        numbers: impl Fn(Quantity) -> [f64; N],
+    ) {
+        let places = first - self.first..first - self.first + N;
+        self.status[places.clone()].fill(RowStatus::Solved);
+        self.class[places.clone()].copy_from_slice(&class.map(Some));
+        for (quantity, column) in &mut self.quantities {
+            column[places.clone()].copy_from_slice(&numbers(*quantity));
+        }
+    }
+
     /// Where the result of one of its rows belongs.
     #[inline]
     pub(crate) fn slot(&mut self, row: usize) -> Slot<'_, 'a> {

@@ -1,19 +1,15 @@
 //! Rows by the contact simulation, several at a time.
 
-use std::array;
-
 use microimpact::contact::{AnyLaw, Contact, FixedCost, Impulses, Method, Times};
 use microimpact::{Approach, InputError, NormalMotion, Oblique, PlanarMotion, Real, Sphere};
 
-use crate::impacts::{Part, Slot, fill_parts};
+use crate::groups::{LANES, fill_groups, in_lanes};
+use crate::impacts::{Part, Slot};
 use crate::motions::{Arrival, Place, in_plane};
 use crate::quantity::Asked;
 use crate::simulate::by_law;
 use crate::simulated::Simulated;
 use crate::{Column, Contacts, Damping, F64x4, Impacts, Law, Motions, Quantity, Surface};
-
-/// Rows that are computed at once.
-const LANES: usize = 4;
 
 impl Contacts<'_> {
     /// Simulates the impacts of `count` rows on all threads, four rows at a time on each, by a method of fixed cost; `otherwise` solves
@@ -63,23 +59,15 @@ impl Contacts<'_> {
         otherwise: impl Fn(usize, &mut Slot<'_, '_>) -> Result<(), InputError> + Sync,
     ) -> Impacts {
         let asked = Asked::by(quantities);
-        fill_parts(count, quantities, |part| {
-            let mut next = part.rows().start;
-            while next < part.rows().end && !stop() {
-                let fits = asked != Asked::All && next + LANES <= part.rows().end;
-                let group = if fits { self.group(motions, next) } else { None };
-                let solved = group.and_then(|group| self.put_group(&group, method, asked, part).ok());
-                let rows = if solved.is_some() { LANES } else { 1 };
-                for row in next..next + rows {
-                    part.fill(row, |slot| {
-                        if solved.is_none() {
-                            self.row(motions, row, method, asked, slot)?;
-                        }
-                        if slot.is_decided() { Ok(()) } else { otherwise(row, slot) }
-                    });
-                }
-                next += rows;
+        let group = |first: usize, part: &mut Part<'_>| {
+            let group = if asked == Asked::All { None } else { self.group(motions, first) };
+            self.put_group(&group?, method, asked, part).ok()
+        };
+        fill_groups(count, quantities, stop, group, |row, slot, solved| {
+            if solved.is_none() {
+                self.row(motions, row, method, asked, slot)?;
             }
+            if slot.is_decided() { Ok(()) } else { otherwise(row, slot) }
         })
     }
 
@@ -126,15 +114,6 @@ impl Contacts<'_> {
             }
         });
         Ok(())
-    }
-}
-
-/// The numbers of a column from a row on.
-#[inline]
-fn in_lanes(column: &Column<'_>, first: usize) -> F64x4 {
-    match column {
-        Column::All(number) => F64x4::constant(*number),
-        Column::Each(_) => F64x4::from(array::from_fn(|lane| column.at(first + lane))),
     }
 }
 

@@ -12,8 +12,9 @@ macro_rules! number_with_lanes {
     ($(#[$doc:meta])* $lanes:ident, $vector:ident, $number:ident, $count:literal) => {
         $(#[$doc])*
         ///
-        /// By [`Contact::solve_lanes`](microimpact::contact::Contact::solve_lanes) a scene in this type gives the impacts of its lanes;
-        /// other methods do not take one.
+        /// By [`Contact::solve_lanes`](microimpact::contact::Contact::solve_lanes) and
+        /// [`RigidBody::impact`](microimpact::RigidBody::impact) a scene in this type gives the impacts of its lanes; other methods do not
+        /// take one.
         #[derive(Clone, Copy, Debug)]
         pub struct $lanes($vector);
 
@@ -80,6 +81,7 @@ macro_rules! number_with_lanes {
             const ZERO: Self = Self($vector::new([0.0; $count]));
             const ONE: Self = Self($vector::new([1.0; $count]));
             const EPSILON: Self = Self($vector::new([$number::EPSILON; $count]));
+            const HAS_LANES: bool = true;
             const SMALLEST: Self = Self($vector::new([$number::MIN_POSITIVE; $count]));
 
             #[inline]

@@ -27,13 +27,15 @@
 //! # Ok::<(), microimpact::InputError>(())
 //! ```
 //!
-//! [`Contacts::simulate_in_lanes`] computes four rows at once on each thread, by a method of fixed cost.
+//! [`RigidBodies::classify`] computes four rows at once on each thread, and so does [`Contacts::simulate_in_lanes`], by a method of fixed
+//! cost.
 //!
 //! The number of threads is rayon's: that of the cores, or `RAYON_NUM_THREADS`.
 
 mod column;
 mod contacts;
 mod departure;
+mod groups;
 mod impacts;
 mod in_lanes;
 mod lanes;

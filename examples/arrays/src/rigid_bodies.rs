@@ -3,20 +3,21 @@
 use std::cell::OnceCell;
 
 use microimpact::rigid::{
-    AdhesionCoefficient, AnyAdhesion, AnyRestitution, ElasticPlasticRestitution, EnergyLedger, PowerRestitution,
-    ReboundAdhesion, RollingDissipation, SpeedAdhesion, SpeedRestitution, TangentialOutcome, TangentialTerm,
-    WorkOfAdhesion,
+    AdhesionCoefficient, AnyAdhesion, AnyRestitution, AnyRigidBody, ElasticPlasticRestitution, EnergyLedger,
+    PowerRestitution, SpeedAdhesion, SpeedRestitution, TangentialOutcome, WorkOfAdhesion,
 };
 use microimpact::{
-    Class, ConstantRestitution, ContactClass, CriticalSpeed, Impact, InputError, Outcome, Parameter, PlanarMotion,
-    RestitutionLaw, RigidBody, Sphere, TangentialImpact,
+    Class, ConstantRestitution, ContactClass, CriticalSpeed, Impact, InputError, Outcome, Parameter, Real, RigidBody,
+    Sphere, TangentialImpact,
 };
 use rayon::prelude::*;
 
 use crate::departure::Departure;
-use crate::impacts::{Answer, fill};
+use crate::groups::{LANES, fill_groups, in_lanes};
+use crate::impacts::{Answer, Part, Slot};
 use crate::motions::{Arrival, Place, in_plane};
-use crate::{Column, Impacts, Motions, Quantity, RowStatus};
+use crate::quantity::Asked;
+use crate::{Column, F64x4, Impacts, Motions, Quantity, RowStatus};
 
 /// Spheres and the physics of their impacts as rigid bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,14 +76,18 @@ impl Restitution<'_> {
     /// # Errors
     /// A number outside its range.
     pub fn at(&self, row: usize) -> Result<AnyRestitution<f64>, InputError> {
+        self.law(|column| column.at(row))
+    }
+
+    /// The law of the numbers that `at` takes from the columns: those of a row, or of several in lanes.
+    #[inline]
+    fn law<T: Real>(&self, at: impl Fn(&Column<'_>) -> T) -> Result<AnyRestitution<T>, InputError> {
         match self {
-            Self::Constant(restitution) => ConstantRestitution::new(restitution.at(row)).map(Into::into),
+            Self::Constant(restitution) => ConstantRestitution::new(at(restitution)).map(Into::into),
             // The law of the paper needs no powers.
-            Self::Power { speed, power } if power.at(row) == 1.0 => {
-                SpeedRestitution::new(speed.at(row)).map(Into::into)
-            }
-            Self::Power { speed, power } => PowerRestitution::new(speed.at(row), power.at(row)).map(Into::into),
-            Self::ElasticPlastic(speed) => ElasticPlasticRestitution::new(speed.at(row)).map(Into::into),
+            Self::Power { speed, power } if at(power) == T::ONE => SpeedRestitution::new(at(speed)).map(Into::into),
+            Self::Power { speed, power } => PowerRestitution::new(at(speed), at(power)).map(Into::into),
+            Self::ElasticPlastic(speed) => ElasticPlasticRestitution::new(at(speed)).map(Into::into),
         }
     }
 }
@@ -93,84 +98,138 @@ impl Adhesion<'_> {
     /// # Errors
     /// A number outside its range.
     pub fn at(&self, sphere: &Sphere<f64>, row: usize) -> Result<AnyAdhesion<f64>, InputError> {
+        self.term(sphere, |column| column.at(row))
+    }
+
+    /// The adhesion of the numbers that `at` takes from the columns.
+    #[inline]
+    fn term<T: Real>(&self, sphere: &Sphere<T>, at: impl Fn(&Column<'_>) -> T) -> Result<AnyAdhesion<T>, InputError> {
         match self {
-            Self::Coefficient(rho) => AdhesionCoefficient::new(rho.at(row)).map(Into::into),
-            Self::Work(work) => WorkOfAdhesion::new(work.at(row), sphere).map(Into::into),
-            Self::Speed { speed, power } => SpeedAdhesion::new(speed.at(row), power.at(row)).map(Into::into),
+            Self::Coefficient(rho) => AdhesionCoefficient::new(at(rho)).map(Into::into),
+            Self::Work(work) => WorkOfAdhesion::new(at(work), sphere).map(Into::into),
+            Self::Speed { speed, power } => SpeedAdhesion::new(at(speed), at(power)).map(Into::into),
         }
     }
 }
 
 impl RigidBodies<'_> {
-    /// The sphere of a row.
+    /// The sphere of the numbers that `at` takes from the columns: those of a row, or of several in lanes.
     #[inline]
-    fn sphere(&self, row: usize) -> Result<Sphere<f64>, InputError> {
-        Sphere::new(self.radius.at(row), self.density.at(row), self.gyration_ratio.at(row))
+    fn sphere<T: Real>(&self, at: impl Fn(&Column<'_>) -> T) -> Result<Sphere<T>, InputError> {
+        Sphere::new(at(&self.radius), at(&self.density), at(&self.gyration_ratio))
     }
 
-    /// The body of a row.
-    fn body(&self, sphere: Sphere<f64>, row: usize) -> Result<Body, InputError> {
-        RigidBody::new(sphere, self.restitution.at(row)?)
-            .with_adhesion(self.adhesion.at(&sphere, row)?)
-            .with_friction(self.friction.at(row))?
-            .with_rolling_dissipation(self.rolling_arm.at(row))
+    /// The body of the same, without rolling dissipation.
+    #[inline]
+    fn body<T: Real>(&self, sphere: Sphere<T>, at: impl Fn(&Column<'_>) -> T) -> Result<AnyRigidBody<T>, InputError> {
+        RigidBody::new(sphere, self.restitution.law(&at)?)
+            .with_adhesion(self.adhesion.term(&sphere, &at)?)
+            .with_friction(at(&self.friction))
     }
 
     /// Classifies the impacts of `count` rows on all threads. The result of a row is that of a single call.
+    ///
+    /// Four rows are computed at a time where spheres move in a plane, without rolling dissipation, and where no quantity is a work or
+    /// an energy.
     pub fn classify(&self, motions: &Motions<'_>, count: usize, quantities: &[Quantity]) -> Impacts {
-        match (self.restitution, self.adhesion, self.rolling_arm) {
-            // The laws of the paper by their types: a row whose laws are chosen takes half as much time again.
-            (Restitution::Power { speed, power: Column::All(1.0) }, Adhesion::Work(work), Column::All(0.0)) => self
-                .classify_by(motions, count, quantities, |sphere, row| {
-                    RigidBody::new(sphere, SpeedRestitution::new(speed.at(row))?)
-                        .with_adhesion(WorkOfAdhesion::new(work.at(row), &sphere)?)
-                        .with_friction(self.friction.at(row))
-                }),
-            _ => self.classify_by(motions, count, quantities, |sphere, row| self.body(sphere, row)),
-        }
+        let in_lanes = Asked::by(quantities) != Asked::All;
+        let group =
+            |first: usize, part: &mut Part<'_>| if in_lanes { self.put_group(motions, first, part) } else { None };
+        fill_groups(
+            count,
+            quantities,
+            || false,
+            group,
+            |row, slot, solved| {
+                if solved.is_some() { Ok(()) } else { self.put_row(motions, row, slot) }
+            },
+        )
     }
 
-    fn classify_by<R, A, S>(
-        &self,
-        motions: &Motions<'_>,
-        count: usize,
-        quantities: &[Quantity],
-        body: impl Fn(Sphere<f64>, usize) -> Result<RigidBody<f64, R, A, S>, InputError> + Sync,
-    ) -> Impacts
-    where
-        R: RestitutionLaw<f64>,
-        A: ReboundAdhesion<f64>,
-        S: TangentialTerm<f64, PlanarMotion<f64>, Impact = TangentialImpact<f64>>,
-    {
-        match motions {
-            // Apart from motions in space, which are large.
-            Motions::Planar { speed_normal, speed_tangential, spin } => fill(count, quantities, |row, slot| {
-                let sphere = self.sphere(row)?;
-                let before = in_plane([speed_normal, speed_tangential, spin], &sphere, |column| column.at(row))?;
-                slot.put(&Answered::new(&sphere, &Place::Plane, &body(sphere, row)?.impact(&before)));
-                Ok(())
-            }),
-            _ => fill(count, quantities, |row, slot| {
-                let Arrival { sphere, motion, place } = motions.arrival(self.sphere(row)?, row)?;
-                place.check_about_one_axis(Parameter::RollingArm, self.rolling_arm.at(row))?;
-                slot.put(&Answered::new(&sphere, &place, &body(sphere, row)?.impact(&motion)));
-                Ok(())
-            }),
+    /// Puts the results of the rows from `first` on into their slots, if they can be computed at once.
+    #[inline]
+    fn put_group(&self, motions: &Motions<'_>, first: usize, part: &mut Part<'_>) -> Option<()> {
+        let at = |column: &Column<'_>| in_lanes(column, first);
+        let Motions::Planar { speed_normal, speed_tangential, spin } = motions else {
+            return None;
+        };
+        if at(&self.rolling_arm) != F64x4::ZERO {
+            return None;
         }
+        let sphere = self.sphere(at).ok()?;
+        let before = in_plane([speed_normal, speed_tangential, spin], &sphere, at).ok()?;
+        let impact = match (&self.restitution, &self.adhesion) {
+            // The laws of the paper by their types: a row whose laws are chosen takes half as much time again.
+            (Restitution::Power { speed, power: Column::All(1.0) }, Adhesion::Work(work)) => {
+                RigidBody::new(sphere, SpeedRestitution::new(at(speed)).ok()?)
+                    .with_adhesion(WorkOfAdhesion::new(at(work), &sphere).ok()?)
+                    .with_friction(at(&self.friction))
+                    .ok()?
+                    .impact(&before)
+            }
+            _ => self.body(sphere, at).ok()?.impact(&before),
+        };
+        // Of constant lanes: numbers stay in registers.
+        let lane = |lane: usize| contact_class(&impact.lane(|numbers| <[f64; LANES]>::from(numbers)[lane]));
+        let lanes = [lane(0), lane(1), lane(2), lane(3)];
+        part.put_group(first, lanes.map(|(outcome, contact)| Class::of(outcome, contact.motion)), |quantity| {
+            match quantity {
+                Quantity::FrictionOverLimit => {
+                    lanes.map(|(_, contact)| contact.friction_over_limit.unwrap_or(f64::NAN))
+                }
+                _ => number(quantity, &sphere, &impact).map_or([f64::NAN; LANES], Into::into),
+            }
+        });
+        Some(())
+    }
+
+    /// Puts the result of a row into its slot.
+    fn put_row(&self, motions: &Motions<'_>, row: usize, slot: &mut Slot<'_, '_>) -> Result<(), InputError> {
+        let at = |column: &Column<'_>| column.at(row);
+        let Arrival { sphere, motion, place } = motions.arrival(self.sphere(at)?, row)?;
+        let arm = self.rolling_arm.at(row);
+        place.check_about_one_axis(Parameter::RollingArm, arm)?;
+        let body = self.body(sphere, at)?;
+        let impact =
+            if arm == 0.0 { body.impact(&motion) } else { body.with_rolling_dissipation(arm)?.impact(&motion) };
+        slot.put(&Answered::new(&sphere, &place, &impact));
+        Ok(())
     }
 
     /// The critical speed of each of `count` rows.
     pub fn critical_speeds(&self, count: usize) -> Vec<Result<CriticalSpeed<f64>, InputError>> {
         let of = |row: usize| {
-            let sphere = self.sphere(row)?;
-            Ok(self.body(sphere, row)?.critical_speed())
+            let at = |column: &Column<'_>| column.at(row);
+            Ok(self.body(self.sphere(at)?, at)?.critical_speed())
         };
         (0..count).into_par_iter().map(of).collect()
     }
 }
 
-/// The rigid body of a row, with laws of any type.
-type Body = RigidBody<f64, AnyRestitution<f64>, AnyAdhesion<f64>, RollingDissipation<f64>>;
+/// How an impact ends. Its margin is no quantity, so that no critical speed is computed.
+#[inline]
+fn contact_class(impact: &Impact<f64, TangentialImpact<f64>>) -> (Outcome, ContactClass<f64>) {
+    let outcome = if impact.normal.is_capture() { Outcome::Capture } else { Outcome::Rebound };
+    (outcome, impact.tangential.classify(outcome))
+}
+
+/// A quantity that an impact has, or several in lanes; `None` for one that is computed from more than it.
+#[inline]
+fn number<T: Real>(
+    quantity: Quantity,
+    sphere: &Sphere<T>,
+    Impact { normal, tangential }: &Impact<T, TangentialImpact<T>>,
+) -> Option<T> {
+    match quantity {
+        Quantity::OverallRestitution => Some(normal.overall_restitution()),
+        Quantity::ReboundSpeed => Some(normal.rebound_speed()),
+        Quantity::SpeedTangentialOut => Some(tangential.velocity()),
+        Quantity::SpinOut => Some(tangential.spin(sphere)),
+        Quantity::ImpulseRatioOut => Some(tangential.impulse_ratio()),
+        Quantity::RollingRatio => Some(tangential.rolling_ratio()),
+        _ => None,
+    }
+}
 
 /// The impact of a row. What follows from it is computed where it is asked for.
 struct Answered<'a> {
@@ -187,9 +246,7 @@ struct Answered<'a> {
 impl<'a> Answered<'a> {
     #[inline]
     fn new(sphere: &'a Sphere<f64>, place: &'a Place, impact: &'a Impact<f64, TangentialImpact<f64>>) -> Self {
-        // Its margin is no quantity, so that no critical speed is computed.
-        let outcome = if impact.normal.is_capture() { Outcome::Capture } else { Outcome::Rebound };
-        let contact = impact.tangential.classify(outcome);
+        let (outcome, contact) = contact_class(impact);
         Self { sphere, place, impact, outcome, contact, ledger: OnceCell::new(), departure: Departure::default() }
     }
 
@@ -222,16 +279,9 @@ impl Answer for Answered<'_> {
 
     #[inline]
     fn number(&self, quantity: Quantity) -> f64 {
-        let Impact { normal, tangential } = self.impact;
         match quantity {
-            Quantity::OverallRestitution => normal.overall_restitution(),
-            Quantity::ReboundSpeed => normal.rebound_speed(),
-            Quantity::SpeedTangentialOut => tangential.velocity(),
-            Quantity::SpinOut => tangential.spin(self.sphere),
             Quantity::FrictionOverLimit => self.contact.friction_over_limit.unwrap_or(f64::NAN),
-            Quantity::ImpulseRatioOut => tangential.impulse_ratio(),
-            Quantity::RollingRatio => tangential.rolling_ratio(),
-            other => self.computed(other),
+            _ => number(quantity, self.sphere, self.impact).unwrap_or_else(|| self.computed(quantity)),
         }
     }
 }

@@ -2,9 +2,14 @@
 
 use std::array;
 
-use impact_arrays::{Column, Contacts, Damping, F32x8, F64x4, Law, Motions, Quantity, RowStatus, Surface};
+use impact_arrays::{
+    Adhesion, Column, Contacts, Damping, F32x8, F64x4, Law, Motions, Quantity, Restitution, RigidBodies, RowStatus,
+    Surface,
+};
 use microimpact::contact::{Adaptive, AnyLaw, Contact, FixedCost, Impulses, Status, Times};
-use microimpact::{Class, InputError, NormalMotion, Real, Sphere, Stiffness};
+use microimpact::{
+    Class, Impact, InputError, NormalMotion, Real, RigidBody, SpeedRestitution, Sphere, Stiffness, TangentialImpact,
+};
 
 /// Numbers of the van der Corput sequence, evenly between two bounds on a logarithmic scale.
 fn between(low: f64, high: f64, place: u32) -> f64 {
@@ -177,6 +182,130 @@ fn rows_in_lanes_agree_with_rows_one_by_one() -> Result<(), InputError> {
         assert!(matches!(together.status[400], RowStatus::Refused(_)));
         let solved = together.status.iter().filter(|status| **status == RowStatus::Solved).count();
         assert_eq!(solved, ROWS - 2);
+    }
+    Ok(())
+}
+
+/// Rigid bodies with all laws, of spheres of every class in the lanes of a group.
+#[test]
+fn rigid_bodies_in_lanes_agree_with_single_calls() -> Result<(), InputError> {
+    const ROWS: usize = 1003;
+    let numbers = |low, high, turn: usize| -> Vec<f64> {
+        (0..ROWS).map(|row| between(low, high, ((row * 7 + turn) % ROWS) as u32 + 1)).collect()
+    };
+    let (radius, mut speed) = (numbers(1e-6, 2e-5, 0), numbers(0.05, 50.0, 5));
+    (speed[3], speed[400]) = (-1.0, f64::NAN);
+    // Some arrive without slip.
+    let along = |step: usize| -> Vec<f64> { (0..ROWS).map(|row| (row % step) as f64).collect() };
+    let (tangential, spin) = (along(3), along(2));
+    let motions = Motions::Planar {
+        speed_normal: Column::Each(&speed),
+        speed_tangential: Column::Each(&tangential),
+        spin: Column::Each(&spin),
+    };
+    let all = Column::All;
+    let restitutions = [
+        Restitution::Constant(all(0.9)),
+        Restitution::Power { speed: all(130.0), power: all(1.0) },
+        Restitution::Power { speed: all(130.0), power: all(0.7) },
+        Restitution::ElasticPlastic(all(3.0)),
+    ];
+    let adhesions = [
+        Adhesion::Coefficient(all(0.2)),
+        Adhesion::Work(all(2.22e-12)),
+        Adhesion::Speed { speed: all(1.0), power: all(2.0) },
+    ];
+    let quantities = [
+        Quantity::OverallRestitution,
+        Quantity::ReboundSpeed,
+        Quantity::SpeedTangentialOut,
+        Quantity::SpinOut,
+        Quantity::FrictionOverLimit,
+        Quantity::ImpulseRatioOut,
+        Quantity::RollingRatio,
+        Quantity::VelocityOutX,
+    ];
+    let mut classes = Vec::new();
+    for (restitution, adhesion) in restitutions.iter().flat_map(|law| adhesions.map(|adhesion| (*law, adhesion))) {
+        let bodies = RigidBodies {
+            radius: Column::Each(&radius),
+            density: all(2600.0),
+            gyration_ratio: all(0.4),
+            restitution,
+            adhesion,
+            friction: all(0.1),
+            rolling_arm: all(0.0),
+        };
+        let impacts = bodies.classify(&motions, ROWS, &quantities);
+        for row in 0..ROWS {
+            let sphere = Sphere::new(radius[row], 2600.0, 0.4)?;
+            let Ok(before) = NormalMotion::new(speed[row]) else {
+                assert!(matches!(impacts.status[row], RowStatus::Refused(_)) && impacts.class[row].is_none());
+                assert!(impacts.quantities.iter().all(|(_, numbers)| numbers[row].is_nan()));
+                continue;
+            };
+            let before = before.with_tangential(tangential[row])?.with_spin(&sphere, spin[row])?;
+            let scene = RigidBody::new(sphere, restitution.at(row)?)
+                .with_adhesion(adhesion.at(&sphere, row)?)
+                .with_friction(0.1)?;
+            let (impact, class) = (scene.impact(&before), scene.classify(&before));
+            assert_eq!(
+                (impacts.status[row], impacts.class[row]),
+                (RowStatus::Solved, Some(class.class())),
+                "row {row}"
+            );
+            classes.push(class.class());
+            let expected = [
+                impact.normal.overall_restitution(),
+                impact.normal.rebound_speed(),
+                impact.tangential.velocity(),
+                impact.tangential.spin(&sphere),
+                class.contact.friction_over_limit.unwrap_or(f64::NAN),
+                impact.tangential.impulse_ratio(),
+                impact.tangential.rolling_ratio(),
+                f64::NAN,
+            ];
+            for ((quantity, numbers), expected) in impacts.quantities.iter().zip(expected) {
+                let number = numbers[row];
+                assert_eq!(
+                    number.to_bits(),
+                    expected.to_bits(),
+                    "row {row}, {}: {number:e} {expected:e}",
+                    quantity.name()
+                );
+            }
+        }
+    }
+    for class in [
+        Class::ReboundSliding,
+        Class::ReboundRolling,
+        Class::CapturedSliding,
+        Class::CapturedRolling,
+        Class::CapturedResting,
+    ] {
+        assert!(classes.iter().filter(|other| **other == class).count() > 20, "{class}");
+    }
+    Ok(())
+}
+
+#[test]
+fn eight_rigid_bodies_agree_with_single_calls() -> Result<(), InputError> {
+    fn scene<T: Real>(radius: T, speed: T) -> Result<Impact<T, TangentialImpact<T>>, InputError> {
+        let sphere = Sphere::solid(radius, T::constant(2600.0))?;
+        let scene = RigidBody::new(sphere, SpeedRestitution::new(T::constant(130.0))?)
+            .with_work_of_adhesion(T::constant(2.22e-12))?
+            .with_friction(T::constant(0.1))?;
+        Ok(scene.impact(&NormalMotion::new(speed)?.with_tangential(T::constant(2.0))?))
+    }
+    for group in 0..100 {
+        let numbers = |low, high, turn: u32| -> [f32; 8] {
+            array::from_fn(|lane| between(low, high, 1 + 8 * group + (lane as u32 + turn) % 8) as f32)
+        };
+        let (radius, speed) = (numbers(1e-6, 2e-5, 0), numbers(0.5, 50.0, 3));
+        let together = scene(F32x8::from(radius), F32x8::from(speed))?;
+        for lane in 0..8 {
+            assert_eq!(together.lane(|numbers| <[f32; 8]>::from(numbers)[lane]), scene(radius[lane], speed[lane])?);
+        }
     }
     Ok(())
 }

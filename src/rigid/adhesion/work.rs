@@ -52,11 +52,8 @@ impl<T: Real> WorkOfAdhesion<T> {
 impl<T: Real> ReboundAdhesion<T> for WorkOfAdhesion<T> {
     #[inline]
     fn departure(&self, _approach: T, body_rebound: T) -> T {
-        if body_rebound <= self.speed {
-            return T::ZERO;
-        }
-        // A difference of squares loses digits close to capture. The product of the factors does not.
-        (body_rebound - self.speed).geometric_mean(body_rebound + self.speed)
+        // A difference of squares loses digits close to capture. The product of the factors does not. It is zero for a capture.
+        (body_rebound - self.speed).max(T::ZERO).geometric_mean(body_rebound + self.speed)
     }
 
     #[inline]

@@ -67,7 +67,8 @@ impl<T: Real> RestitutionLaw<T> for ElasticPlasticRestitution<T> {
         let square = y * y;
         let elastic = one * (T::ONE - square / six);
         let returned = y / (y + two * ((six - square) / T::constant(5.0)).sqrt());
-        (elastic.sqrt() * returned.sqrt().sqrt()).min(T::ONE)
+        // In lanes a sphere yields beside one that does not.
+        speed.where_above(self.yield_speed, (elastic.sqrt() * returned.sqrt().sqrt()).min(T::ONE), T::ONE)
     }
 
     fn approach_speed(&self, body_rebound: T) -> Option<T> {
