@@ -10,9 +10,9 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 /// this trait.
 ///
 /// A number type may also hold a number of each of several impacts, in *lanes*. Its comparisons are true only if they are true in every
-/// lane, and its functions act in each. [`Contact::solve_lanes`](crate::contact::Contact::solve_lanes) takes scenes in such a type, and so does
-/// [`RigidBody::impact`](crate::RigidBody::impact), of which [`Impact::lane`](crate::Impact::lane) takes a lane; what decides by comparisons of
-/// its own, as every other method does, is not for it.
+/// lane, and its functions act in each. [`Contact::solve_lanes`](crate::contact::Contact::solve_lanes) takes scenes in such a type. So
+/// does [`RigidBody::impact`](crate::RigidBody::impact); [`Impact::lane`](crate::Impact::lane) gives the impact of a lane. What decides
+/// by comparisons of its own, as every other method does, is not for it.
 ///
 /// ```
 /// use microimpact::Real;
@@ -45,6 +45,7 @@ pub trait Real:
 
     /// Whether the numbers of this type lie at equal distances. What should be near one is then checked more narrowly.
     const IS_FIXED_POINT: bool = false;
+
     /// Whether it holds a number of each of several impacts, in lanes.
     const HAS_LANES: bool = false;
 

@@ -3,13 +3,12 @@
 use crate::{Impact, Real, TangentialImpact};
 
 impl<V: Real> Impact<V, TangentialImpact<V>> {
-    /// The impact of the lane that `lane` takes out of each number, of a scene whose numbers hold one number of each of several impacts.
+    /// The impact of one lane of a scene whose numbers hold one number of each of several impacts; `lane` takes the number of the lane.
     ///
-    /// [`Real`] states what such a type has to do. [`impact`](crate::RigidBody::impact) takes scenes in it with Coulomb friction, with every
-    /// adhesion of this library, and with a [`ConstantRestitution`](crate::ConstantRestitution),
-    /// [`SpeedRestitution`](crate::SpeedRestitution), [`PowerRestitution`](super::PowerRestitution) or
-    /// [`ElasticPlasticRestitution`](super::ElasticPlasticRestitution). The velocities and ratios of the result are those of each lane; what
-    /// is decided by comparison, such as the class, is that of an impact that this function returns.
+    /// [`Real`] states what such a number type has to do. The scene may have Coulomb friction, any adhesion of this library, and a
+    /// [`ConstantRestitution`](crate::ConstantRestitution), [`SpeedRestitution`](crate::SpeedRestitution),
+    /// [`PowerRestitution`](super::PowerRestitution) or [`ElasticPlasticRestitution`](super::ElasticPlasticRestitution). Velocities and
+    /// ratios may be read in lanes; classes and energies only from the impact that this function returns.
     ///
     /// ```
     /// use microimpact::{ConstantRestitution, NormalMotion, RigidBody, Sphere};

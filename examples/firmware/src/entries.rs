@@ -229,6 +229,7 @@ where
         + TangentialTerm<T, PlanarMotion<T>, Impact = TangentialImpact<T>>,
 {
     let (_, oblique, planar) = motions(scene.sphere())?;
+    keep(scene.impact(&planar).lane(|number: T| number));
     for impact in [scene.impact(&oblique), scene.impact(&planar)] {
         planar_impact(&impact, scene.sphere());
         keep(scene.classify_impact(&impact));
