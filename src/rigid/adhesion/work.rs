@@ -52,8 +52,14 @@ impl<T: Real> WorkOfAdhesion<T> {
 impl<T: Real> ReboundAdhesion<T> for WorkOfAdhesion<T> {
     #[inline]
     fn departure(&self, _approach: T, body_rebound: T) -> T {
-        // A difference of squares loses digits close to capture. The product of the factors does not. It is zero for a capture.
-        (body_rebound - self.speed).max(T::ZERO).geometric_mean(body_rebound + self.speed)
+        if !T::HAS_LANES && body_rebound <= self.speed {
+            return T::ZERO;
+        }
+        let excess = body_rebound - self.speed;
+        // In lanes a sphere is captured beside one that rebounds.
+        let excess = if T::HAS_LANES { excess.max(T::ZERO) } else { excess };
+        // A difference of squares loses digits close to capture. The product of the factors does not.
+        excess.geometric_mean(body_rebound + self.speed)
     }
 
     #[inline]
