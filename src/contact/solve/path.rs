@@ -552,6 +552,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         } else {
             self.at.s - outermost
         };
+        let mut overreached = false;
         while self.at.s > outermost {
             if !passed && self.barrier.0 > outermost && self.at.s <= self.barrier.0 {
                 let (surplus, uncertain) = self.surplus();
@@ -594,7 +595,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                 if self.take(&interval, Course::REBOUND, None)? {
                     length = length * factor;
                     if !refused {
-                        length = self.relaxing_length(length, self.at.s - outermost);
+                        length = self.relaxing_length(length, (!overreached).then_some(self.at.s - outermost));
                     }
                     if to_the_end {
                         self.at.s = outermost;
@@ -602,6 +603,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
                     break;
                 }
                 refused = true;
+                overreached |= self.is_balanced();
                 length = length * factor.min(T::constant(REFUSED_SHRINK));
                 if length <= T::EPSILON * T::EPSILON {
                     return if self.is_held() { Ok(T::ZERO) } else { Err(self.stuck(Course::REBOUND)) };
@@ -659,11 +661,11 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     }
 
     /// The next interval of a rebound. Where the speed tends to that of balance, it does so as e^w, of which the nodes resolve so much;
-    /// once it has, one interval takes `all` that remains.
-    fn relaxing_length(&self, length: T, all: T) -> T {
+    /// once it has, one interval takes `all` that remains, if what is observed allows it.
+    fn relaxing_length(&self, length: T, all: Option<T>) -> T {
         match self.distance_from_balance() {
             None => length,
-            Some(_) if self.is_balanced() => all,
+            Some(_) if self.is_balanced() => all.unwrap_or(length),
             Some((_, ratio)) => T::constant(DEEPEST) / (ratio * ratio * self.law.slope(self.at.s)),
         }
     }
