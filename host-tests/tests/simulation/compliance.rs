@@ -289,7 +289,7 @@ fn strong_damping_is_solved_or_given_up() {
     // The smallest that is solved is the truth.
     const FINER: [f64; 3] = [1e-12, 1e-11, 1e-10];
     let mut source = StdRng::seed_from_u64(9);
-    let (mut beyond, mut unsolved) = (0, 0);
+    let (mut beyond, mut unsolved, mut unverified) = (0, 0, 0);
     for _ in 0..repetitions(3000, 100) {
         let mut decades = |from: f64, to: f64| 10_f64.powf(source.random_range(from..to));
         let (chi, damping, friction) = (decades(-3.0, 3.0), decades(-2.0, 9.0), decades(-3.0, 1.0));
@@ -309,12 +309,17 @@ fn strong_damping_is_solved_or_given_up() {
             assert_eq!(solved.run.status, Status::Solved, "{impact:?}");
             let finer = FINER.map(|finer| solve(&impact, &Adaptive::new(finer).unwrap()));
             let fine = finer.into_iter().find(|fine| fine.run.status == Status::Solved);
-            let Some(fine) = fine else { panic!("{impact:?}: {tolerance:e} alone is solved") };
+            let Some(fine) = fine else {
+                assert!(strong, "{impact:?}");
+                unverified += 1;
+                continue;
+            };
             let error = (solved.tangential.slip() - fine.tangential.slip()).abs() / slip.max(1.0);
             assert!(error < 2.0 * tolerance, "{impact:?}: {error:e}, not {tolerance:e}");
         }
     }
     assert!(unsolved > 0 && unsolved < 2 * beyond, "{unsolved} of {beyond}");
+    assert!(100 * unverified < beyond, "{unverified} of {beyond}");
 }
 
 #[test]
