@@ -154,7 +154,8 @@ pub(super) fn pass_damped<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
         let (divisor, speed) = (speeds.divisor(j), speeds.speed(j));
         whole = whole + T::WEIGHTS[j] * length[j] * law.loss(s[j], course.rebound);
         reach = reach + T::WEIGHTS[j] * loss[j].abs() / (divisor * divisor);
-        if !(reach * divisor < speed) {
+        let contracts = reach * divisor < speed;
+        if !contracts {
             return false;
         }
         state.speed[j] = speed;
@@ -195,8 +196,9 @@ impl<T: Nodes<N>, const N: usize> Iterations<T, N> {
         for j in 0..N {
             let (divisor, speed) = (speeds.divisor(j), speeds.speed(j));
             reach = reach.max(loss[j].abs() / (divisor * divisor));
-            let contraction = T::constant(0.5 * TURNING_CONTRACTION) * reach * divisor;
-            if !(contraction < T::constant(LEAVING_LIMIT) * speed) {
+            let contracts =
+                T::constant(0.5 * TURNING_CONTRACTION) * reach * divisor < T::constant(LEAVING_LIMIT) * speed;
+            if !contracts {
                 return None;
             }
             self.speed[j] = speed;
