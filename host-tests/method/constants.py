@@ -41,7 +41,7 @@ C = [
     ("SURE_LEAVING_LIMIT", "0.33", "interval: `leave`", "as far as `LEAVING_DEPTH` allows and a little more; beyond it plain iterations with four nodes exceed their bound (test `few_nodes_keep_the_tolerances_they_accept`)"),
     ("LARGEST", "1e10", "damped_square: `loss_over_force`", "the square of $cy$ must not overflow in single precision"),
     ("SERIES, TERMS", "0.5, 14", "damped_square: `exponential`", "below it the series has fewer roundings; its next term is below one"),
-    ("ROUNDINGS, BEYOND_BALANCE, BALANCE_ROUNDINGS", "8 ε, 8 ε, 8 ε", "damped_square; strong_damping; path", "of a loss that counts as none; of the speed of balance"),
+    ("ROUNDINGS, BALANCE_ROUNDINGS", "8 ε, 8 ε", "damped_square; strong_damping, also for path", "of a loss that counts as none; of the speed of balance"),
     ("DEEPEST, SHALLOW", "7, 5", "strong_damping; path: `pass_strongly_damped`", "$e^w$ that the nodes resolve; a margin to it for the interval before"),
     ("LEFT, MOST_LEFT", "0.25, 0.7", "path: `pass_strongly_damped`", "the interval to the peak can take so much; beyond, an interval is too short to be worth it"),
     ("WORK_ERROR", "0.1", "strong_damping: `error_damped`", "error of a work over its squared tail; test `ledger::double_precision`"),

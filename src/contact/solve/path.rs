@@ -4,7 +4,7 @@ use super::damped_square::{loss_over_force, remaining_loss};
 use super::interval::{Control, Course, Interval, Point, TURNING_CONTRACTION, arrive, distance_to_stop, leave, pass};
 use super::nodes::Nodes;
 use super::observer::Observer;
-use super::strong_damping::{DEEPEST, LEAST_DRAG, Stop};
+use super::strong_damping::{BALANCE_ROUNDINGS, DEEPEST, LEAST_DRAG, Stop};
 use super::well;
 use crate::contact::law::ContactLaw;
 use crate::numbers::{NotConverged, root};
@@ -169,9 +169,6 @@ const SHALLOW_DEPARTURE: f64 = 0.4;
 
 /// The next interval then, over the first: away from the turning point the speed is smoother.
 const AFTER_SHALLOW_DEPARTURE: f64 = 4.0;
-
-/// Roundings of a speed within which it is that of balance.
-const BALANCE_ROUNDINGS: f64 = 8.0;
 
 /// Square of the losses of the first interval from a turning point over that of its speed; with it iterations converge.
 const LEAVING_DEPTH: f64 = 0.2;

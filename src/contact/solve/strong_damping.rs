@@ -19,8 +19,8 @@ pub(super) const LEAST_DRAG: f64 = 0.5;
 /// changes as e^w, of which the nodes resolve so much. `cargo trials --kind mild --method 1e-9` shows it.
 pub(super) const DEEPEST: f64 = 7.0;
 
-/// Roundings by which the speed on the way out may seem to exceed that of balance.
-const BEYOND_BALANCE: f64 = 8.0;
+/// Roundings within which a speed is that of balance, which on the way out it does not exceed.
+pub(super) const BALANCE_ROUNDINGS: f64 = 8.0;
 
 /// Estimated error of a work over the square of the part that the nodes do not resolve.
 const WORK_ERROR: f64 = 0.1;
@@ -131,7 +131,7 @@ pub(super) fn pass_damped<T: Nodes<N>, const N: usize, L: ContactLaw<T>>(
     let ratio = loss_over_force(law, last_within_contact(law, s), course);
     let speed = from.speed_squared.max(T::ZERO).sqrt();
     let drag = ratio * speed;
-    let beyond = T::ONE + drag < T::constant(-BEYOND_BALANCE) * T::EPSILON;
+    let beyond = T::ONE + drag < T::constant(-BALANCE_ROUNDINGS) * T::EPSILON;
     if !drag.is_finite() || drag.abs() < T::constant(LEAST_DRAG) || beyond {
         return false;
     }
