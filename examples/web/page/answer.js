@@ -49,9 +49,11 @@ class Answer {
         while (this.pending) {
             this.pending = false;
             try {
+                const empty = this.scene.empty();
+                if (empty.length > 0) throw new Error(`Enter a number in each box. Empty: ${empty.join(", ")}.`);
                 this.show(await this.compute(this.scene.columns(), this.scene.values.scene_model));
             } catch (error) {
-                this.refuse(error.message);
+                this.refuse(this.scene.inItsUnit(error.message));
             }
         }
         this.computing = false;

@@ -1,9 +1,10 @@
 // Which column of a file holds what, and what the sliders give where it has none.
 
-// The text of a number as a whole number with a power of ten, which has no decimal mark: 5.06e-6 is 506e-8.
+// The text of a number without a decimal mark: a whole number, with a power of ten where it is not whole. 5.06e-6 is 506e-8.
 function withoutMark(text) {
     const number = Number(text);
     if (Number.isNaN(number)) return text;
+    if (Number.isSafeInteger(number)) return String(number);
     const [mantissa, power] = number.toExponential().split("e");
     const [whole, part = ""] = mantissa.split(".");
     return `${whole}${part}e${Number(power) - part.length}`;

@@ -49,6 +49,8 @@ class Scene {
                 document.getElementById(id).append(row);
             }
         }
+        this.note = element("p", { className: "assumed", hidden: true });
+        document.getElementById("surface").append(this.note);
         this.changed = () => {
             this.showTerms();
             changed();
@@ -58,6 +60,7 @@ class Scene {
             event.preventDefault();
             for (const input of INPUTS) this.values[keyOf(input)] = input.start;
             for (const { show } of this.rows.values()) show();
+            this.noteMaterials("", "");
             this.changed();
         });
         this.showTerms();
@@ -74,18 +77,35 @@ class Scene {
     }
 
     // Sets what the chosen materials give: the density of the sphere and, of two materials, the stiffness and the work of adhesion.
+    // A number of a pair that the list does not have goes back to where it starts, so that it is not that of another pair.
     async useMaterials() {
-        const [sphere, surface] = MATERIALS.map((key) => this.values[key]);
-        if (sphere === "") return this.changed();
-        const { output } = await program.run(["materials", sphere, ...(surface === "" ? [] : [surface]), "--format", "csv"], "");
-        const [names, numbers] = cells(await output.text());
-        for (const input of INPUTS.filter((input) => MATERIALS.includes(input.of))) {
-            const number = numbers[names.indexOf(input.column)];
-            if (!number) continue;
-            this.values[keyOf(input)] = Number((Number(number) / input.si).toPrecision(12));
-            this.rows.get(input).show();
+        const [sphere, surface] = MATERIALS.map((key) => this.values[key]), pair = [sphere, surface].filter(Boolean);
+        const unknown = [];
+        if (sphere !== "") {
+            const { output } = await program.run(["materials", ...pair, "--format", "csv"], "");
+            const [names, numbers] = cells(await output.text());
+            for (const input of INPUTS.filter(({ of }) => MATERIALS.includes(of) && this.values[of] !== "")) {
+                const number = numbers[names.indexOf(input.column)];
+                if (!number) unknown.push(`${input.label.toLowerCase()}, which is now ${input.start} ${input.unit}`);
+                this.values[keyOf(input)] = number ? Number((Number(number) / input.si).toPrecision(12)) : input.start;
+                this.rows.get(input).show();
+            }
         }
+        this.noteMaterials(sphere, surface, unknown);
         this.changed();
+    }
+
+    // Says which numbers are not those of the chosen materials.
+    noteMaterials(sphere, surface, unknown = []) {
+        const notes = [];
+        if (sphere === "" && surface !== "") notes.push("The stiffness is that of two materials: choose the material of the sphere too.");
+        if (unknown.length > 0) notes.push(`The list does not give for ${sphere} on ${surface}: ${unknown.join("; ")}.`);
+        if (sphere !== "" && surface !== "") {
+            const others = INPUTS.filter((input) => SURFACE.includes(input) && !input.choices && !input.of && this.has(input));
+            notes.push(`No list gives for two materials: ${others.map(({ label }) => label.toLowerCase()).join(", ")}. Enter what you measured.`);
+        }
+        this.note.textContent = notes.join(" ");
+        this.note.hidden = notes.length === 0;
     }
 
     // A number that is set by hand is no longer that of a material.
@@ -94,6 +114,7 @@ class Scene {
         if (input.of && this.values[input.of] !== "") {
             this.values[input.of] = "";
             document.getElementById(input.of).value = "";
+            this.noteMaterials(...MATERIALS.map((key) => this.values[key]));
         }
     }
 
@@ -104,8 +125,9 @@ class Scene {
         const show = () => select.value = this.values[key];
         select.addEventListener("change", () => {
             this.values[key] = select.value;
-            if (MATERIALS.includes(key)) this.useMaterials();
-            else this.changed();
+            if (MATERIALS.includes(key)) return this.useMaterials();
+            this.noteMaterials(...MATERIALS.map((key) => this.values[key]));
+            this.changed();
         });
         show();
         return { row: element("div", { className: "choice" }, element("label", { htmlFor: key }, input.label), select), show };
@@ -127,13 +149,12 @@ class Scene {
             this.changed();
         });
         field.addEventListener("input", () => {
-            if (field.value === "") return;
-            this.setByHand(input, Number(field.value));
+            // An empty box is no number; the answer says so.
+            this.setByHand(input, field.value === "" ? NaN : Number(field.value));
             range.value = stepOf(input, this.values[key]);
             range.ariaValueText = `${field.value} ${input.unit}`;
             this.changed();
         });
-        field.addEventListener("change", show);
         show();
         const label = element("label", { htmlFor: key }, `${input.label} `, ...symbol(input.symbol));
         const unit = element("span", { className: "unit" }, input.unit === "1" ? "" : input.unit);
@@ -154,6 +175,23 @@ class Scene {
         }
     }
 
+    // The boxes of this scene without a number, by their labels.
+    empty(model = this.values.scene_model) {
+        const isEmpty = (input) => Number.isNaN(this.values[keyOf(input)]) && this.has(input, model);
+        return INPUTS.filter(isEmpty).map(({ label, errorOf }) => errorOf ? `standard error ${label}` : label);
+    }
+
+    // Why the program refuses a number: with the label of the box instead of the column, and in the unit of the box.
+    inItsUnit(reason) {
+        const [, column, rest] = reason.match(/^(\w+): "[^"]*" is refused: (.*)/) ?? [];
+        const input = INPUTS.find((input) => input.column === column && !input.choices && this.has(input));
+        if (!column || input === undefined) return reason;
+        const unit = input.unit === "1" ? "" : ` ${input.unit}`, { si = 1 } = input;
+        const inBox = (number) => digits(Number(number) / si);
+        const range = rest.replace(/must be (\S+) to ([^\s;]+).*/, (_, least, most) => `must be ${inBox(least)} to ${inBox(most)}${unit}`);
+        return `${input.label}: ${this.values[keyOf(input)]}${unit} is refused: ${si === 1 ? rest : range}`;
+    }
+
     // What the user asks for, by columns of the program, in SI units; a standard error of zero has no column.
     columns(model = this.values.scene_model) {
         const columns = {};
@@ -164,6 +202,7 @@ class Scene {
         }
         for (const input of INPUTS.filter((input) => !input.aside && this.has(input, model))) {
             const value = this.values[keyOf(input)];
+            if (Number.isNaN(value)) continue;
             if (input.optional && value === input.start) continue;
             if (input.choices) columns[input.column] = value;
             else if (!input.errorOf) columns[input.column] = inSi(value * input.si);

@@ -43,6 +43,7 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     let sizes = page::build(&folder, &file, permission)?;
     println!("{}: {sizes}", in_repository(&file));
     if arguments.check {
+        sizes.check()?;
         check::page(&file, permission)?;
         println!("the page gives the answers of the program; its screenshots are in {}", in_repository(&folder));
     }

@@ -40,6 +40,30 @@ pub struct Sizes {
     page: usize,
 }
 
+/// Compilers differ by so much in the size of what they make.
+const SAME_SIZE: f64 = 0.05;
+
+impl Sizes {
+    /// Fails if the README states other sizes.
+    pub fn check(&self) -> Result<(), String> {
+        const README: &str = include_str!("../README.md");
+        let Self { module, compressed, page } = *self;
+        for (what, size) in
+            [("WebAssembly", module), ("the same, compressed with gzip", compressed), ("the whole page", page)]
+        {
+            let cell = README.lines().find_map(|line| line.strip_prefix(&format!("| {what} | "))?.strip_suffix(" |"));
+            let stated: f64 =
+                cell.and_then(|text| text.parse().ok()).ok_or(format!("README states no size of {what}"))?;
+            if (stated / size as f64 - 1.0).abs() > SAME_SIZE {
+                return Err(format!(
+                    "README states {stated} bytes for {what}, which has {size}; enter the new size there"
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
 impl fmt::Display for Sizes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { module, compressed, page } = self;

@@ -7,6 +7,10 @@ use serde_json::json;
 use super::{READY, choose, first_row, program, same};
 use crate::browser::Browser;
 
+/// Pairs of materials, sphere and surface, of which the list has the work of adhesion of one.
+const KNOWN_PAIR: [&str; 2] = ["ice", "ice"];
+const UNKNOWN_PAIR: [&str; 2] = ["polystyrene", "steel"];
+
 /// Names and codes of keys.
 const ARROW_LEFT: (&str, u32) = ("ArrowLeft", 37);
 const TAB: (&str, u32) = ("Tab", 9);
@@ -306,17 +310,29 @@ pub fn every_term(browser: &mut Browser) -> Result<(), String> {
     reset(browser)
 }
 
-/// A number out of its range is refused in the program's words, and standard errors give probabilities.
+/// What is entered in the box of a column, and what the page says of it.
+const REFUSED: [(&str, &str, &str); 4] = [
+    (
+        "speed_normal_m_s",
+        "-2.8",
+        "Approach speed: -2.8 m/s is refused: approach speed must be 1e-12 to 1e6 m/s; enter -2.8 m/s as 2.8",
+    ),
+    ("radius_m", "5e6", "Radius: 5000000 µm is refused: radius must be 1e-4 to 1e6 µm"),
+    ("stiffness_pa", "-75", "Hertz stiffness: -75 GPa is refused: stiffness must be 1e-9 to 1e7 GPa"),
+    ("radius_m", "", "Enter a number in each box. Empty: Radius."),
+];
+
+/// A number out of its range is refused by the label and in the unit of its box, and standard errors give probabilities.
 pub fn refusal(browser: &mut Browser) -> Result<(), String> {
-    enter(browser, "speed_normal_m_s", "-2.8")?;
-    browser.wait_for(READY)?;
-    let reason = browser.text("document.getElementById('margin').textContent")?;
-    let table = browser.text("table(scene.columns())")?;
-    let classified = program(&["classify", "-", "--model", "simulation", "--format", "csv"], table.as_bytes())?;
-    same("the reason", &reason, &first_row(&classified, "error")?)?;
-    let left = browser.value("document.querySelectorAll('#numbers td, #results svg').length")?;
-    if left != json!(0) {
-        return Err(format!("{left} numbers and charts of another impact are left beside the refusal"));
+    for (column, entered, expected) in REFUSED {
+        enter(browser, column, entered)?;
+        browser.wait_for(READY)?;
+        same("the reason", &browser.text("document.getElementById('margin').textContent")?, expected)?;
+        let left = browser.value("document.querySelectorAll('#numbers td, #results svg').length")?;
+        if left != json!(0) {
+            return Err(format!("{left} numbers and charts of another impact are left beside the refusal"));
+        }
+        reset(browser)?;
     }
 
     enter(browser, "speed_normal_m_s", "1.5")?;
@@ -392,9 +408,35 @@ pub fn materials(browser: &mut Browser) -> Result<(), String> {
             return Err(format!("{column} of polystyrene on steel is {found} and not {expected}"));
         }
     }
+    let noted = browser.text("scene.note.textContent")?;
+    if !noted.contains("strength of adhesion") {
+        return Err(format!("the page does not say that the ring is not that of the materials, but \"{noted}\""));
+    }
     enter(browser, "stiffness_pa", "75")?;
     same("the material of a surface by its numbers", &browser.text("scene.values.surface_material")?, "")?;
+    work_of_another_pair(browser)?;
     reset(browser)
+}
+
+/// The work of adhesion of a pair is not that of the pair before: where the list has none, it is the start value, and the page says so.
+fn work_of_another_pair(browser: &mut Browser) -> Result<(), String> {
+    let mut work_of = |[sphere, surface]: [&str; 2], until: &str| {
+        choose(browser, "sphere_material", sphere)?;
+        choose(browser, "surface_material", surface)?;
+        choose(browser, "law", "dmt")?;
+        browser.wait_for(until)?;
+        Ok::<_, String>((
+            browser.text("scene.columns().work_of_adhesion_j_m2")?,
+            browser.text("scene.note.textContent")?,
+        ))
+    };
+    let (known, _) = work_of(KNOWN_PAIR, "scene.columns().work_of_adhesion_j_m2 !== '0.1'")?;
+    let listed = program(&[&["materials"], &KNOWN_PAIR[..], &["--format", "csv"]].concat(), b"")?;
+    same("the work of adhesion of ice on ice", &known, &first_row(&listed, "work_of_adhesion_j_m2")?)?;
+    let (unknown, note) = work_of(UNKNOWN_PAIR, "scene.note.textContent.includes('polystyrene on steel')")?;
+    same("the work of adhesion of polystyrene on steel", &unknown, "0.1")?;
+    let expected = "The list does not give for polystyrene on steel: work of adhesion, which is now 100 mJ/m².";
+    same("what the page says of it", note.split_inclusive('.').next().unwrap_or_default(), expected)
 }
 
 /// A speed along a path has two components, and a force and the other terms that are folded away reach the program.
