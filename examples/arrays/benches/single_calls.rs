@@ -1,4 +1,4 @@
-//! Time of a row by arrays on one thread over that of a loop of single calls, and rows per second on all threads.
+//! How many times as fast arrays are as a loop of single calls, on one thread and on all.
 //!
 //! `cargo bench --package impact-arrays`
 
@@ -22,8 +22,11 @@ const ROWS_OF_SIMULATIONS: usize = 256;
 /// Measurements of the loop and of the arrays by turns; the least time of each counts.
 const TURNS: usize = 300;
 
-/// How many times more rows all threads share.
+/// How many times more rows all threads share; both sides then also make the columns of their results.
 const MORE: usize = 64;
+
+/// Measurements of so many rows.
+const LONG_TURNS: usize = 15;
 
 /// The quantities that both compute, besides class and status.
 const QUANTITIES: [Quantity; 2] = [Quantity::OverallRestitution, Quantity::SpinOut];
@@ -144,28 +147,37 @@ fn seconds<R>(run: impl FnOnce() -> R) -> f64 {
     start.elapsed().as_secs_f64()
 }
 
-/// A line of the table: nanoseconds of a row in a loop and by arrays, their ratio, and rows per second on all threads. `arrays` computes
-/// a number of rows.
+/// Least times of two runs by turns, s.
+fn least(turns: usize, mut one: impl FnMut(), mut other: impl FnMut()) -> [f64; 2] {
+    (0..turns).fold([f64::INFINITY; 2], |[a, b], _| [a.min(seconds(&mut one)), b.min(seconds(&mut other))])
+}
+
+/// A line of the table: nanoseconds of a row in a loop, and how many times as fast arrays are, on one thread and, with more rows, on all.
+/// `arrays` computes a number of rows.
 fn line(
     model: &str,
-    rows: usize,
+    count: usize,
     one: &ThreadPool,
-    mut alone: impl FnMut() + Send,
+    rows: &Rows,
+    single_call: impl Fn(f64, f64) -> Result<Answer, InputError> + Sync,
     arrays: impl Fn(usize) -> Impacts + Sync,
-) -> [String; 5] {
-    let times = one.install(|| (0..TURNS).map(|_| (seconds(&mut alone), seconds(|| arrays(rows)))).collect::<Vec<_>>());
-    let least = |times: &mut dyn Iterator<Item = f64>| times.fold(f64::INFINITY, f64::min) / rows as f64;
-    let (alone, together) = (least(&mut times.iter().map(|both| both.0)), least(&mut times.iter().map(|both| both.1)));
-    let nanoseconds = |seconds: f64| format!("{:.0}", 1e9 * seconds);
-    let throughput = (MORE * rows) as f64 / seconds(|| arrays(MORE * rows));
-    let ratio = format!("{:.2}", together / alone);
-    [model.to_owned(), nanoseconds(alone), nanoseconds(together), ratio, format!("{throughput:.2e}")]
+) -> [String; 4] {
+    let compute = |count| {
+        black_box(arrays(count));
+    };
+    let mut results = Results::of(count);
+    let [alone, together] = one.install(|| least(TURNS, || results.fill(rows, &single_call), || compute(count)));
+    let more = MORE * count;
+    let [alone_more, on_all] = least(LONG_TURNS, || Results::of(more).fill(rows, &single_call), || compute(more));
+    let nanoseconds = format!("{:.0}", 1e9 * alone / count as f64);
+    [model.to_owned(), nanoseconds, format!("{:.2}", alone / together), format!("{:.2}", alone_more / on_all)]
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
     let one = ThreadPoolBuilder::new().num_threads(1).build()?;
     let mut table = Table::new();
-    table.set_header(["model", "loop, ns a row", "arrays, ns a row", "ratio", "rows/s on all threads"]);
+    let threads = format!("factor, {} threads", rayon::current_num_threads());
+    table.set_header(["model", "loop, ns a row", "factor, 1 thread", &threads]);
 
     let rows = Rows::new(MORE * ROWS_OF_RIGID_BODIES);
     let bodies = RigidBodies {
@@ -177,10 +189,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         friction: Column::All(FRICTION),
         rolling_arm: Column::All(0.0),
     };
-    let mut results = Results::of(ROWS_OF_RIGID_BODIES);
-    let alone = || results.fill(&rows, rigid_body);
     let arrays = |count| bodies.classify(&rows.motions(), count, &QUANTITIES);
-    table.add_row(line("rigid body", ROWS_OF_RIGID_BODIES, &one, alone, arrays));
+    table.add_row(line("rigid body", ROWS_OF_RIGID_BODIES, &one, &rows, rigid_body, arrays));
 
     let rows = Rows::new(MORE * ROWS_OF_SIMULATIONS);
     let contacts = Contacts {
@@ -193,15 +203,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         ..Contacts::default()
     };
     let method = Adaptive::new(1e-9)?;
-    let mut results = Results::of(ROWS_OF_SIMULATIONS);
-    let alone = || results.fill(&rows, |radius, speed| simulation(radius, speed, &method));
+    let alone = |radius, speed| simulation(radius, speed, &method);
     let arrays = |count| contacts.simulate(&rows.motions(), count, &method, &QUANTITIES);
-    table.add_row(line("simulation, adaptive 1e-9", ROWS_OF_SIMULATIONS, &one, alone, arrays));
+    table.add_row(line("simulation, Adaptive, 1e-9", ROWS_OF_SIMULATIONS, &one, &rows, alone, arrays));
     // In lanes, as fast as the processor's vectors allow.
     let quick = FixedCost::<7>::new(3)?;
-    let alone = || results.fill(&rows, |radius, speed| simulation(radius, speed, &quick));
+    let alone = |radius, speed| simulation(radius, speed, &quick);
     let arrays = |count| contacts.simulate_in_lanes(&rows.motions(), count, &quick, &method, &QUANTITIES);
-    table.add_row(line("simulation, FixedCost<7> in lanes", ROWS_OF_SIMULATIONS, &one, alone, arrays));
+    table.add_row(line("simulation, FixedCost<7>, in lanes", ROWS_OF_SIMULATIONS, &one, &rows, alone, arrays));
     println!("{table}");
     Ok(())
 }

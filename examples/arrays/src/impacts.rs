@@ -151,10 +151,11 @@ pub(crate) fn fill(
 
 /// Fills parts of the rows on all threads, each of which writes its rows where they belong.
 pub(crate) fn fill_parts(count: usize, quantities: &[Quantity], compute: impl Fn(&mut Part<'_>) + Sync) -> Impacts {
+    // A page of memory costs more to touch first than its rows cost to classify, and so all threads do it.
     let mut impacts = Impacts {
-        status: vec![RowStatus::NotConverged; count],
-        class: vec![None; count],
-        quantities: quantities.iter().map(|quantity| (*quantity, vec![f64::NAN; count])).collect(),
+        status: rayon::iter::repeat_n(RowStatus::NotConverged, count).collect(),
+        class: rayon::iter::repeat_n(None, count).collect(),
+        quantities: quantities.iter().map(|quantity| (*quantity, vec![0.0; count])).collect(),
     };
     let mut columns: Vec<_> =
         impacts.quantities.iter_mut().map(|(quantity, numbers)| (*quantity, numbers.chunks_mut(ROWS))).collect();
@@ -165,6 +166,9 @@ pub(crate) fn fill_parts(count: usize, quantities: &[Quantity], compute: impl Fn
             Part { first: index * ROWS, status, class, quantities: numbers.collect() }
         })
         .collect();
-    parts.into_par_iter().for_each(|mut part| compute(&mut part));
+    parts.into_par_iter().for_each(|mut part| {
+        part.quantities.iter_mut().for_each(|(_, numbers)| numbers.fill(f64::NAN));
+        compute(&mut part);
+    });
     impacts
 }

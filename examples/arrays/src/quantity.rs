@@ -59,8 +59,8 @@ quantities! {
     SpeedTangentialOut: "speed_tangential_out", End;
     /// Spin, rad/s: after a rebound, or of a captured sphere when its slip has ended.
     SpinOut: "spin_out", End;
-    /// Friction over the least that ends the slip: the sphere rolls from one on. Not with a peeling moment or compliance, nor where
-    /// `Collocation` or `RungeKuttaGill` is chosen at run time.
+    /// Friction divided by the least friction that ends the slip: from one on, the sphere rolls. Not with a peeling moment or compliance,
+    /// nor where `Collocation` or `RungeKuttaGill` is chosen at run time.
     FrictionOverLimit: "friction_over_limit", End;
     /// Peak indentation, m. Simulation.
     MaxIndentation: "max_indentation", End;

@@ -112,6 +112,22 @@ impl Adhesion<'_> {
     }
 }
 
+impl Default for RigidBodies<'_> {
+    /// Solid spheres without adhesion and friction. Radius, density and restitution are NaN, which is refused: give them.
+    fn default() -> Self {
+        let missing = Column::All(f64::NAN);
+        Self {
+            radius: missing,
+            density: missing,
+            gyration_ratio: Column::All(0.4),
+            restitution: Restitution::Constant(missing),
+            adhesion: Adhesion::Coefficient(Column::All(0.0)),
+            friction: Column::All(0.0),
+            rolling_arm: Column::All(0.0),
+        }
+    }
+}
+
 impl RigidBodies<'_> {
     /// The sphere of the numbers that `at` takes from the columns: those of a row, or of several in lanes.
     #[inline]
