@@ -7,7 +7,7 @@ use microimpact::contact::{Adaptive, Contact};
 use microimpact::{InputError, Parameter, RigidBody, Sphere};
 use numpy::PyReadonlyArray1;
 use population::{
-    Classes, Distribution, DistributionError, Estimate, Moments, Population, PopulationError, Questions, Response,
+    Classes, DIAMETERS, Distribution, DistributionError, Estimate, Moments, Population, PopulationError, Questions, Response,
     Results, RigidBodies, Simulations, SizeBin, Statistics, Stop,
 };
 use pyo3::exceptions::PyValueError;
@@ -65,7 +65,8 @@ impl Asked {
 
 fn population((diameter, speed, angle, adhesion): &Shapes<'_>, own: Column<'_>) -> PyResult<Population> {
     Ok(Population {
-        diameter: diameter.distribution("diameter", false)?,
+        diameter: (diameter.distribution("diameter", false)?.lengths_within(DIAMETERS))
+            .map_err(|error| refused_shape("diameter", error))?,
         speed: speed.distribution("speed", false)?,
         angle: angle.distribution("angle_deg", true)?.incidence().map_err(|error| refused_shape("angle_deg", error))?,
         adhesion: match adhesion {

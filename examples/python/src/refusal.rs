@@ -4,7 +4,7 @@ use microimpact::{InputError, Parameter};
 use pyo3::PyErr;
 use pyo3::exceptions::PyValueError;
 
-/// The argument that gives a parameter.
+/// The argument that gives a parameter, or those that together do.
 pub(crate) fn keyword(parameter: Parameter) -> &'static str {
     match parameter {
         Parameter::Radius => "radius",
@@ -36,6 +36,9 @@ pub(crate) fn keyword(parameter: Parameter) -> &'static str {
         Parameter::Tolerance => "tolerance",
         Parameter::Iterations => "iterations",
         Parameter::SpeedRatio => "speed_ratio",
+        Parameter::DampingRatio => "stiffness, zeta_h, zeta_a, speed_normal",
+        Parameter::AdhesionRatio => "stiffness, adhesion, work_of_adhesion, speed_normal",
+        Parameter::ForceRatio => "stiffness, external_force, speed_normal",
         // Of the scene, and not of one argument.
         other => other.name(),
     }

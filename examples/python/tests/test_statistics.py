@@ -123,10 +123,19 @@ def test_populations_refuse():
     scene = mi.Scene(density=2600, contact=CONTACT)
     with pytest.raises(ValueError, match="diameter: .*must be positive"):
         scene.population(diameter=-1e-6, speed=1.0)
+    for diameter in (8.6, mi.LogNormal(8.6, 1.3), mi.Normal(8.6, 0.1), mi.Samples([5e-6, 8.6])):
+        with pytest.raises(
+            ValueError, match="^diameter: 8.6 m is refused: it must be 2e-10 to 2 m; enter 8.6 um as 8.6e-6$"
+        ):
+            scene.population(diameter=diameter, speed=1.0)
+    with pytest.raises(ValueError, match="^diameter: the distribution reaches from .* enter a smaller deviation$"):
+        scene.population(diameter=mi.LogNormal(5e-6, 20.0), speed=1.0)
     with pytest.raises(ValueError, match="angle_deg: an angle"):
         scene.population(diameter=1e-6, speed=1.0, angle_deg=95.0)
     with pytest.raises(TypeError, match="^bins: 2.5 is refused: give a whole number, 0 to 200"):
         scene.population(diameter=1e-6, speed=1.0, bins=2.5)
+    with pytest.raises(ValueError, match="edges: 10.0 m is refused: a diameter must be at most 2.0 m"):
+        scene.population(diameter=1e-6, speed=1.0, edges=[5, 8, 10])
     with pytest.raises(ValueError, match="edges: "):
         scene.population(diameter=1e-6, speed=1.0, edges=[2e-6, 1e-6])
     with pytest.raises(ValueError, match="density: an array is refused"):

@@ -112,7 +112,7 @@ fn impossible_rows_say_why() {
         ),
         (
             "too large,10,2600,130,0.02,2.8,0,,2,0,",
-            "diameter_m: \"10\" is refused: half of it, the radius, must be 1e-10",
+            "diameter_m: \"10\" is refused: diameter must be 2e-10 to 2 m; enter 10 um as 10e-6",
         ),
         (
             "out too fast,1e-5,2600,130,0.02,2.8,1,0,2,-1e300,",

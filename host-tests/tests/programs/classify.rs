@@ -396,3 +396,16 @@ fn a_result_that_the_other_model_takes_for_an_input() {
     }
     assert!(refused > 0 && refused < written.rows.len(), "{refused}");
 }
+
+/// Numbers that only together are out of range are all named.
+#[test]
+fn numbers_that_are_wrong_together() {
+    // The stiffness of 75 GPa, entered as if the column were in GPa.
+    let table = "radius_m,density_kg_m3,stiffness_pa,zeta_h,adhesion_n_m,zeta_a,speed_normal_m_s\n5e-6,2600,75,10.5,250,6.25,2.8\n";
+    let output = run(&["-", "--format", "csv", "--model", "simulation"], table.as_bytes());
+    assert_eq!(output.status, 1);
+    let written = Written::read(&output.stdout, b',');
+    let error = written.text(0, "error");
+    assert!(error.starts_with("stiffness_pa, zeta_h, zeta_a, speed_normal_m_s: damping over elasticity is "), "{error}");
+    assert!(error.ends_with("but must be 0 to 1e9"), "{error}");
+}

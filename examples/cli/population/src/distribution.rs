@@ -18,6 +18,12 @@ const NARROWEST: f64 = 1e-9;
 /// Quantiles between which the ranges of a continuous distribution lie.
 const TAILS: [f64; 2] = [0.001, 0.999];
 
+/// The mass of a sphere is proportional to this power of its diameter.
+pub(crate) const MASS: i32 = 3;
+
+/// Larger lengths are not taken for micrometres.
+const MOST_MICROMETRES: f64 = 1e4;
+
 /// Relative room beside the smallest and the largest sample.
 const ROOM: f64 = 1e-6;
 
@@ -78,13 +84,27 @@ pub enum DistributionError {
     NoIncidence,
     /// No value lies in the range.
     OutsideRange(f64, f64),
+    /// A length is outside its range.
+    NoLength {
+        /// The length, m.
+        value: f64,
+        /// Smallest and largest valid length, m.
+        range: [f64; 2],
+    },
+    /// A distribution of lengths is wider than their range.
+    TooWide {
+        /// Between which lengths it lies, m.
+        ends: [f64; 2],
+        /// Smallest and largest valid length, m.
+        range: [f64; 2],
+    },
 }
 
 impl fmt::Display for DistributionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotFinite => f.write_str("must be finite numbers"),
-            Self::NotPositive(value) => write!(f, "{value} is refused: it must be positive"),
+            Self::NotPositive(value) => write!(f, "{value:?} is refused: it must be positive"),
             Self::NegativeDeviation(value) => {
                 write!(f, "a standard deviation of {value} is refused: it must not be negative")
             }
@@ -97,6 +117,18 @@ impl fmt::Display for DistributionError {
                 write!(f, "an angle of incidence must be 0 to {LARGEST_ANGLE} degrees from the normal")
             }
             Self::OutsideRange(low, high) => write!(f, "no value lies in the range {low:e} to {high:e}"),
+            Self::NoLength { value, range: [smallest, largest] } => {
+                write!(f, "{value:?} m is refused: it must be {smallest:e} to {largest} m")?;
+                if (*largest..MOST_MICROMETRES).contains(value) {
+                    write!(f, "; enter {value:?} um as {value:?}e-6")?;
+                }
+                Ok(())
+            }
+            Self::TooWide { ends: [low, high], range: [smallest, largest] } => write!(
+                f,
+                "the distribution reaches from {low:.1e} to {high:.1e} m, but must lie within {smallest:e} to {largest} m; \
+                 enter a smaller deviation"
+            ),
         }
     }
 }
@@ -234,6 +266,35 @@ impl Distribution {
         }
         let inside = if self.is_continuous() { self.within(0.0, LARGEST_ANGLE)? } else { self };
         Ok(inside.scaled(1.0_f64.to_radians()))
+    }
+
+    /// Lengths in metres, such as the [diameters](crate::DIAMETERS) of spheres: each value lies in a range, and so does the distribution by
+    /// mass.
+    ///
+    /// # Errors
+    /// The median, mean or a sample is outside the range, or the distribution is too wide for it.
+    ///
+    /// ```
+    /// use population::{DIAMETERS, Distribution};
+    ///
+    /// let refused = Distribution::log_normal(8.6, 1.3)?.lengths_within(DIAMETERS).unwrap_err();
+    /// assert_eq!(refused.to_string(), "8.6 m is refused: it must be 2e-10 to 2 m; enter 8.6 um as 8.6e-6");
+    /// # Ok::<(), population::DistributionError>(())
+    /// ```
+    pub fn lengths_within(self, range: [f64; 2]) -> Result<Self, DistributionError> {
+        let [smallest, largest] = range;
+        let is_outside = |value: &f64| !(smallest..=largest).contains(value);
+        let stated = match &self.shape {
+            Shape::Fixed(value) | Shape::Normal { mean: value, .. } | Shape::LogNormal { median: value, .. } => {
+                std::slice::from_ref(value)
+            }
+            Shape::Samples(values) => values,
+        };
+        if let Some(value) = stated.iter().copied().find(is_outside) {
+            return Err(DistributionError::NoLength { value, range });
+        }
+        let ends = [self.bounds()[0], self.clone().weighted(MASS).bounds()[1]];
+        if ends.iter().any(is_outside) { Err(DistributionError::TooWide { ends, range }) } else { Ok(self) }
     }
 
     /// The values of a distribution that is not continuous.

@@ -41,7 +41,7 @@ pub use distribution::{Distribution, DistributionError};
 pub use outcome::Stop;
 pub use response::{Rebound, Response, RigidBodies, Simulations};
 pub use results::{Bounce, Classes, Questions, Results};
-pub use statistics::{Estimate, Moments, Outcomes, Population, SizeBin, Statistics, wilson};
+pub use statistics::{DIAMETERS, Estimate, Moments, Outcomes, Population, SizeBin, Statistics, wilson};
 
 /// Why there are no statistics.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,11 @@
 //! Statistics of a population: classes, capture efficiency by size, bounce fraction by speed, and moments of the restitution.
 
+use microimpact::Parameter;
 #[cfg(feature = "serde")]
 use serde::Serialize;
 
 use crate::PopulationError;
-use crate::distribution::Distribution;
+use crate::distribution::{Distribution, MASS};
 use crate::interpolation::{Fineness, Interpolated};
 use crate::outcome::{ADHESION, ANGLE, DIAMETER, POWERS, Problem, SPEED, Stop, VARIABLES};
 use crate::quadrature::{Integrals, QUANTITIES, TOLERANCE};
@@ -12,6 +13,9 @@ use crate::response::Response;
 
 /// Two interpolations of a response, a coarse one and a fine one. The difference of the results estimates the error.
 const INTERPOLATIONS: [Fineness; 2] = [Fineness { distance: 0.3, speeds: 16 }, Fineness { distance: 0.2, speeds: 24 }];
+
+/// Smallest and largest diameter of a sphere, m.
+pub const DIAMETERS: [f64; 2] = [2.0 * Parameter::Radius.range().0, 2.0 * Parameter::Radius.range().1];
 
 /// A population of spheres that do not spin before they meet a surface. The quantities are independent of each other.
 #[derive(Clone, Debug)]
@@ -294,9 +298,6 @@ impl<'a, R: Response> Statistics<'a, R> {
         distributions
     }
 }
-
-/// The power of the diameter to which the mass of a sphere is proportional.
-const MASS: i32 = 3;
 
 fn distributions(population: &Population) -> [Distribution; VARIABLES] {
     let Population { diameter, adhesion, angle, speed } = population.clone();

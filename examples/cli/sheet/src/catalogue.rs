@@ -291,7 +291,7 @@ columns! {
     "spin_implied_rad_s" "rad/s" ANY, "", "spin before the impact that rolling at separation implies, where none was measured";
     "critical_speed_m_s" "m/s" POSITIVE, "", "speed at which, and below which, spheres are captured";
     "critical" "" Range::Words("speed, always rebounds or never rebounds"), "", "whether there is a critical speed from 1e-12 to 1e6 m/s";
-    // The course of an impact.
+    // Impacts in time.
     "time_s" "s" POSITIVE, "", "time from first contact";
     "indentation_m" "m" ANY, "", "indentation";
     "indentation_rate_m_s" "m/s" ANY, "", "rate of the indentation: positive on the way in, negative on the way out";

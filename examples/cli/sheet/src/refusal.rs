@@ -5,6 +5,9 @@ use microimpact::{Fault, ImpactError, Parameter};
 use crate::Row;
 use crate::catalogue::{COLUMNS, Range};
 
+/// Larger diameters are not taken for micrometres.
+const MOST_MICROMETRES: f64 = 1e4;
+
 /// The columns that can give a parameter.
 fn columns(parameter: Parameter) -> Vec<&'static str> {
     let parameter = match parameter {
@@ -14,6 +17,9 @@ fn columns(parameter: Parameter) -> Vec<&'static str> {
     let by_range = COLUMNS.iter().filter(|column| column.range == Range::Of(parameter)).map(|column| column.name);
     let others: &[&str] = match parameter {
         Parameter::Radius => &["diameter_m"],
+        Parameter::DampingRatio => &["stiffness_pa", "zeta_h", "zeta_a", "damping_value", "speed_normal_m_s"],
+        Parameter::AdhesionRatio => &["stiffness_pa", "adhesion_n_m", "work_of_adhesion_j_m2", "speed_normal_m_s"],
+        Parameter::ForceRatio => &["stiffness_pa", "external_force_n", "speed_normal_m_s"],
         Parameter::MaterialDamping | Parameter::RelaxationTime | Parameter::NominalRestitution => &["damping_value"],
         _ => &[],
     };
@@ -33,6 +39,11 @@ impl Row<'_> {
         if input.parameter == Parameter::NormalLength {
             return format!("{}: {message}", columns(input.parameter).join(", "));
         }
+        // They are wrong only together.
+        if matches!(input.parameter, Parameter::DampingRatio | Parameter::AdhesionRatio | Parameter::ForceRatio) {
+            let given: Vec<_> = columns(input.parameter).into_iter().filter(|column| self.has(column)).collect();
+            return format!("{}: {message}", given.join(", "));
+        }
         if input.fault == Fault::Receding {
             let velocity = columns(Parameter::VelocityComponent).into_iter();
             let given: Vec<_> = velocity.filter(|column| self.has(column)).collect();
@@ -46,15 +57,23 @@ impl Row<'_> {
         });
         // A range that two columns share is symmetric, so that the larger number is the one outside it.
         let largest = given.max_by(|(a, ..), (b, ..)| a.total_cmp(b));
-        let (Some((_, column, text)), Some((_, demand))) = (largest, message.split_once(", but must ")) else {
+        let (Some((number, column, text)), Some((_, demand))) = (largest, message.split_once(", but must ")) else {
             return message;
         };
         let (name, header) = (input.parameter.name(), self.name_in_header(column));
         let range = demand.split_once(';').map_or(demand, |(range, _)| range);
-        // The remedy has the number of the library, which is that of the radius, and in its own unit.
+        // The library speaks of the radius.
         if column == "diameter_m" {
-            return format!("{header}: \"{text}\" is refused: half of it, the {name}, must {range}");
+            let (smallest, largest) = input.parameter.range();
+            let refused = format!(
+                "{header}: \"{text}\" is refused: diameter must be {:e} to {} m",
+                2.0 * smallest,
+                2.0 * largest
+            );
+            let is_micrometres = header == column && (2.0 * largest..MOST_MICROMETRES).contains(&number);
+            return refused + &if is_micrometres { format!("; enter {text} um as {number}e-6") } else { String::new() };
         }
+        // The remedy has the number of the library, in its own unit.
         if header != column {
             let turned = text.strip_prefix('-').filter(|_| input.parameter == Parameter::ApproachSpeed);
             let remedy = turned.map_or_else(String::new, |turned| format!("; enter {text} as {turned}"));

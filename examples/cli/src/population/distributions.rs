@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::slice::from_ref;
 
-use population::{Distribution, DistributionError};
+use population::{DIAMETERS, Distribution, DistributionError};
 use sheet::{Input, Row, Sheet};
 
 use super::Model;
@@ -125,8 +125,13 @@ impl Quantity {
             return Err(format!("{}: given twice, by {}; keep one of them", self.column(), ways.join(" and ")));
         }
         let refused = |way: &'static Way| move |error: DistributionError| format!("{}: {error}", way.column);
+        let scaled = |distribution: Distribution, way: &'static Way| {
+            let range = DIAMETERS.map(|diameter| diameter / way.factor);
+            let checked = if self.is_size() { distribution.lengths_within(range) } else { Ok(distribution) };
+            checked.map(|valid| valid.scaled(way.factor)).map_err(refused(way))
+        };
         let (distribution, deviation) = if let [(way, values)] = sampled[..] {
-            (self.of_samples(values.clone()).map_err(refused(way))?.scaled(way.factor), None)
+            (scaled(self.of_samples(values.clone()).map_err(refused(way))?, way)?, None)
         } else if let [way] = filled[..] {
             let number = row.required(way.column)?;
             let distribution = match way.form {
@@ -139,7 +144,7 @@ impl Quantity {
                 Form::Value if self.default.is_none() => Distribution::samples(vec![number]),
                 Form::Value => Distribution::fixed(number),
             };
-            (distribution.map_err(refused(way))?.scaled(way.factor), way.form.deviation())
+            (scaled(distribution.map_err(refused(way))?, way)?, way.form.deviation())
         } else {
             return Ok(None);
         };
@@ -156,6 +161,10 @@ impl Quantity {
 
     fn is_angle(&self) -> bool {
         self.column() == ANGLE.column()
+    }
+
+    fn is_size(&self) -> bool {
+        self.column() == DIAMETER.column()
     }
 
     fn of_samples(&self, values: Vec<f64>) -> Result<Distribution, DistributionError> {

@@ -15,6 +15,9 @@ from .distributions import Distributed, LogNormal
 MOST_BINS = 200
 """Largest number of ranges of diameters."""
 
+LARGEST_EDGE = 2.0
+"""Largest diameter of a sphere, m."""
+
 PARTICLES = 100
 """Particles observed at each speed, where nothing else is said."""
 
@@ -111,8 +114,12 @@ class Population:
         """Asks Rust for the statistics."""
         bins = whole_number("bins", bins, 0, MOST_BINS)
         edge = number_array("edges", edges).reshape(-1).tolist()
-        if edge and (len(edge) < 2 or edge[0] <= 0.0 or not all(a < b < np.inf for a, b in zip(edge, edge[1:]))):
+        if edge and (len(edge) < 2 or edge[0] <= 0.0 or not all(a < b for a, b in zip(edge, edge[1:]))):
             raise ValueError("edges: give two or more positive diameters in m, in increasing order")
+        if edge and not edge[-1] <= LARGEST_EDGE:
+            raise ValueError(
+                f"edges: {edge[-1]} m is refused: a diameter must be at most {LARGEST_EDGE} m; enter 5 um as 5e-6"
+            )
         fast = number_array("speeds", speeds).reshape(-1).tolist()
         if not all(np.isfinite(value) and value > 0.0 for value in fast):
             raise ValueError("speeds: give positive speeds in m/s")

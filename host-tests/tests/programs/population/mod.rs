@@ -157,7 +157,7 @@ fn a_size_is_a_diameter_or_a_radius() {
         (&["radius_m=4e-6"], &["--samples", &diameters.0], "given twice, by radius_m and --samples diameter_m"),
         (&["radius_median_m=4e-6", "diameter_geometric_deviation=1.2"], &[], "radius_geometric_deviation: missing"),
         (&["radius_m=4e-6", "diameter_deviation_m=1e-7"], &[], "diameter_deviation_m: it goes with another way"),
-        (&["radius_m=-4e-6"], &[], "radius_m: -0.000004 is refused: it must be positive"),
+        (&["radius_m=-4e-6"], &[], "radius_m: -4e-6 is refused: it must be positive"),
     ] {
         let output = run(size, samples);
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -243,7 +243,13 @@ fn says_what_it_refuses() {
         format!("{header}\n{}\n", cells.join(","))
     };
     for (column, value, words) in [
-        ("diameter_median_m", "-1e-6", "diameter_median_m: -0.000001 is refused: it must be positive"),
+        ("diameter_median_m", "-1e-6", "diameter_median_m: -1e-6 is refused: it must be positive"),
+        (
+            "diameter_median_m",
+            "8.6",
+            "diameter_median_m: 8.6 m is refused: it must be 2e-10 to 2 m; enter 8.6 um as 8.6e-6",
+        ),
+        ("diameter_geometric_deviation", "20", "diameter_median_m: the distribution reaches from "),
         ("diameter_geometric_deviation", "0.5", "it must be at least 1"),
         ("diameter_geometric_deviation", "", "diameter_geometric_deviation: missing"),
         ("speed_median_m_s", "", "speed_m_s or speed_median_m_s or speed_mean_m_s: missing"),
