@@ -1,4 +1,4 @@
-/// Restitution: density 2600 kg/m^3, K 7.5e10 Pa, f0 250 N/m, zeta_H 10.5, zeta_A 6.25; greatest error 6.2e-4.
+/// Restitution: density 2600 kg/m^3, K 7.5e10 Pa, f0 250 N/m, zeta_H 10.5, zeta_A 6.25; greatest error 6.3e-4.
 static RESTITUTION: microimpact::table::RestitutionTable<f32, 4, 12, 12> = {
     use microimpact::table::{BoundaryTable, RestitutionParts, RestitutionTable};
     let Ok(boundary) = BoundaryTable::from_parts(1.9073486e-6, 592, [

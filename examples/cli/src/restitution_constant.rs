@@ -3,6 +3,7 @@
 use std::error::Error;
 use std::io::Write;
 
+use export::rounded_up;
 use microimpact::contact::{Adaptive, AnyLaw, Contact, Impulses};
 use microimpact::table::{BoundaryTable, RestitutionParts, RestitutionTable, TableRebound};
 use microimpact::{InputError, NormalMotion, Parameter, Sphere};
@@ -70,7 +71,7 @@ impl Subject {
         let RestitutionParts { boundary, nodes, first, per_octave, per_root, end, .. } = table.parts();
         let RestitutionParts { error, impulse_error, near, impulse_over_restitution, .. } = table.parts();
         let (smallest, margin, cells) = boundary.parts();
-        writeln!(to, "/// Restitution: {}; greatest error {error:.1e}.", self.materials)?;
+        writeln!(to, "/// Restitution: {}; greatest error {:e}.", self.materials, rounded_up(error.into()))?;
         writeln!(to, "static RESTITUTION: microimpact::table::RestitutionTable<f32, {N}, {RADII}, {SPEEDS}> = {{")?;
         writeln!(to, "    use microimpact::table::{{BoundaryTable, RestitutionParts, RestitutionTable}};")?;
         writeln!(to, "    let Ok(boundary) = BoundaryTable::from_parts({smallest:e}, {margin}, [")?;

@@ -8,6 +8,7 @@ use std::error::Error;
 use std::io::{self, Write};
 
 use clap::{Args, ValueEnum};
+use export::rounded_up;
 use microimpact::contact::{AnyLaw, Collocation, Contact};
 use microimpact::table::BoundaryTable;
 use microimpact::{InputError, Sphere};
@@ -198,7 +199,7 @@ fn run(options: &Options, streams: &mut Streams<'_>) -> Result<(), Box<dyn Error
             error.into()
         }
     })?;
-    let subject = format!("{}; greatest relative error {:.1e}", options.materials(), parts.relative_margin);
+    let subject = format!("{}; greatest relative error {:e}", options.materials(), rounded_up(parts.relative_margin));
     match written {
         Written::Rust => rust(to, &parts, &subject),
         Written::C => c(to, &parts, &subject),

@@ -4,6 +4,7 @@
 //! several radii. Each format has a module with a function `write`.
 
 pub mod acutrace;
+mod bound;
 pub mod comsol;
 pub mod csv;
 mod curve;
@@ -11,5 +12,6 @@ pub mod fluent;
 pub mod openfoam;
 mod table;
 
+pub use bound::rounded_up;
 pub use curve::{Curve, Point};
 pub use table::{Difference, Table};

@@ -1,6 +1,6 @@
 //! Curves of several radii.
 
-use crate::Curve;
+use crate::{Curve, rounded_up};
 
 /// Restitution against approach speed, of spheres of several radii on one surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -112,9 +112,9 @@ impl Table {
             self.range_in_words(),
         ];
         if let Some(Difference { critical_speed, restitution }) = self.between_radii {
-            let percent = 100.0 * critical_speed;
+            let (percent, restitution) = (rounded_up(100.0 * critical_speed), rounded_up(restitution));
             lines.push(format!(
-                "Between two radii the error of the critical speed is up to {percent:.2} %, and that of e up to {restitution:.4} \
+                "Between two radii the error of the critical speed is up to {percent} %, and that of e up to {restitution} \
                  at the same multiple of the critical speed."
             ));
         }
