@@ -56,6 +56,8 @@ def test_views_lists_and_integers():
         ["2.8", "3"],
         [2.8, None],
         [[2.8], [1, 2]],
+        True,
+        [True, False],
     ],
 )
 def test_what_is_no_number_is_refused(value):
@@ -133,6 +135,11 @@ def test_statuses_on_request():
     assert list(impacts.class_name)[1] == "" and "2 without a result" in repr(impacts)
     radii = mi.Scene(radius=[1e-6, -1.0], density=2600, contact=SCENE.contact).critical_speed(errors="status")
     assert list(np.isnan(radii)) == [False, True]
+    soft = mi.Scene(radius=1e-6, density=2600, contact=mi.Ring(stiffness=75, adhesion=250, zeta_h=10.5, zeta_a=6.25))
+    together = "stiffness, zeta_h, zeta_a, speed_normal"
+    assert soft.simulate(2.8, errors="status").parameter == together
+    with pytest.raises(ValueError, match=f"^{together}: damping over elasticity is .*, but must be 0 to 1e9"):
+        soft.simulate(2.8)
     with pytest.raises(ValueError, match="errors: "):
         SCENE.simulate(1.0, errors="ignore")
 

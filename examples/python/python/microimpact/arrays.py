@@ -40,7 +40,7 @@ def number_array(name: str, value: npt.ArrayLike) -> Float:
     """An argument as an array, with NaN for what a mask hides; the error names the argument."""
     try:
         array = np.asanyarray(value)
-        numbers = array.dtype.kind in "biuf" or (
+        numbers = array.dtype.kind in "iuf" or (
             array.dtype.kind == "O" and all(isinstance(each, Real) for each in array.ravel())
         )
         if not numbers:

@@ -126,7 +126,7 @@ def fit(
             f"{measured[0]}_error": assumed if error is None else error,
             "mass": 1.0 if mass is None else mass,
             "mass_relative_error": mass_relative_error,
-            "captured": 0.0 if captured is None else captured,
+            "captured": 0.0 if captured is None else _truth(captured),
         }
     )
     columns = [np.array(np.broadcast_to(value, (broadcast.count,))) for value in broadcast.numbers.values()]
@@ -143,6 +143,12 @@ def fit(
     )
     at_rest = rebound == 0.0 if is_captured is None else is_captured
     return _fit(answer, (speed, np.where(at_rest, 0.0, rebound if as_restitutions else rebound / speed)))
+
+
+def _truth(values: npt.ArrayLike) -> npt.ArrayLike:
+    """Truth values as zeros and ones."""
+    array = np.asanyarray(values)
+    return array.astype(np.float64) if array.dtype.kind == "b" else values
 
 
 def _require_truth(name: str, values: Float) -> None:
