@@ -159,10 +159,12 @@ class FixWall : public Fix {
 
   void demand(MicroimpactStatus status, const MicroimpactError &refused, const std::string &of_what) {
     if (status == MICROIMPACT_STATUS_OK) return;
-    char name[64] = "";
+    char name[MICROIMPACT_LARGEST_TEXT] = "", unit[MICROIMPACT_LARGEST_TEXT] = "";
     microimpact_parameter_name(refused.parameter, name, sizeof name);
-    error->one(FLERR, "fix microimpact/wall: {}{} must be {} to {} (status {})", name, of_what, refused.smallest, refused.largest,
-               static_cast<int>(status));
+    microimpact_parameter_unit(refused.parameter, unit, sizeof unit);
+    const std::string in_unit = strcmp(unit, "1") == 0 ? "" : std::string(" ") + unit;
+    error->one(FLERR, "fix microimpact/wall: {}{} is {:g}{}, but must be {:g} to {:g}{} (status {})", name, of_what, refused.value, in_unit,
+               refused.smallest, refused.largest, in_unit, static_cast<int>(status));
   }
 
   void hold(int i) {

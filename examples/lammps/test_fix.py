@@ -55,7 +55,7 @@ def one_sphere(speed, arguments=GLASS_ON_STEEL, units="si", commands=(), steps=2
         ("stiffness 7.5e10 adhesoin 250", "there is no adhesoin"),
         ("stiffness 7.5e10 friction", "friction has no value"),
         ("stiffness 7.5e10 friction -1", "friction.* must be 0 to"),
-        ("stiffness 0.1", "stiffness must be 1 to"),
+        ("stiffness 0.1", "stiffness is 0.1 Pa, but must be 1 to 1e.16 Pa"),
     ],
 )
 def test_arguments_that_are_refused(arguments, message):
