@@ -1,4 +1,4 @@
-//! The course of an impact: indentation, velocity and force against time, in a bounded number of samples.
+//! An impact in time: indentation, velocity and force against time, in a bounded number of samples.
 //!
 //! The samples are nodes of the intervals, which come in the order of time. When the room is spent, the gap that has to lie
 //! between a sample and the one before it is doubled, and what comes sooner is dropped: the largest gap stays below twice
@@ -67,7 +67,7 @@ impl<T: Real> Sample<T> {
     }
 }
 
-/// The course of an impact in at most `N` samples, four or more, however many steps the motion takes.
+/// The motion and forces of an impact in time, in at most `N` samples, four or more, however many steps the motion takes.
 ///
 /// First contact, peak, the moment at which the sphere begins to roll, and the end are among them; of so many nodes that they
 /// have to be thinned, the others are spread evenly over time.

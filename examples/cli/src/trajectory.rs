@@ -1,4 +1,4 @@
-//! The course of impacts: indentation, its rate and the force against time, by the contact simulation. A captured sphere is followed
+//! Impacts in time: indentation, its rate and the force at each moment, by the contact simulation. A captured sphere is followed
 //! until it first turns back or, if it creeps, to rest.
 //!
 //! `cargo microimpact trajectory` shows an impact of the paper;
@@ -19,7 +19,7 @@ use crate::contact_law::LAW_INPUTS;
 use crate::figure;
 use crate::inputs::{FRICTION_INPUT, PEELING_INPUT};
 
-/// Compute the course of impacts: indentation, its rate and the force against time, by the contact simulation
+/// Compute impacts in time: indentation, its rate and the force at each moment, by the contact simulation
 #[derive(Args)]
 #[command(after_help = "\
 Example: glass on steel at 2.8 m/s
@@ -116,7 +116,7 @@ fn samples(sheet: &mut Sheet<'_>, method: &Adaptive<f64>) -> Result<(Vec<Vec<Val
     Ok((records, curves, bad_rows))
 }
 
-/// The course of the impact of a row, and when the sphere begins to roll.
+/// The impact of a row in time, and when the sphere begins to roll.
 fn course(row: &Row<'_>, method: &Adaptive<f64>) -> Result<(Trajectory<f64, SAMPLES>, Option<f64>), String> {
     let (arrival, _, scene) = scene::<f64>(row)?;
     let scene = scene.with_peeling(row.or_zero("peeling_n_m")?).map_err(|error| row.reason(error))?;

@@ -34,7 +34,7 @@ pub enum LinkError {
     Silence,
     /// A reply that was damaged.
     Damaged(FrameFault),
-    /// An instrument of another version or schema.
+    /// The instrument has another version or schema.
     Other(ReplyFault),
     /// A reply that nobody has asked for, or a second one.
     Unexpected(Box<ToHost>),

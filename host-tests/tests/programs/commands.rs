@@ -125,7 +125,7 @@ fn formats_agree() {
     }
 }
 
-/// The course of an impact agrees with the impact: peak, end, speed of the rebound.
+/// What `trajectory` writes agrees with the impact: peak, end, speed of the rebound.
 #[test]
 fn a_trajectory_is_that_of_its_impact() {
     let table = "name;radius_um;density_kg_m3;stiffness_gpa;adhesion_n_m;zeta_h;zeta_a;friction;speed_normal_m_s;spin_rad_s\n\

@@ -1,4 +1,4 @@
-//! The recorded course of an impact: what is kept of it, how evenly, and how exactly.
+//! An impact recorded in time: what is kept of it, how evenly, and how exactly.
 
 use crate::everything::{EVERYTHING, Everything};
 use microimpact::contact::{

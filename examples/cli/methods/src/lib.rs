@@ -15,9 +15,11 @@
 //!
 //! let refused = MethodChoice::Collocation { nodes: 4, tolerance: 1e-9 }.simulator(Times);
 //! assert!(matches!(refused, Err(Refusal::Nodes { nodes: 4, .. })));
-//! # Ok::<(), Refusal>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use std::error::Error;
+use std::fmt;
 use std::ops::RangeInclusive;
 
 use microimpact::contact::{
@@ -125,6 +127,17 @@ pub enum Refusal {
     Input(InputError),
 }
 
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Nodes { nodes, offered } => write!(f, "{nodes} nodes are not offered; choose one of {offered:?}"),
+            Self::Input(error) => error.fmt(f),
+        }
+    }
+}
+
+impl Error for Refusal {}
+
 impl From<InputError> for Refusal {
     fn from(error: InputError) -> Self {
         Self::Input(error)
@@ -211,7 +224,7 @@ const ENERGY_AT_REST: f64 = 1e-6;
 /// Turning points on the way to rest; one that creeps has none.
 const TURNING_POINTS: u32 = 1000;
 
-/// The course of an impact. A captured sphere is followed until it first turns back after the peak or, where damping lets it creep
+/// An impact in time. A captured sphere is followed until it first turns back after the peak or, where damping lets it creep
 /// instead, to rest. `None` if the simulation does not converge.
 ///
 /// # Errors

@@ -101,8 +101,8 @@ class Impacts:
     speed_tangential_out: Float
     """Tangential velocity, m/s: after a rebound, or of a captured sphere when its slip has ended."""
     friction_over_limit: Float
-    """Friction over the least that ends the slip; the sphere rolls from one on. NaN with a peeling moment or a `stiffness_ratio`,
-    and by another method than `Adaptive`."""
+    """Friction divided by the least friction that ends the slip: from one on, the sphere rolls. NaN with a peeling moment or a
+    `stiffness_ratio`, and by another method than `Adaptive`."""
     spin_out: Float
     """Spin after the impact, rad/s; vectors for impacts in space."""
     velocity_out: Float
@@ -149,7 +149,7 @@ class Impacts:
 
     @property
     def parameter(self) -> npt.NDArray[np.str_]:
-        """The argument that was refused in each impact; empty where none was."""
+        """The argument that was refused in each impact, or those that only together are out of range; empty where none was."""
         return np.asarray(np.array([*_native.PARAMETERS, ""])[self._parameter])
 
     def with_margin(self, speed_normal: npt.ArrayLike, critical: Float) -> Impacts:

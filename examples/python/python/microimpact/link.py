@@ -104,7 +104,7 @@ class LinkError(Exception):
 
 
 class SchemaError(LinkError):
-    """An instrument of another version, number type, reading or set of classes: what it sends must not be read."""
+    """The instrument has another version, number type, reading or set of classes: do not read what it sends."""
 
 
 @dataclass(frozen=True)

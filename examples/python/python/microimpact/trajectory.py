@@ -11,7 +11,7 @@ from .arrays import Float
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Trajectory:
-    """The course of an impact: arrays with a number for each moment, from first contact on."""
+    """The motion and forces during an impact: arrays with a number for each moment, from first contact on."""
 
     time: Float
     """Time from first contact, s."""
