@@ -1,5 +1,9 @@
 //! A method with one setting, and what it answers.
 
+use std::hint::black_box;
+
+use crate::race::{self, Sample};
+
 /// What a method says of a contact, as far as it does.
 #[derive(Clone, Copy)]
 pub struct Answer {
@@ -30,6 +34,33 @@ impl Answer {
     }
 }
 
+/// What a method is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Asked {
+    /// e alone.
+    Restitution,
+    /// e, contact time and Hertz impulse.
+    Outputs,
+}
+
+/// Solves the impacts that it was made for, one after another.
+pub trait Solver {
+    /// Solves all of them, and tells each answer; `None` where it gives up.
+    fn solve(&mut self, tell: &mut dyn FnMut(Option<Answer>));
+
+    /// Time of doing so, repeated.
+    fn time(&mut self, repeats: u32) -> Sample {
+        race::time(&mut || self.solve(&mut |answer| _ = black_box(answer)), repeats)
+    }
+}
+
+/// One impact.
+impl<F: FnMut() -> Option<Answer>> Solver for F {
+    fn solve(&mut self, tell: &mut dyn FnMut(Option<Answer>)) {
+        tell(self());
+    }
+}
+
 /// A method with one setting.
 pub struct Contestant {
     /// Whose settings compete for one row: a method of this library, or a peer.
@@ -38,8 +69,8 @@ pub struct Contestant {
     pub method: String,
     /// What sets the error.
     pub setting: String,
-    /// Solves the contact; `None` where the solver gives up.
-    pub run: Box<dyn FnMut() -> Option<Answer>>,
+    /// What it does.
+    pub solver: Box<dyn Solver>,
 }
 
 impl Contestant {
@@ -50,7 +81,34 @@ impl Contestant {
         setting: impl Into<String>,
         run: impl FnMut() -> Option<Answer> + 'static,
     ) -> Self {
-        Self { entry, method: method.into(), setting: setting.into(), run: Box::new(run) }
+        Self::of(entry, method, setting, run)
+    }
+
+    /// The same for any number of impacts.
+    pub fn of(
+        entry: &'static str,
+        method: impl Into<String>,
+        setting: impl Into<String>,
+        solver: impl Solver + 'static,
+    ) -> Self {
+        Self { entry, method: method.into(), setting: setting.into(), solver: Box::new(solver) }
+    }
+
+    /// The answer to the last of its impacts.
+    pub fn answer(&mut self) -> Option<Answer> {
+        let mut last = None;
+        self.solver.solve(&mut |answer| last = answer);
+        last
+    }
+
+    /// The answers to all of its impacts; `None` if it gives up one of them.
+    pub fn answers(&mut self) -> Option<Vec<Answer>> {
+        let mut answers = Some(Vec::new());
+        self.solver.solve(&mut |answer| match (answer, &mut answers) {
+            (Some(answer), Some(answers)) => answers.push(answer),
+            _ => answers = None,
+        });
+        answers
     }
 }
 

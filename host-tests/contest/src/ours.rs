@@ -1,55 +1,57 @@
-//! The methods of this library, from a scene and a motion in SI units.
+//! The methods of this library, from scenes and motions in SI units.
 
 use std::hint::black_box;
+use std::marker::PhantomData;
+use std::rc::Rc;
 
 use microimpact::contact::{
-    Adaptive, Collocation, FixedCost, Impulses, Method, Nodes, RingScene, RungeKuttaGill, Surface, Times,
+    Adaptive, Collocation, Contact, ContactLaw, FixedCost, Impulses, Method, Nodes, PhaseSamples, RungeKuttaGill,
+    Surface, Times,
 };
 use microimpact::{Approach, Real, Stiffness};
 use reference::Case;
 
-use crate::contestant::{Answer, Contestant, tolerances};
+use crate::contestant::{Answer, Asked, Contestant, Solver, tolerances};
 use crate::problem::Problem;
-use crate::scene::{normal_scene, solved};
+use crate::scene::{hertz_scene, normal_scene, solved};
 
-pub use microimpact_scenes::methods::ours::COLLOCATION;
-use microimpact_scenes::methods::ours::{ADAPTIVE, FIXED_COST, PAPER};
+use microimpact_scenes::methods::ours::PAPER;
+pub use microimpact_scenes::methods::ours::{ADAPTIVE, COLLOCATION, FIXED_COST};
 
 /// Collocation in single precision.
 pub const SINGLE_PRECISION: &str = "Collocation, f32";
 
 /// The normal motion.
 pub fn normal(case: &Case) -> Vec<Contestant> {
-    let (impact, single) = (normal_scene::<f64>(case), normal_scene::<f32>(case));
-    let mut all = collocation::<5, f64>(COLLOCATION, impact);
-    all.extend(collocation::<6, f64>(COLLOCATION, impact));
-    all.extend(collocation::<7, f64>(COLLOCATION, impact));
-    all.extend(collocation::<8, f64>(COLLOCATION, impact));
-    all.extend(collocation::<9, f64>(COLLOCATION, impact));
-    all.extend(collocation::<10, f64>(COLLOCATION, impact));
-    all.extend(collocation::<12, f64>(COLLOCATION, impact));
-    all.extend(collocation::<14, f64>(COLLOCATION, impact));
-    all.extend(adaptive(impact));
-    all.extend(collocation::<6, f32>(SINGLE_PRECISION, single));
-    all.extend(collocation::<8, f32>(SINGLE_PRECISION, single));
-    all.extend(fixed_cost::<5>(case));
-    all.extend(fixed_cost::<6>(case));
-    all.extend(fixed_cost::<7>(case));
-    all.extend(fixed_cost::<8>(case));
-    all.extend(paper_method(impact));
+    let single = [normal_scene::<f32>(case)].into();
+    let impacts = [normal_scene::<f64>(case)].into();
+    let mut all = general(&impacts, Asked::Outputs);
+    all.extend(collocation::<6, f32>(SINGLE_PRECISION, &single, Asked::Outputs));
+    all.extend(collocation::<8, f32>(SINGLE_PRECISION, &single, Asked::Outputs));
+    all.extend(fixed_costs(&impacts, Asked::Outputs));
+    all.extend(paper_method(&impacts));
     all
 }
 
 /// The same impact with friction and spin.
 pub fn oblique(case: &Case) -> Vec<Contestant> {
-    let impact = (case.scene::<f64>().unwrap(), case.motion().unwrap());
-    let mut all = collocation::<6, f64>(COLLOCATION, impact);
-    all.extend(collocation::<7, f64>(COLLOCATION, impact));
-    all.extend(collocation::<9, f64>(COLLOCATION, impact));
-    all.extend(collocation::<12, f64>(COLLOCATION, impact));
-    all.extend(adaptive(impact));
-    all.extend(paper_method(impact));
+    let impacts = [(case.scene::<f64>().unwrap(), case.motion().unwrap())].into();
+    let mut all = collocation::<6, f64>(COLLOCATION, &impacts, Asked::Outputs);
+    all.extend(collocation::<7, f64>(COLLOCATION, &impacts, Asked::Outputs));
+    all.extend(collocation::<9, f64>(COLLOCATION, &impacts, Asked::Outputs));
+    all.extend(collocation::<12, f64>(COLLOCATION, &impacts, Asked::Outputs));
+    all.extend(adaptive(&impacts, Asked::Outputs));
+    all.extend(paper_method(&impacts));
     all
+}
+
+/// All methods but the paper's on the normal motion of impacts, one after another. Without adhesion the scene has none.
+pub fn in_turn(cases: &[Case], asked: Asked) -> Vec<Contestant> {
+    if cases.iter().all(|case| case.number("adhesion_n_m") == 0.0) {
+        methods(&cases.iter().map(hertz_scene::<f64>).collect(), asked)
+    } else {
+        methods(&cases.iter().map(normal_scene::<f64>).collect(), asked)
+    }
 }
 
 /// The equations that peers are given.
@@ -59,18 +61,58 @@ pub fn problem(case: &Case) -> Problem {
     Problem::new(&scene, stiffness, &motion)
 }
 
-/// A scene and a motion, for any method.
-trait Impact<T: Real>: Copy + 'static {
-    fn answer(&self, method: &impl Method<T>) -> Option<Answer>;
+fn methods<I: Impact<f64>>(impacts: &Rc<[I]>, asked: Asked) -> Vec<Contestant> {
+    let mut all = general(impacts, asked);
+    all.extend(fixed_costs(impacts, asked));
+    all
 }
 
-impl<T, S, B> Impact<T> for (RingScene<T, S>, B)
+/// The methods with a tolerance.
+fn general<I: Impact<f64>>(impacts: &Rc<[I]>, asked: Asked) -> Vec<Contestant> {
+    let mut all = collocation::<5, f64>(COLLOCATION, impacts, asked);
+    all.extend(collocation::<6, f64>(COLLOCATION, impacts, asked));
+    all.extend(collocation::<7, f64>(COLLOCATION, impacts, asked));
+    all.extend(collocation::<8, f64>(COLLOCATION, impacts, asked));
+    all.extend(collocation::<9, f64>(COLLOCATION, impacts, asked));
+    all.extend(collocation::<10, f64>(COLLOCATION, impacts, asked));
+    all.extend(collocation::<12, f64>(COLLOCATION, impacts, asked));
+    all.extend(collocation::<14, f64>(COLLOCATION, impacts, asked));
+    all.extend(adaptive(impacts, asked));
+    all
+}
+
+/// `FixedCost` with three nodes more for outputs, which impulses take.
+fn fixed_costs<I: Impact<f64>>(impacts: &Rc<[I]>, asked: Asked) -> Vec<Contestant> {
+    let mut all = fixed_cost::<5, 8>(impacts, asked);
+    all.extend(fixed_cost::<6, 9>(impacts, asked));
+    all.extend(fixed_cost::<7, 10>(impacts, asked));
+    all.extend(fixed_cost::<8, 11>(impacts, asked));
+    all.extend(fixed_cost::<9, 12>(impacts, asked));
+    all.extend(fixed_cost::<10, 13>(impacts, asked));
+    all
+}
+
+/// A scene and a motion, for any method.
+trait Impact<T: Real>: Copy + 'static {
+    fn restitution(&self, method: &impl Method<T>) -> Option<Answer>;
+    fn outputs(&self, method: &impl Method<T>) -> Option<Answer>;
+}
+
+impl<T, L, S, B> Impact<T> for (Contact<T, L, S>, B)
 where
     T: Real + Into<f64> + 'static,
+    L: ContactLaw<T> + 'static,
     S: Surface<T, B> + 'static,
     B: Approach<T> + Copy + 'static,
+    Self: Copy,
 {
-    fn answer(&self, method: &impl Method<T>) -> Option<Answer> {
+    fn restitution(&self, method: &impl Method<T>) -> Option<Answer> {
+        let (scene, motion) = self;
+        let contact = black_box(scene).solve_normal(black_box(motion), method).ok()?;
+        Some(Answer::of_restitution(solved(contact.overall_restitution(), contact.status())?.into(), None))
+    }
+
+    fn outputs(&self, method: &impl Method<T>) -> Option<Answer> {
         let (scene, motion) = self;
         let (impact, (times, impulses)) =
             black_box(scene).solve_for(black_box(motion), method, (Times, Impulses)).ok()?;
@@ -83,36 +125,65 @@ where
     }
 }
 
-fn collocation<const N: usize, T: Nodes<N> + 'static>(entry: &'static str, impact: impl Impact<T>) -> Vec<Contestant> {
-    let contestant = |tolerance: f64| {
+/// A method on impacts.
+struct Ours<T, I, M> {
+    impacts: Rc<[I]>,
+    method: M,
+    asked: Asked,
+    scalar: PhantomData<T>,
+}
+
+impl<T: Real, I: Impact<T>, M: Method<T>> Solver for Ours<T, I, M> {
+    fn solve(&mut self, tell: &mut dyn FnMut(Option<Answer>)) {
+        for impact in self.impacts.iter() {
+            tell(match self.asked {
+                Asked::Restitution => impact.restitution(&self.method),
+                Asked::Outputs => impact.outputs(&self.method),
+            });
+        }
+    }
+}
+
+fn contestant<T: Real + 'static, I: Impact<T>>(
+    (entry, variant, setting): (&'static str, String, String),
+    impacts: &Rc<[I]>,
+    method: impl Method<T> + 'static,
+    asked: Asked,
+) -> Contestant {
+    Contestant::of(entry, variant, setting, Ours { impacts: Rc::clone(impacts), method, asked, scalar: PhantomData })
+}
+
+fn collocation<const N: usize, T: Nodes<N> + 'static>(
+    entry: &'static str,
+    impacts: &Rc<[impl Impact<T>]>,
+    asked: Asked,
+) -> Vec<Contestant> {
+    let with = |tolerance: f64| {
         let method = Collocation::<N, T>::new(T::constant(tolerance)).ok()?;
-        let run = move || impact.answer(&method);
-        Some(Contestant::new(entry, format!("{N} nodes"), format!("{tolerance:.0e}"), run))
+        Some(contestant((entry, format!("{N} nodes"), format!("{tolerance:.0e}")), impacts, method, asked))
     };
-    tolerances().filter_map(contestant).collect()
+    tolerances().filter_map(with).collect()
 }
 
 /// It chooses nodes and method by the tolerance.
-fn adaptive(impact: impl Impact<f64>) -> Vec<Contestant> {
-    let contestant = |tolerance: f64| {
+fn adaptive(impacts: &Rc<[impl Impact<f64>]>, asked: Asked) -> Vec<Contestant> {
+    let with = |tolerance: f64| {
         let method = Adaptive::new(tolerance).ok()?;
-        Some(Contestant::new(ADAPTIVE, "", format!("{tolerance:.0e}"), move || impact.answer(&method)))
+        Some(contestant((ADAPTIVE, String::new(), format!("{tolerance:.0e}")), impacts, method, asked))
     };
-    tolerances().filter_map(contestant).collect()
+    tolerances().filter_map(with).collect()
 }
 
-/// It gives no times or impulses.
-fn fixed_cost<const N: usize>(case: &Case) -> Vec<Contestant> {
-    let contestant = |iterations: u32| {
-        let (scene, motion) = normal_scene::<f64>(case);
-        let method = FixedCost::<N>::new(iterations).unwrap();
-        Contestant::new(FIXED_COST, format!("{N} nodes"), format!("{iterations} iterations"), move || {
-            let contact = black_box(&scene).solve_normal(black_box(&motion), &method).ok()?;
-            let restitution = solved(contact.overall_restitution(), contact.status())?;
-            Some(Answer::of_restitution(restitution, Some((2 * N * iterations as usize, "evaluations"))))
-        })
+fn fixed_cost<const N: usize, const M: usize>(impacts: &Rc<[impl Impact<f64>]>, asked: Asked) -> Vec<Contestant>
+where
+    f64: PhaseSamples<N, M>,
+{
+    let with = |iterations: u32| {
+        let method = FixedCost::<N>::new(iterations).ok()?.with_outputs::<M>();
+        let setting = format!("{iterations} iterations");
+        Some(contestant((FIXED_COST, format!("{N} nodes"), setting), impacts, method, asked))
     };
-    (2..=10).map(contestant).collect()
+    (2..=10).filter_map(with).collect()
 }
 
 /// Numbers of steps in the duration of Hertz's impact.
@@ -120,10 +191,10 @@ fn steps() -> impl Iterator<Item = u32> {
     (0..=14).map(|half_octaves| (250.0 * 2f64.powf(0.5 * f64::from(half_octaves))) as u32)
 }
 
-fn paper_method(impact: impl Impact<f64>) -> Vec<Contestant> {
-    let contestant = |steps: u32| {
-        let method = RungeKuttaGill::new(steps);
-        Contestant::new(PAPER, "Runge-Kutta-Gill", format!("{steps} steps"), move || impact.answer(&method))
+fn paper_method(impacts: &Rc<[impl Impact<f64>]>) -> Vec<Contestant> {
+    let with = |steps: u32| {
+        let names = (PAPER, "Runge-Kutta-Gill".to_owned(), format!("{steps} steps"));
+        contestant(names, impacts, RungeKuttaGill::new(steps), Asked::Outputs)
     };
-    steps().map(contestant).collect()
+    steps().map(with).collect()
 }

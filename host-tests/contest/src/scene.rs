@@ -1,6 +1,6 @@
 //! Scenes of normal motion, from rows of the reference.
 
-use microimpact::contact::{Contact, RingScene, Status};
+use microimpact::contact::{Contact, HertzScene, RingScene, Status};
 use microimpact::{NormalMotion, Real, Sphere, Stiffness};
 use reference::Case;
 
@@ -9,13 +9,16 @@ use super::contestant::Answer;
 /// The normal motion of a row.
 pub fn normal_scene<T: Real>(case: &Case) -> (RingScene<T>, NormalMotion<T>) {
     let number = |column| T::constant(case.number(column));
+    let (scene, motion) = hertz_scene(case);
+    (scene.with_ring(number("adhesion_n_m"), number("zeta_a")).unwrap(), motion)
+}
+
+/// The same without adhesion.
+pub fn hertz_scene<T: Real>(case: &Case) -> (HertzScene<T>, NormalMotion<T>) {
+    let number = |column| T::constant(case.number(column));
     let sphere = Sphere::solid(number("radius_m"), number("density_kg_m3")).unwrap();
-    let scene = Contact::hertz(sphere, Stiffness::new(number("stiffness_pa")).unwrap())
-        .with_damping(number("zeta_h"))
-        .unwrap()
-        .with_ring(number("adhesion_n_m"), number("zeta_a"))
-        .unwrap();
-    (scene, NormalMotion::new(number("speed_normal_m_s")).unwrap())
+    let scene = Contact::hertz(sphere, Stiffness::new(number("stiffness_pa")).unwrap());
+    (scene.with_damping(number("zeta_h")).unwrap(), NormalMotion::new(number("speed_normal_m_s")).unwrap())
 }
 
 /// The solution of a row.

@@ -1,11 +1,9 @@
 //! Who is how fast at which error.
 
-use std::hint::black_box;
-
 use comfy_table::{CellAlignment, ColumnConstraint, Table, presets};
 
 use super::contestant::{Answer, Contestant};
-use super::race::least_times;
+use super::race::{Sample, least_samples};
 
 /// Turns of each contestant.
 const TURNS: u32 = 50;
@@ -85,18 +83,18 @@ pub fn compare(contestants: Vec<Contestant>, exact: &Answer, standard: &str) -> 
 fn perform(contestants: Vec<Contestant>, exact: &Answer) -> Vec<Performance> {
     let mut all = Vec::new();
     for mut contestant in contestants {
-        let Some(answer) = (contestant.run)() else { continue };
+        let Some(answer) = contestant.answer() else { continue };
         let errors = answer.errors(exact);
         let largest = errors.iter().flatten().copied().fold(0.0, f64::max);
         if errors.iter().flatten().all(|error| error.is_finite()) {
             all.push(Performance { contestant, answer, errors, largest, time: 0.0 });
         }
     }
-    let mut runs: Vec<_> = all.iter_mut().map(|one| || _ = black_box((one.contestant.run)())).collect();
-    let mut runs: Vec<&mut dyn FnMut()> = runs.iter_mut().map(|run| run as _).collect();
+    let mut clocks: Vec<_> = all.iter_mut().map(|one| |repeats| one.contestant.solver.time(repeats)).collect();
+    let mut clocks: Vec<&mut dyn FnMut(u32) -> Sample> = clocks.iter_mut().map(|clock| clock as _).collect();
     // Cargo names its purpose: a benchmark that is only tested takes one turn.
     let turns = if std::env::args().any(|argument| argument == "--bench") { TURNS } else { 1 };
-    let times = least_times(&mut runs, turns, || ());
+    let times = least_samples(&mut clocks, turns, || ());
     for (one, time) in all.iter_mut().zip(times) {
         one.time = time;
     }

@@ -113,11 +113,11 @@ impl Visitor for Collector<'_> {
 }
 
 /// A contestant that answers with contact time and impulse too.
-fn with_outputs(peer: Peer, exact: Answer) -> Option<Runner> {
-    let Peer { entry, method, setting, mut run } = peer;
-    if run().is_some_and(|answer| answer.impulse.is_none()) {
+fn with_outputs(mut peer: Peer, exact: Answer) -> Option<Runner> {
+    if peer.answer().is_some_and(|answer| answer.impulse.is_none()) {
         return None;
     }
+    let (entry, method, setting) = (peer.entry, &peer.method, &peer.setting);
     let (method_name, scalar) = match entry {
         ours::SINGLE_PRECISION => (ours::COLLOCATION, f32::NAME),
         _ => (entry, f64::NAME),
@@ -126,13 +126,13 @@ fn with_outputs(peer: Peer, exact: Answer) -> Option<Runner> {
         task: OUTPUTS.to_owned(),
         scalar: scalar.to_owned(),
         method: method_name.to_owned(),
-        setting: if method.is_empty() { setting } else { format!("{method}, {setting}") },
+        setting: if method.is_empty() { setting.clone() } else { format!("{method}, {setting}") },
     };
     let error = move |answer: Answer| {
         let largest = answer.errors(&exact).into_iter().flatten().fold(0.0, f64::max);
         largest.is_finite().then_some(largest.max(rounding(scalar)))
     };
-    Some(Runner { entrant, run: Box::new(move || run().and_then(error)) })
+    Some(Runner { entrant, run: Box::new(move || peer.answer().and_then(error)) })
 }
 
 /// Errors and least times.
