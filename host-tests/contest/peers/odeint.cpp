@@ -1,9 +1,10 @@
-// Boost.odeint on the regularised equations: answers the commands of `src/foreign/program.rs` on standard input.
+// Boost.odeint on the regularised equations: answers the commands of `src/programs/pipe.rs` on standard input.
 //
 // Each solver finds the peak (where the damping of adhesion begins) and separation on the step in which speed or contact radius changes
 // its sign: on its dense output, or, where it has none, by shorter repetitions of that step. Without damping of adhesion the equations
 // are the same before and after the peak, which is then passed over.
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -25,6 +26,8 @@ namespace {
 constexpr double FIRST_STEP = 0.1;
 // Beyond which a solver gives up.
 constexpr int MOST_STEPS = 1000000;
+// A radius and a speed are below one: what is larger is none.
+constexpr double LARGEST = 1e3;
 // Indices of the state.
 enum { RADIUS, SPEED, TIME, IMPULSE };
 
@@ -69,79 +72,61 @@ struct Jacobian {
     }
 };
 
-// Where `value` changes its sign from positive at `low` to not positive at `high`, by the Illinois method.
-template <class Value> double sign_change(double low, double at_low, double high, double at_high, Value value) {
-    double place = high;
+struct Point {
+    double place, value;
+};
+
+// Goes to where `value` changes its sign from positive at `low` to not positive at `high`, by the Illinois method.
+template <class Value> void sign_change(Point low, Point high, Value value) {
     for (int i = 0; i < 60; ++i) {
-        place = low - at_low * (high - low) / (at_high - at_low);
+        const double place = low.place - low.value * (high.place - low.place) / (high.value - low.value);
         const double at_place = value(place);
         if (std::abs(at_place) < 1e-15) break;
         if (at_place > 0.0) {
-            low = place, at_low = at_place, at_high *= 0.5;
+            low = {place, at_place}, high.value *= 0.5;
         } else {
-            high = place, at_high = at_place, at_low *= 0.5;
+            high = {place, at_place}, low.value *= 0.5;
         }
     }
-    return place;
 }
 
+// The equations as an explicit and as an implicit solver takes them.
+struct Explicit {
+    Equations operator()(const Equations &equations) const { return equations; }
+};
+struct Implicit {
+    std::pair<Equations, Jacobian> operator()(const Equations &equations) const { return {equations, {equations}}; }
+};
+
 // A solver with dense output.
-template <class State, class Make> struct Dense {
+template <class State, class Form, class Make> struct Dense {
     Make make;
 
     bool leg(const Equations &equations, State &x, int event, double &step) const {
+        const auto system = Form{}(equations);
         auto stepper = make();
         stepper.initialize(x, 0.0, step);
-        State at_place = x;
         for (int steps = 0; steps < MOST_STEPS; ++steps) {
-            take(stepper, equations, x);
+            stepper.do_step(system);
             const double end = stepper.current_state()[event];
-            if (!(std::abs(end) < 1e3)) return false;
-            if (end <= 0.0) {
-                const double begin = stepper.previous_time(), length = stepper.current_time() - begin;
-                // The state where the step begins may lie on the event before, at which this leg starts.
-                const double first = std::max<double>(stepper.previous_state()[event], std::numeric_limits<double>::min());
-                sign_change(begin, first, begin + length, end, [&](double place) {
-                    stepper.calc_state(place, at_place);
-                    return at_place[event];
-                });
-                x = at_place;
-                step = length;
-                return true;
-            }
-        }
-        return false;
-    }
-
-    template <class Stepper> static void take(Stepper &stepper, const Equations &equations, const State &) { stepper.do_step(equations); }
-};
-
-// The same with the Jacobian.
-template <class State, class Make> struct DenseImplicit : Dense<State, Make> {
-    bool leg(const Equations &equations, State &x, int event, double &step) const {
-        auto stepper = this->make();
-        stepper.initialize(x, 0.0, step);
-        State at_place = x;
-        for (int steps = 0; steps < MOST_STEPS; ++steps) {
-            stepper.do_step(std::make_pair(equations, Jacobian{equations}));
-            const double end = stepper.current_state()[event];
-            if (!(std::abs(end) < 1e3)) return false;
-            if (end <= 0.0) {
-                const double begin = stepper.previous_time(), length = stepper.current_time() - begin;
-                stepper.calc_state(begin, at_place);
-                const double first = std::max<double>(at_place[event], std::numeric_limits<double>::min());
-                sign_change(begin, first, begin + length, end, [&](double place) {
-                    stepper.calc_state(place, at_place);
-                    return at_place[event];
-                });
-                x = at_place;
-                step = length;
-                return true;
-            }
+            if (!(std::abs(end) < LARGEST)) return false;
+            if (end > 0.0) continue;
+            const double begin = stepper.previous_time(), length = stepper.current_time() - begin;
+            stepper.calc_state(begin, x);
+            // The step may begin at the event before, where the radius is zero.
+            const double at_begin = std::max<double>(x[event], std::numeric_limits<double>::min());
+            sign_change({begin, at_begin}, {begin + length, end}, [&](double place) {
+                stepper.calc_state(place, x);
+                return x[event];
+            });
+            step = length;
+            return true;
         }
         return false;
     }
 };
+
+template <class State, class Form, class Make> Dense<State, Form, Make> dense(Make make) { return {make}; }
 
 // A controlled solver without dense output: the step that passes the event is repeated with the length that Newton's method finds.
 template <class State> struct Repeated {
@@ -158,7 +143,7 @@ template <class State> struct Repeated {
             while (stepper.try_step(equations, x, time, length) != odeint::success) {
                 if (!(length > 1e-14)) return false;
             }
-            if (!(std::abs(x[event]) < 1e3)) return false;
+            if (!(std::abs(x[event]) < LARGEST)) return false;
             if (x[event] > 0.0) continue;
             double low = 0.0, high = time - begin, last = high;
             for (int i = 0; i < 60 && std::abs(x[event]) > 1e-15; ++i) {
@@ -199,21 +184,14 @@ template <class State, class Solver> Answer solve(const Solver &solver, const Sc
 
 template <int S> Answer by(const std::string &method, double tolerance, const Scene &scene) {
     using State = std::array<double, S>;
-    State start{};
     if (method == "dopri5") {
         auto make = [=] { return odeint::make_dense_output(tolerance, tolerance, odeint::runge_kutta_dopri5<State>()); };
-        return solve(Dense<State, decltype(make)>{make}, scene, start);
+        return solve(dense<State, Explicit>(make), scene, State{});
     }
-    if (method == "bulirsch_stoer") {
-        auto make = [=] { return odeint::bulirsch_stoer_dense_out<State>(tolerance, tolerance, 1.0, 1.0); };
-        return solve(Dense<State, decltype(make)>{make}, scene, start);
-    }
-    if (method == "fehlberg78") {
-        return solve(Repeated<State>{tolerance}, scene, start);
-    }
+    if (method == "fehlberg78") return solve(Repeated<State>{tolerance}, scene, State{});
     using Vector = ublas::vector<double>;
     auto make = [=] { return odeint::make_dense_output(tolerance, tolerance, odeint::rosenbrock4<double>()); };
-    return solve(DenseImplicit<Vector, decltype(make)>{{make}}, scene, Vector(S, 0.0));
+    return solve(dense<Vector, Implicit>(make), scene, Vector(S, 0.0));
 }
 
 Answer by(const std::string &method, double tolerance, bool outputs, const Scene &scene) {
@@ -228,14 +206,12 @@ int main() {
     while (std::cin >> command) {
         if (command == "version") {
             std::printf("%d.%d\n", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000);
-        } else if (command == "methods") {
-            std::puts("dopri5 fehlberg78 bulirsch_stoer rosenbrock4");
         } else if (command == "scenes") {
             std::size_t count = 0;
             std::cin >> count;
             scenes.resize(count);
             for (Scene &one : scenes) std::cin >> one.elastic >> one.adhesion >> one.damping >> one.ring_damping >> one.speed;
-            std::puts("ready");
+            std::puts("dopri5 fehlberg78 rosenbrock4");
         } else {
             std::string method;
             double tolerance = 0.0;

@@ -5,10 +5,15 @@
 #![allow(clippy::missing_panics_doc)]
 
 pub mod contestant;
+pub mod duel;
+mod lanes;
 pub mod ours;
 pub mod peers;
+pub mod place;
 pub mod problem;
+pub mod programs;
 pub mod race;
+pub mod record;
 pub mod runge_kutta;
 pub mod scene;
 pub mod table;

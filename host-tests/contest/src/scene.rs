@@ -3,6 +3,7 @@
 use microimpact::contact::{Contact, HertzScene, RingScene, Status};
 use microimpact::{NormalMotion, Real, Sphere, Stiffness};
 use reference::Case;
+use truth::{Outcome, Scene};
 
 use super::contestant::Answer;
 
@@ -30,6 +31,35 @@ pub fn solution(case: &Case) -> Answer {
         effort: None,
     }
 }
+
+/// The solution of the inputs of a row, to 20 digits; `None` of a capture.
+pub fn solve_exactly(case: &Case) -> Option<Answer> {
+    let scene = Scene {
+        radius: case.number("radius_m"),
+        density: case.number("density_kg_m3"),
+        gyration_ratio: 0.4,
+        stiffness: case.number("stiffness_pa"),
+        adhesion: case.number("adhesion_n_m"),
+        material_damping: case.number("zeta_h"),
+        adhesion_damping: case.number("zeta_a"),
+        friction: 0.0,
+        peeling: 0.0,
+        force: 0.0,
+        speed: case.number("speed_normal_m_s"),
+        tangential: 0.0,
+        spin: 0.0,
+    };
+    let truth = truth::solve(&scene, MOST_STEPS);
+    (truth.outcome == Some(Outcome::Rebound)).then(|| Answer {
+        restitution: truth.restitution_squared.sqrt().to_f64(),
+        contact_time: Some(truth.time.to_f64()),
+        impulse: Some(truth.elastic_impulse.to_f64()),
+        effort: None,
+    })
+}
+
+/// Of the series that [`solve_exactly`] takes.
+const MOST_STEPS: u32 = 1_000_000;
 
 /// A value that counts only where the method came to its end.
 pub fn solved<T>(value: T, status: Status) -> Option<T> {

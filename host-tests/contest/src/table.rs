@@ -3,7 +3,9 @@
 use comfy_table::{CellAlignment, ColumnConstraint, Table, presets};
 
 use super::contestant::{Answer, Contestant};
+use super::duel::{Duel, Winner};
 use super::race::{Sample, least_samples};
+use super::record::asked_for;
 
 /// Turns of each contestant.
 const TURNS: u32 = 50;
@@ -79,6 +81,35 @@ pub fn compare(contestants: Vec<Contestant>, exact: &Answer, standard: &str) -> 
     table
 }
 
+/// By how much we are ahead in places.
+pub fn factors<'a>(duels: impl Iterator<Item = &'a Duel>) -> Table {
+    let mut table = Table::new();
+    table.load_preset(presets::ASCII_MARKDOWN);
+    table.set_header(["place", "error", "asked for", "ours", "best peer", "factor", "of Adaptive"]);
+    for duel in duels {
+        let value = if duel.value == 0.0 { String::new() } else { format!(" {}", duel.value) };
+        let who = |winner: &Winner| format!("{}, {}", winner.entry, winner.setting);
+        table.add_row([
+            format!("{}{value}", duel.axis),
+            format!("{:.0e}", duel.level),
+            asked_for(duel.asked).to_owned(),
+            who(&duel.ours),
+            who(&duel.peer),
+            format!("{:.2}", duel.factor),
+            duel.adaptive.map_or(String::from("-"), |factor| format!("{factor:.2}")),
+        ]);
+    }
+    for column in table.column_iter_mut().skip(5) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+/// Turns of each contestant. Cargo names its purpose: a benchmark that is only tested takes one.
+pub fn turns() -> u32 {
+    if std::env::args().any(|argument| argument == "--bench") { TURNS } else { 1 }
+}
+
 /// Errors and times of all contestants that solve the contact.
 fn perform(contestants: Vec<Contestant>, exact: &Answer) -> Vec<Performance> {
     let mut all = Vec::new();
@@ -92,9 +123,7 @@ fn perform(contestants: Vec<Contestant>, exact: &Answer) -> Vec<Performance> {
     }
     let mut clocks: Vec<_> = all.iter_mut().map(|one| |repeats| one.contestant.solver.time(repeats)).collect();
     let mut clocks: Vec<&mut dyn FnMut(u32) -> Sample> = clocks.iter_mut().map(|clock| clock as _).collect();
-    // Cargo names its purpose: a benchmark that is only tested takes one turn.
-    let turns = if std::env::args().any(|argument| argument == "--bench") { TURNS } else { 1 };
-    let times = least_samples(&mut clocks, turns, || ());
+    let times = least_samples(&mut clocks, turns(), || ());
     for (one, time) in all.iter_mut().zip(times) {
         one.time = time;
     }
