@@ -139,13 +139,18 @@ fn tried(contestants: Vec<Contestant>, is_ours: bool, place: &Place, asked: Aske
     };
     let mut all: Vec<Tried> = contestants.into_iter().filter_map(attempt).collect();
     for method in all.chunk_by_mut(same_method) {
-        for first in 0..method.len() {
-            let errors = method[first..].iter().take(1 + CONFIRMATIONS).map(|one| one.error);
-            let error = errors.fold(0.0, f64::max);
-            method[first].reaches = LEVELS.map(|level| error <= level);
+        let errors: Vec<f64> = method.iter().map(|one| one.error).collect();
+        for (first, one) in method.iter_mut().enumerate() {
+            let error = confirmed(&errors[first..]);
+            one.reaches = LEVELS.map(|level| error <= level);
         }
     }
     all
+}
+
+/// The error that a setting and the next tighter ones all reach.
+fn confirmed(errors: &[f64]) -> f64 {
+    errors.iter().take(1 + CONFIRMATIONS).copied().fold(0.0, f64::max)
 }
 
 /// Settings follow each other from loose to tight.
@@ -166,4 +171,16 @@ fn only_loosest(all: &mut Vec<Tried>) {
     }
     let mut kept = kept.into_iter();
     all.retain(|_| kept.next() == Some(true));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lucky_setting_does_not_count() {
+        let errors = [1e-3, 1e-9, 1e-5, 1e-6, 1e-8, 1e-7];
+        let confirmed: Vec<f64> = (0..errors.len()).map(|first| confirmed(&errors[first..])).collect();
+        assert_eq!(confirmed, [1e-3, 1e-5, 1e-5, 1e-6, 1e-7, 1e-7]);
+    }
 }

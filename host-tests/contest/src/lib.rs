@@ -1,5 +1,5 @@
 //! Methods that compete for the least run time at the same error: contestants with one setting each, their race, the
-//! table of winners, and the equations that peers are given.
+//! table of winners, and the equations that peers are given; by how much this library is ahead along axes of hard impacts.
 
 // The scenes are those of the reference, which the library does not refuse.
 #![allow(clippy::missing_panics_doc)]

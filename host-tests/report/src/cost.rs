@@ -3,6 +3,7 @@
 mod board;
 mod choice;
 mod contestants;
+mod duels;
 mod host;
 mod lead;
 mod point;
@@ -43,7 +44,8 @@ pub(crate) fn section(run: &Run) -> Result<Section, String> {
     let (errors, scenes) = host::largest_errors(run);
     let everywhere: Vec<Series> = all.iter().map(|series| series.with_errors(&errors)).collect();
 
-    let (lead, ratios) = lead::picture(&all)?;
+    let (lead, least) = duels::picture()?;
+    let (cores, ratios) = lead::picture(&all)?;
     let caption = format!(
         "What to use: for each processor and error, the cheapest of all methods, settings and number types whose error does not \
          exceed it in any of {scenes} scenes, with its cost."
@@ -51,8 +53,12 @@ pub(crate) fn section(run: &Run) -> Result<Section, String> {
     // The last figure of the first series has all crates: it is shown, the others are folded.
     let mut folded = all.iter().map(|series| figures(series, "")).collect::<Result<Vec<_>, _>>()?;
     let shown = folded.first_mut().and_then(Vec::pop);
-    let mut parts = vec![Part::Table(ratios), Part::Table(contestants::table())];
+    let mut parts = vec![Part::Table(least), Part::Table(contestants::table())];
     parts.extend(shown);
+    parts.push(Part::Fold(
+        "The impact of Table 1 on each core, against the crates".to_owned(),
+        vec![Part::Figure(cores), Part::Table(ratios)],
+    ));
     parts.push(Part::Fold(
         "What to use for which error".to_owned(),
         vec![
@@ -85,7 +91,7 @@ pub(crate) fn section(run: &Run) -> Result<Section, String> {
         over_scenes.extend(figures(series, "over all scenes")?);
     }
     parts.push(Part::Fold(format!("Every method and setting over {scenes} scenes"), over_scenes));
-    let method = [TASKS, LINES, contestants::RULES, contestants::DIFFSOL, INSTRUCTIONS];
+    let method = [duels::PLACES, TASKS, LINES, contestants::RULES, contestants::DIFFSOL, INSTRUCTIONS];
     parts.push(Part::Fold("How it is measured".to_owned(), method.map(|text| Part::Text(text.to_owned())).into()));
     Ok(Section { title: "Error against time", name: "cost", lead: Some(lead), left_out, parts })
 }

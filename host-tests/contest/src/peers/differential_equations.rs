@@ -64,10 +64,10 @@ pub fn with_last_step(equations: Problem, places: [f64; 2]) -> Vec<Contestant> {
 }
 
 /// Places of the peak, and of the separation from there, to rounding.
-pub fn events(equations: Problem) -> [f64; 2] {
+pub fn events(equations: Problem) -> Option<[f64; 2]> {
     let solver = ExplicitRungeKutta::dop853().rtol(1e-13).atol(1e-13);
-    let (_, places, _) = solve(solver, *equations).expect("the contact is no hard problem");
-    [places[0], places[1] - places[0]]
+    let (_, places, _) = solve(solver, *equations)?;
+    Some([places[0], places[1] - places[0]])
 }
 
 /// State at separation, places of the events, and evaluations.

@@ -11,9 +11,9 @@ use crate::contestant::Contestant;
 use crate::problem::Problem;
 use microimpact_scenes::methods::peers::FRACTIONS;
 
-/// The settings of all peers.
+/// The settings of all peers; none where the contact lasts too long for explicit solvers.
 pub fn all(problem: Problem) -> Vec<Contestant> {
-    let events = differential_equations::events(problem);
+    let Some(events) = differential_equations::events(problem) else { return Vec::new() };
     let mut all = differential_equations::with_interpolation(problem);
     for fraction in FRACTIONS {
         let places = events.map(|event| fraction * event);

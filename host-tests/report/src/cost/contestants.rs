@@ -77,8 +77,8 @@ pub(super) fn table() -> Table {
     Table {
         name: "cost-contestants".to_owned(),
         caption:
-            "Who is compared. A peer is whatever is no method of this library. Solvers in other languages take no part, and scenes \
-                  with strong damping are not timed here."
+            "Who is compared below. A peer is whatever is no method of this library. Solvers in other languages take part in the \
+                  first picture only, and so do scenes with strong damping."
                 .to_owned(),
         columns: ["method", "what it is"].map(str::to_owned).to_vec(),
         rows: METHODS.iter().filter(takes_part).map(row).collect(),

@@ -12,9 +12,6 @@ const LEVELS: std::ops::RangeInclusive<i32> = 3..=12;
 /// Instructions of a board in a microsecond, for the picture: 100 MHz and one instruction a cycle.
 const PER_MICROSECOND: f64 = 100.0;
 
-/// The place of black among the colours.
-const BLACK: usize = 6;
-
 /// The best of this library and of its peers on a core, on the normal impact of Table 1.
 struct Core<'a> {
     name: String,
@@ -73,9 +70,9 @@ pub(super) fn picture(all: &[Series]) -> Result<(Figure, Table), String> {
             lines.push(Line::new(name, mark, points).like(place));
         }
     }
-    lines.push(Line::new("solid: ours; dashed: the best peer", Mark::Dashed, Vec::new()).like(BLACK));
+    lines.push(Line::new("solid: ours; dashed: the best peer", Mark::Dashed, Vec::new()).like(plot::BLACK_PLACE));
     let data = Table {
-        name: "cost-lead".to_owned(),
+        name: "cost-cores".to_owned(),
         caption: sentence(&cores),
         columns: ["core", "who", "error", "time, us"].map(str::to_owned).to_vec(),
         rows,

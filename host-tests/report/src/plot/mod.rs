@@ -1,4 +1,4 @@
-//! Drawings of the report, by `plotters` as SVG: lines and points, maps in colour, and stacked bars.
+//! Drawings of the report, by `plotters` as SVG: lines and points, maps in colour, stacked bars, and rows of points.
 //!
 //! A drawing has type that can be read on a phone. What is black in it follows the page's colours, and its ground is
 //! transparent. The legend stands below the axes; the page has the title and the caption.
@@ -12,11 +12,13 @@ mod bars;
 mod legend;
 mod lines;
 mod map;
+mod rows;
 
 pub(crate) use axis::Axis;
 pub(crate) use bars::{Bar, Panel, bars};
 pub(crate) use lines::{Line, Mark, chart, tall_chart};
 pub(crate) use map::{Flat, Map, Shade, map};
+pub(crate) use rows::{height_of, rows};
 
 use axis::Scale;
 use legend::Entry;
@@ -49,6 +51,9 @@ const COLOURS: [RGBColor; 11] = [
     RGBColor(160, 103, 58),
     RGBColor(141, 182, 0),
 ];
+
+/// The place of black among the colours.
+pub(crate) const BLACK_PLACE: usize = 6;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<Scale, Scale>>;
