@@ -18,6 +18,10 @@ const CONFIRMATIONS: usize = 2;
 /// Settings of a method that are timed for each level: the loosest that reaches it is not always the fastest.
 const TIMED: usize = 2;
 
+/// A setting that takes so many times as long as another in one run is not timed again: it cannot be the fastest, however much other
+/// work there is on the machine.
+const HOPELESS: f64 = 10.0;
+
 /// The fastest of both sides in a place.
 pub struct Duel {
     /// Axis of the place.
@@ -86,6 +90,7 @@ fn duels_for(place: &Place, programs: &[Program], asked: Asked, turns: u32) -> V
     all.extend(tried(others, false, place, asked));
     all.retain(|one| one.reaches.contains(&true));
     only_loosest(&mut all);
+    only_fast(&mut all);
 
     let mut clocks: Vec<_> = all.iter_mut().map(|one| |repeats| one.contestant.solver.time(repeats)).collect();
     let mut clocks: Vec<&mut dyn FnMut(u32) -> Sample> = clocks.iter_mut().map(|clock| clock as _).collect();
@@ -171,6 +176,26 @@ fn only_loosest(all: &mut Vec<Tried>) {
     }
     let mut kept = kept.into_iter();
     all.retain(|_| kept.next() == Some(true));
+}
+
+/// Leaves those that may be the fastest of their side for a level, as far as one run shows.
+fn only_fast(all: &mut Vec<Tried>) {
+    for one in all.iter_mut() {
+        one.contestant.solver.time(1);
+        one.time = one.contestant.solver.time(1).solver();
+    }
+    let fastest = [true, false].map(|is_ours| {
+        let side = || all.iter().filter(move |one| one.is_ours == is_ours);
+        std::array::from_fn::<f64, { LEVELS.len() }, _>(|index| {
+            side().filter(|one| one.reaches[index]).map(|one| one.time).fold(f64::INFINITY, f64::min)
+        })
+    });
+    let may_win = |one: &Tried| {
+        let fastest = &fastest[usize::from(!one.is_ours)];
+        one.reaches.iter().zip(fastest).any(|(reaches, fastest)| *reaches && one.time < HOPELESS * fastest)
+    };
+    // The times of `Adaptive` are shown in any case.
+    all.retain(|one| one.contestant.entry == ours::ADAPTIVE || may_win(one));
 }
 
 #[cfg(test)]

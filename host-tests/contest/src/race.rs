@@ -20,7 +20,8 @@ impl Sample {
         Self { whole: self.whole.min(other.whole), beside: self.beside.min(other.beside) }
     }
 
-    fn solver(self) -> f64 {
+    /// What is the solver's, s.
+    pub fn solver(self) -> f64 {
         self.whole - self.beside
     }
 }

@@ -8,7 +8,6 @@ use crate::contestant::Asked;
 use crate::duel::{Duel, Winner};
 
 const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../data/contest.csv");
-const TEXT: &str = include_str!("../../data/contest.csv");
 
 const COLUMNS: [&str; 11] = [
     "axis",
@@ -65,8 +64,8 @@ pub fn stored() -> Result<(Vec<Duel>, String), String> {
     let fault = |what: &str| format!("host-tests/data/contest.csv: {what}; measure it again by `{COMMAND}`");
     let mut machine = String::new();
     let mut duels = Vec::new();
-    let mut reader = csv::Reader::from_reader(TEXT.as_bytes());
-    if reader.headers().is_ok_and(|names| names != &COLUMNS[..]) {
+    let mut reader = csv::Reader::from_path(PATH).map_err(|error| fault(&error.to_string()))?;
+    if reader.headers().is_ok_and(|names| names != COLUMNS[..]) {
         return Err(fault("its columns are others"));
     }
     for row in reader.records() {
