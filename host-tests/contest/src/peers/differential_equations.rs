@@ -63,7 +63,7 @@ pub fn with_last_step(equations: Problem, places: [f64; 2]) -> Vec<Contestant> {
     all
 }
 
-/// Places of the peak, and of the separation from there, to rounding.
+/// Places of the peak, and of the separation from there, to rounding; `None` if the sphere is still in contact at the end.
 pub fn events(equations: Problem) -> Option<[f64; 2]> {
     let solver = ExplicitRungeKutta::dop853().rtol(1e-13).atol(1e-13);
     let (_, places, _) = solve(solver, *equations)?;
