@@ -17,6 +17,8 @@ import numpy
 RADIUS, SPEED, TIME, IMPULSE = range(4)
 # Beyond every event.
 FAR = 1e9
+# More than any impact here takes: a series that misses its event would go on to the far end in tiny steps.
+MOST_STEPS = 10_000
 # What a propagation returns that ends at the first of its terminal events.
 EVENT = heyoka.taylor_outcome(-1)
 LANES = heyoka.recommended_simd_size()
@@ -67,7 +69,7 @@ class Leg:
         """Whether the event is met before the end."""
         self.begin(state, pars)
         self.integrator.time = 0.0
-        return self.integrator.propagate_until(end)[0] == EVENT
+        return self.integrator.propagate_until(end, max_steps=MOST_STEPS)[0] == EVENT
 
     def go_in_lanes(self, state, pars, calls):
         """How many calls it takes until each lane is at its event, since all of them stop where one meets it. So many calls over no
@@ -78,7 +80,7 @@ class Leg:
         ends = numpy.full(LANES, 0.0 if calls else FAR)
         count = 0
         while True:
-            integrator.propagate_until(ends)
+            integrator.propagate_until(ends, max_steps=MOST_STEPS)
             count += 1
             for lane, result in enumerate(integrator.propagate_res):
                 if result[0] == EVENT:
