@@ -406,6 +406,9 @@ fn numbers_that_are_wrong_together() {
     assert_eq!(output.status, 1);
     let written = Written::read(&output.stdout, b',');
     let error = written.text(0, "error");
-    assert!(error.starts_with("stiffness_pa, zeta_h, zeta_a, speed_normal_m_s: damping over elasticity is "), "{error}");
+    assert!(
+        error.starts_with("stiffness_pa, zeta_h, zeta_a, speed_normal_m_s: damping over elasticity is "),
+        "{error}"
+    );
     assert!(error.ends_with("but must be 0 to 1e9"), "{error}");
 }

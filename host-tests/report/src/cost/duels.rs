@@ -89,7 +89,7 @@ fn sentence(duels: &[Duel]) -> String {
     let behind = duels.iter().filter(|duel| duel.factor < 1.0).count();
     format!(
         "At the same error, the best of heyoka, Boost.odeint and the crates takes {:.2} ({}) to {:.0} times ({}) as long as our best \
-         method; it is ahead in {behind} of {} comparisons.",
+         method; in {behind} of {} comparisons a peer is faster.",
         least.factor,
         name(least),
         most.factor,
@@ -114,6 +114,6 @@ mod tests {
     fn the_sentence_says_where_a_peer_is_ahead() {
         let text = sentence(&[duel(0.5, 7.0), duel(14.0, 0.75), duel(44.0, 0.9)]);
         assert!(text.contains("0.75 (d = 14) to 7 times (d = 0.5)"), "{text}");
-        assert!(text.ends_with("ahead in 2 of 3 comparisons."), "{text}");
+        assert!(text.ends_with("in 2 of 3 comparisons a peer is faster."), "{text}");
     }
 }
