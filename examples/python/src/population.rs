@@ -7,8 +7,8 @@ use microimpact::contact::{Adaptive, Contact};
 use microimpact::{InputError, Parameter, RigidBody, Sphere};
 use numpy::PyReadonlyArray1;
 use population::{
-    Classes, DIAMETERS, Distribution, DistributionError, Estimate, Moments, Population, PopulationError, Questions, Response,
-    Results, RigidBodies, Simulations, SizeBin, Statistics, Stop,
+    Classes, DIAMETERS, Distribution, DistributionError, Estimate, Moments, Population, PopulationError, Questions,
+    Response, Results, RigidBodies, Simulations, SizeBin, Statistics, Stop,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
