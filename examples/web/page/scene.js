@@ -24,6 +24,12 @@ const MATERIALS = ["sphere_material", "surface_material"];
 const inSi = (number) => String(Number(number.toPrecision(12)));
 const DEGREE = Math.PI / 180;
 
+// The label of a box by itself.
+const labelOf = (input) => ERRORS.includes(input) ? `Standard error ${input.label}` : input.label;
+
+// What gives the approach speed where the speed along the path is set.
+const ALONG_PATH = MOTION.filter(({ key }) => key?.startsWith("path_"));
+
 const keyOf = (input) => input.key ?? input.column;
 const element = (name, properties = {}, ...children) => {
     const made = Object.assign(document.createElement(name), properties);
@@ -50,6 +56,7 @@ class Scene {
             }
         }
         this.note = element("p", { className: "assumed", hidden: true });
+        this.unknown = [];
         document.getElementById("surface").append(this.note);
         this.changed = () => {
             this.showTerms();
@@ -60,7 +67,7 @@ class Scene {
             event.preventDefault();
             for (const input of INPUTS) this.values[keyOf(input)] = input.start;
             for (const { show } of this.rows.values()) show();
-            this.noteMaterials("", "");
+            this.noteMaterials();
             this.changed();
         });
         this.showTerms();
@@ -80,26 +87,29 @@ class Scene {
     // A number of a pair that the list does not have goes back to where it starts, so that it is not that of another pair.
     async useMaterials() {
         const [sphere, surface] = MATERIALS.map((key) => this.values[key]), pair = [sphere, surface].filter(Boolean);
-        const unknown = [];
-        if (sphere !== "") {
-            const { output } = await program.run(["materials", ...pair, "--format", "csv"], "");
-            const [names, numbers] = cells(await output.text());
-            for (const input of INPUTS.filter(({ of }) => MATERIALS.includes(of) && this.values[of] !== "")) {
-                const number = numbers[names.indexOf(input.column)];
-                if (!number) unknown.push(`${input.label.toLowerCase()}, which is now ${input.start} ${input.unit}`);
-                this.values[keyOf(input)] = number ? Number((Number(number) / input.si).toPrecision(12)) : input.start;
-                this.rows.get(input).show();
-            }
+        this.unknown = [];
+        // A surface alone gives nothing: its numbers are those of a pair.
+        const [names, numbers] = sphere === "" ? [[], []] : cells(await (await program.run(["materials", ...pair, "--format", "csv"], "")).output.text());
+        for (const input of INPUTS.filter(({ of }) => MATERIALS.includes(of) && this.values[of] !== "")) {
+            const number = numbers[names.indexOf(input.column)];
+            if (!number) this.unknown.push(input);
+            this.values[keyOf(input)] = number ? Number((Number(number) / input.si).toPrecision(12)) : input.start;
+            this.rows.get(input).show();
         }
-        this.noteMaterials(sphere, surface, unknown);
+        this.noteMaterials();
         this.changed();
     }
 
-    // Says which numbers are not those of the chosen materials.
-    noteMaterials(sphere, surface, unknown = []) {
-        const notes = [];
-        if (sphere === "" && surface !== "") notes.push("The stiffness is that of two materials: choose the material of the sphere too.");
-        if (unknown.length > 0) notes.push(`The list does not give for ${sphere} on ${surface}: ${unknown.join("; ")}.`);
+    // Says which numbers of this scene are not those of the chosen materials.
+    noteMaterials() {
+        const [sphere, surface] = MATERIALS.map((key) => this.values[key]), notes = [];
+        const unknown = this.unknown.filter((input) => this.has(input) && this.values[input.of] !== "");
+        const now = unknown.map((input) => `${input.label.toLowerCase()}, which is now ${input.start} ${input.unit}`).join("; ");
+        if (sphere === "" && now !== "") {
+            notes.push(`Two materials together give ${now}: choose the material of the sphere too.`);
+        } else if (now !== "") {
+            notes.push(`The list does not give for ${sphere} on ${surface}: ${now}.`);
+        }
         if (sphere !== "" && surface !== "") {
             const others = INPUTS.filter((input) => SURFACE.includes(input) && !input.choices && !input.of && this.has(input));
             notes.push(`No list gives for two materials: ${others.map(({ label }) => label.toLowerCase()).join(", ")}. Enter what you measured.`);
@@ -111,11 +121,13 @@ class Scene {
     // A number that is set by hand is no longer that of a material.
     setByHand(input, value) {
         this.values[keyOf(input)] = value;
-        if (input.of && this.values[input.of] !== "") {
-            this.values[input.of] = "";
-            document.getElementById(input.of).value = "";
-            this.noteMaterials(...MATERIALS.map((key) => this.values[key]));
+        if (!input.of) return;
+        // Without a material of the sphere there is no pair.
+        for (const key of input.of === MATERIALS[0] ? MATERIALS : [input.of]) {
+            this.values[key] = "";
+            document.getElementById(key).value = "";
         }
+        this.noteMaterials();
     }
 
     choice(input) {
@@ -126,7 +138,7 @@ class Scene {
         select.addEventListener("change", () => {
             this.values[key] = select.value;
             if (MATERIALS.includes(key)) return this.useMaterials();
-            this.noteMaterials(...MATERIALS.map((key) => this.values[key]));
+            this.noteMaterials();
             this.changed();
         });
         show();
@@ -178,18 +190,25 @@ class Scene {
     // The boxes of this scene without a number, by their labels.
     empty(model = this.values.scene_model) {
         const isEmpty = (input) => Number.isNaN(this.values[keyOf(input)]) && this.has(input, model);
-        return INPUTS.filter(isEmpty).map(({ label, errorOf }) => errorOf ? `standard error ${label}` : label);
+        return INPUTS.filter(isEmpty).map(labelOf);
     }
 
     // Why the program refuses a number: with the label of the box instead of the column, and in the unit of the box.
     inItsUnit(reason) {
+        const boxOf = (column) => INPUTS.find((input) => input.column === column && !input.choices && this.has(input));
         const [, column, rest] = reason.match(/^(\w+): "[^"]*" is refused: (.*)/) ?? [];
-        const input = INPUTS.find((input) => input.column === column && !input.choices && this.has(input));
-        if (!column || input === undefined) return reason;
+        const input = boxOf(column);
+        if (input === undefined) {
+            const [, columns, words] = reason.match(/^(\w+(?:, \w+)*): (.*)/) ?? [];
+            const boxes = columns?.split(", ").map(boxOf) ?? [];
+            if (column === "speed_normal_m_s") return `${ALONG_PATH.map(labelOf).join(", ")}: the ${rest.replace(/;.*/, "")}`;
+            if (boxes.length === 0 || boxes.includes(undefined)) return reason;
+            return `${boxes.map(labelOf).join(", ")}: ${ERRORS.includes(boxes[0]) ? "it must not be negative" : words}`;
+        }
         const unit = input.unit === "1" ? "" : ` ${input.unit}`, { si = 1 } = input;
         const inBox = (number) => digits(Number(number) / si);
         const range = rest.replace(/must be (\S+) to ([^\s;]+).*/, (_, least, most) => `must be ${inBox(least)} to ${inBox(most)}${unit}`);
-        return `${input.label}: ${this.values[keyOf(input)]}${unit} is refused: ${si === 1 ? rest : range}`;
+        return `${labelOf(input)}: ${this.values[keyOf(input)]}${unit} is refused: ${si === 1 ? rest : range}`;
     }
 
     // What the user asks for, by columns of the program, in SI units; a standard error of zero has no column.

@@ -311,7 +311,7 @@ pub fn every_term(browser: &mut Browser) -> Result<(), String> {
 }
 
 /// What is entered in the box of a column, and what the page says of it.
-const REFUSED: [(&str, &str, &str); 4] = [
+const REFUSED: [(&str, &str, &str); 6] = [
     (
         "speed_normal_m_s",
         "-2.8",
@@ -320,6 +320,8 @@ const REFUSED: [(&str, &str, &str); 4] = [
     ("radius_m", "5e6", "Radius: 5000000 µm is refused: radius must be 1e-4 to 1e6 µm"),
     ("stiffness_pa", "-75", "Hertz stiffness: -75 GPa is refused: stiffness must be 1e-9 to 1e7 GPa"),
     ("radius_m", "", "Enter a number in each box. Empty: Radius."),
+    ("spin_error_rad_s", "", "Enter a number in each box. Empty: Standard error of the spin."),
+    ("radius_error_m", "-5", "Standard error of the radius: it must not be negative"),
 ];
 
 /// A number out of its range is refused by the label and in the unit of its box, and standard errors give probabilities.
@@ -420,7 +422,7 @@ pub fn materials(browser: &mut Browser) -> Result<(), String> {
 
 /// The work of adhesion of a pair is not that of the pair before: where the list has none, it is the start value, and the page says so.
 fn work_of_another_pair(browser: &mut Browser) -> Result<(), String> {
-    let mut work_of = |[sphere, surface]: [&str; 2], until: &str| {
+    let work_of = |browser: &mut Browser, [sphere, surface]: [&str; 2], until: &str| {
         choose(browser, "sphere_material", sphere)?;
         choose(browser, "surface_material", surface)?;
         choose(browser, "law", "dmt")?;
@@ -430,10 +432,14 @@ fn work_of_another_pair(browser: &mut Browser) -> Result<(), String> {
             browser.text("scene.note.textContent")?,
         ))
     };
-    let (known, _) = work_of(KNOWN_PAIR, "scene.columns().work_of_adhesion_j_m2 !== '0.1'")?;
+    let (known, _) = work_of(browser, KNOWN_PAIR, "scene.columns().work_of_adhesion_j_m2 !== '0.1'")?;
     let listed = program(&[&["materials"], &KNOWN_PAIR[..], &["--format", "csv"]].concat(), b"")?;
     same("the work of adhesion of ice on ice", &known, &first_row(&listed, "work_of_adhesion_j_m2")?)?;
-    let (unknown, note) = work_of(UNKNOWN_PAIR, "scene.note.textContent.includes('polystyrene on steel')")?;
+    // A surface alone keeps nothing of the pair before.
+    choose(browser, "sphere_material", "")?;
+    browser.wait_for("scene.note.textContent.includes('choose the material of the sphere too')")?;
+    same("the work of adhesion of a surface alone", &browser.text("scene.columns().work_of_adhesion_j_m2")?, "0.1")?;
+    let (unknown, note) = work_of(browser, UNKNOWN_PAIR, "scene.note.textContent.includes('polystyrene on steel')")?;
     same("the work of adhesion of polystyrene on steel", &unknown, "0.1")?;
     let expected = "The list does not give for polystyrene on steel: work of adhesion, which is now 100 mJ/m².";
     same("what the page says of it", note.split_inclusive('.').next().unwrap_or_default(), expected)
@@ -460,6 +466,11 @@ pub fn angle_and_force(browser: &mut Browser) -> Result<(), String> {
         }
     }
     answered(browser)?;
+    enter(browser, "path_speed", "-2")?;
+    browser.wait_for(READY)?;
+    let expected = "Speed along the path, Angle between path and normal: the approach speed must be 1e-12 to 1e6 m/s";
+    same("the reason", &browser.text("document.getElementById('margin').textContent")?, expected)?;
+    enter(browser, "path_speed", "4")?;
     // The program knows no force with this end.
     enter(browser, "external_force_n", "0")?;
     choose(browser, "law", "hertz")?;
