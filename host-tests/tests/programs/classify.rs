@@ -411,4 +411,11 @@ fn numbers_that_are_wrong_together() {
         "{error}"
     );
     assert!(error.ends_with("but must be 0 to 1e9"), "{error}");
+
+    let output = run(
+        &["-", "--format", "csv", "--model", "rigid-body"],
+        b"radius_um,density_kg_m3,restitution,speed_normal_m_s\n5e6,2600,1,2.8\n",
+    );
+    let written = Written::read(&output.stdout, b',');
+    assert_eq!(written.text(0, "error"), "radius_um: \"5e6\" (5.0 m) is refused: radius must be 1e-10 to 1 m");
 }

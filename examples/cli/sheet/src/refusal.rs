@@ -53,20 +53,22 @@ impl Row<'_> {
         let read = |column: &&str| self.frame.inputs.iter().any(|input| input.columns().contains(column));
         let given = columns(input.parameter).into_iter().filter(read).filter_map(|column| {
             let number = self.number::<f64>(column).ok()??;
-            Some((number.abs(), column, self.text(column)?.into_owned()))
+            Some((number, column, self.text(column)?.into_owned()))
         });
         // A range that two columns share is symmetric, so that the larger number is the one outside it.
-        let largest = given.max_by(|(a, ..), (b, ..)| a.total_cmp(b));
+        let largest = given.max_by(|(a, ..), (b, ..)| a.abs().total_cmp(&b.abs()));
         let (Some((number, column, text)), Some((_, demand))) = (largest, message.split_once(", but must ")) else {
             return message;
         };
         let (name, header) = (input.parameter.name(), self.name_in_header(column));
         let range = demand.split_once(';').map_or(demand, |(range, _)| range);
+        let unit = input.parameter.unit();
+        let in_si = if header == column || unit == "1" { String::new() } else { format!(" ({number:?} {unit})") };
         // The library speaks of the radius.
         if column == "diameter_m" {
             let (smallest, largest) = input.parameter.range();
             let refused = format!(
-                "{header}: \"{text}\" is refused: diameter must be {:e} to {} m",
+                "{header}: \"{text}\"{in_si} is refused: diameter must be {:e} to {} m",
                 2.0 * smallest,
                 2.0 * largest
             );
@@ -77,7 +79,7 @@ impl Row<'_> {
         if header != column {
             let turned = text.strip_prefix('-').filter(|_| input.parameter == Parameter::ApproachSpeed);
             let remedy = turned.map_or_else(String::new, |turned| format!("; enter {text} as {turned}"));
-            return format!("{header}: \"{text}\" is refused: {name} must {range}{remedy}");
+            return format!("{header}: \"{text}\"{in_si} is refused: {name} must {range}{remedy}");
         }
         format!("{column}: \"{text}\" is refused: {name} must {demand}")
     }

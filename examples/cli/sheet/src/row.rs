@@ -127,7 +127,7 @@ impl<'a> Row<'a> {
     }
 
     /// The name by which a message calls a column: that of the header.
-    pub(crate) fn name_in_header<'b>(&'b self, column: &'b str) -> &'b str {
+    pub fn name_in_header<'b>(&'b self, column: &'b str) -> &'b str {
         let heading = self.frame.place(column).and_then(|index| self.frame.headings.get(index));
         heading.map_or(column, Heading::name_in_messages)
     }

@@ -124,7 +124,7 @@ impl Quantity {
             let ways: Vec<_> = ways.chain(sampled.iter().map(|(way, _)| format!("--samples {}", way.column))).collect();
             return Err(format!("{}: given twice, by {}; keep one of them", self.column(), ways.join(" and ")));
         }
-        let refused = |way: &'static Way| move |error: DistributionError| format!("{}: {error}", way.column);
+        let refused = |way: &'static Way| move |error: DistributionError| reason(row, way, error);
         let scaled = |distribution: Distribution, way: &'static Way| {
             let range = DIAMETERS.map(|diameter| diameter / way.factor);
             let checked = if self.is_size() { distribution.lengths_within(range) } else { Ok(distribution) };
@@ -180,6 +180,17 @@ impl Quantity {
     fn values(&self) -> impl Iterator<Item = &'static Way> {
         self.ways.iter().filter(|way| matches!(way.form, Form::Value))
     }
+}
+
+/// What is wrong with a distribution, after the name of its column in the header.
+fn reason(row: &Row<'_>, way: &Way, error: DistributionError) -> String {
+    let of_deviation =
+        matches!(error, DistributionError::NegativeDeviation(_) | DistributionError::GeometricBelowOne(_));
+    let column = way.form.deviation().filter(|_| of_deviation).unwrap_or(way.column);
+    let (name, message) = (row.name_in_header(column), error.to_string());
+    // The remedy is one for metres.
+    let message = if name == column { &message } else { message.split(';').next().unwrap_or_default() };
+    format!("{name}: {message}")
 }
 
 /// The angles of a row, rad.

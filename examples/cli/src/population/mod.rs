@@ -18,7 +18,7 @@ use crate::Streams;
 use crate::command::{Format, Origin, Reading, STATUS, SimulationOptions, TABLE_MANUAL, exit_status, one_row, say};
 use crate::words::name_of;
 use distributions::SampleFiles;
-use population::{Questions, Results};
+use population::{DIAMETERS, Questions, Results};
 
 const NAME: &str = "population";
 
@@ -124,6 +124,12 @@ impl Options {
         let increasing = self.edges.windows(2).all(|pair| pair[0] < pair[1]);
         if !self.edges.is_empty() && (self.edges.len() < 2 || !increasing || !positive(&self.edges)) {
             return Err("--edges: give two or more positive diameters in m, in increasing order".into());
+        }
+        if let Some(edge) = self.edges.iter().find(|edge| **edge > DIAMETERS[1]) {
+            let largest = DIAMETERS[1];
+            return Err(format!(
+                "--edges: {edge} m is refused: a diameter must be at most {largest} m; enter 5 um as 5e-6"
+            ));
         }
         if !positive(&self.speeds) {
             return Err("--speeds: give positive speeds in m/s".into());
