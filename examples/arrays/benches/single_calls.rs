@@ -98,6 +98,7 @@ impl Results {
     }
 
     /// Computes the first rows, each by a single call.
+    #[inline(always)]
     fn fill(&mut self, rows: &Rows, single_call: impl Fn(f64, f64) -> Result<Answer, InputError>) {
         for (row, (radius, speed)) in rows.pairs().take(self.status.len()).enumerate() {
             let answer = single_call(radius, speed);
@@ -112,14 +113,18 @@ impl Results {
     }
 }
 
+#[inline(always)]
 fn sphere(radius: f64) -> Result<Sphere<f64>, InputError> {
     Sphere::new(radius, given(DENSITY), given(GYRATION_RATIO))
 }
 
+#[inline(always)]
 fn motion(sphere: &Sphere<f64>, speed: f64) -> Result<PlanarMotion<f64>, InputError> {
     NormalMotion::new(speed)?.with_tangential(given(TANGENTIAL))?.with_spin(sphere, given(SPIN))
 }
 
+/// In a loop it is a part of it, as in the arrays.
+#[inline(always)]
 fn rigid_body(radius: f64, speed: f64) -> Result<Answer, InputError> {
     let sphere = sphere(radius)?;
     let body = RigidBody::new(sphere, SpeedRestitution::new(given(RESTITUTION_SPEED))?)

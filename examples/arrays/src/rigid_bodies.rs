@@ -187,12 +187,12 @@ impl RigidBodies<'_> {
         };
         // Of constant lanes: numbers stay in registers.
         let lane = |lane: usize| contact_class(&impact.lane(|numbers| <[f64; LANES]>::from(numbers)[lane]));
-        let lanes = [lane(0), lane(1), lane(2), lane(3)];
-        part.put_group(first, lanes.map(|(outcome, contact)| Class::of(outcome, contact.motion)), |quantity| {
+        let class = |(outcome, contact): (Outcome, ContactClass<f64>)| Class::of(outcome, contact.motion);
+        part.put_group(first, [lane(0), lane(1), lane(2), lane(3)].map(class), |quantity| {
             match quantity {
-                Quantity::FrictionOverLimit => {
-                    lanes.map(|(_, contact)| contact.friction_over_limit.unwrap_or(f64::NAN))
-                }
+                // Computed again where it is asked for, so that no row divides for it elsewhere.
+                Quantity::FrictionOverLimit => [lane(0), lane(1), lane(2), lane(3)]
+                    .map(|(_, contact)| contact.friction_over_limit.unwrap_or(f64::NAN)),
                 _ => number(quantity, &sphere, &impact).map_or([f64::NAN; LANES], Into::into),
             }
         });
