@@ -130,6 +130,11 @@ def test_populations_refuse():
             scene.population(diameter=diameter, speed=1.0)
     with pytest.raises(ValueError, match="^diameter: the distribution reaches from .* enter a smaller deviation$"):
         scene.population(diameter=mi.LogNormal(5e-6, 20.0), speed=1.0)
+    soft = mi.Scene(density=2600, contact=mi.Ring(stiffness=75, adhesion=250, zeta_h=10.5, zeta_a=6.25))
+    with pytest.raises(ValueError, match="^stiffness, zeta_h, zeta_a, speed_normal: damping over elasticity"):
+        soft.population(diameter=8e-6, speed=2.0)
+    with pytest.raises(ValueError, match="^stiffness, zeta_h, zeta_a, speed_normal: damping over elasticity"):
+        mi.Scene(radius=4e-6, density=2600, contact=soft.contact).critical_speed()
     with pytest.raises(ValueError, match="angle_deg: an angle"):
         scene.population(diameter=1e-6, speed=1.0, angle_deg=95.0)
     with pytest.raises(TypeError, match="^bins: 2.5 is refused: give a whole number, 0 to 200"):

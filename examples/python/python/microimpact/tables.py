@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from decimal import ROUND_UP, Context
 from enum import IntEnum
 from typing import NamedTuple
 
@@ -35,6 +36,11 @@ class Reading(NamedTuple):
     """Zero for a capture; NaN where the table does not know."""
     error: Float
     """Bound of the error of the restitution."""
+
+
+def _rounded_up(bound: float) -> str:
+    """A bound in two digits, rounded up, so that it still is one."""
+    return f"{Context(prec=2, rounding=ROUND_UP).create_decimal_from_float(bound):.1e}"
 
 
 def _radii_and_speeds(radius: npt.ArrayLike, speed_normal: npt.ArrayLike) -> tuple[Float, Float, Rows]:
@@ -86,7 +92,7 @@ class BoundaryTable:
 
     def __repr__(self) -> str:
         cells = len(self.parts[2])
-        return f"<BoundaryTable: {cells} cells from {self.smallest_radius:.3e} m, margin {self.margin:.1e}>"
+        return f"<BoundaryTable: {cells} cells from {self.smallest_radius:.3e} m, margin {_rounded_up(self.margin)}>"
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         return _boundary_table, self.parts
@@ -129,7 +135,7 @@ class RestitutionTable:
 
     def __repr__(self) -> str:
         (smallest, _, _), _, _ = self._table.parts
-        return f"<RestitutionTable: from {smallest:.3e} m, error {self.error:.1e}>"
+        return f"<RestitutionTable: from {smallest:.3e} m, error {_rounded_up(self.error)}>"
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         return _restitution_table, self._table.parts
