@@ -104,8 +104,11 @@ fn messages_name_the_header() {
     let output = classified(table.as_bytes(), "rigid-body");
     let written = Written::read(&output.stdout, b',');
     for (row, words) in [
-        (0, "Radius [um]: \"-5\" is refused: radius must be 1e-10 to 1 m"),
-        (1, "speed_normal_cm_s: \"-280\" is refused: approach speed must be 1e-12 to 1e6 m/s; enter -280 as 280"),
+        (0, "Radius [um]: \"-5\" (-5e-6 m) is refused: radius must be 1e-10 to 1 m"),
+        (
+            1,
+            "speed_normal_cm_s: \"-280\" (-2.8 m/s) is refused: approach speed must be 1e-12 to 1e6 m/s; enter -280 as 280",
+        ),
         (2, "density_kg_m3: \"x\" is not a number"),
     ] {
         assert_eq!(written.text(row, "error"), words);
