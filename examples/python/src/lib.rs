@@ -13,6 +13,7 @@ mod tables;
 mod threads;
 mod trajectory;
 
+use ::population::DIAMETERS;
 use impact_arrays::Quantity;
 use microimpact::Parameter;
 use pyo3::prelude::*;
@@ -42,6 +43,7 @@ mod _native {
         let second = refusal::OF_SECOND.map(|(_, keyword)| keyword);
         module.add("PARAMETERS", [&Parameter::ALL.map(refusal::keyword)[..], &second].concat())?;
         module.add("QUANTITIES", Quantity::ALL.map(Quantity::name))?;
+        module.add("LARGEST_DIAMETER", DIAMETERS[1])?;
         method::add_ranges(module)
     }
 }

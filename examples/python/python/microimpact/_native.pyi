@@ -10,6 +10,7 @@ from . import methods
 
 __version__: str
 PARAMETERS: list[str]
+LARGEST_DIAMETER: float
 QUANTITIES: list[str]
 COLLOCATION_NODES: tuple[int, int, int]
 FIXED_COST_NODES: tuple[int, int, int]

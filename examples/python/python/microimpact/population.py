@@ -8,15 +8,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import distributions, plot
+from . import _native, distributions, plot
 from .arrays import Float, number_array, one_number, whole_number
 from .distributions import Distributed, LogNormal
 
 MOST_BINS = 200
 """Largest number of ranges of diameters."""
-
-LARGEST_EDGE = 2.0
-"""Largest diameter of a sphere, m."""
 
 PARTICLES = 100
 """Particles observed at each speed, where nothing else is said."""
@@ -116,9 +113,10 @@ class Population:
         edge = number_array("edges", edges).reshape(-1).tolist()
         if edge and (len(edge) < 2 or edge[0] <= 0.0 or not all(a < b for a, b in zip(edge, edge[1:]))):
             raise ValueError("edges: give two or more positive diameters in m, in increasing order")
-        if edge and not edge[-1] <= LARGEST_EDGE:
+        largest = _native.LARGEST_DIAMETER
+        if edge and not edge[-1] <= largest:
             raise ValueError(
-                f"edges: {edge[-1]} m is refused: a diameter must be at most {LARGEST_EDGE} m; enter 5 um as 5e-6"
+                f"edges: {edge[-1]} m is refused: a diameter must be at most {largest} m; enter 5 um as 5e-6"
             )
         fast = number_array("speeds", speeds).reshape(-1).tolist()
         if not all(np.isfinite(value) and value > 0.0 for value in fast):
