@@ -10,6 +10,7 @@ use super::nodes::{Nodes, PhaseSamples, WEIGHT_POWER};
 use super::observer::Observer;
 use super::path::{End, MOST_INTERVALS, Method, NormalPath, Statistics, energy_bound};
 use super::phase::Phase;
+use super::proportional::in_closed_form;
 use super::rest::{RestCriterion, Settling};
 use super::split::{FirstPart, find_end_of_slip};
 use crate::contact::law::ContactLaw;
@@ -206,6 +207,17 @@ impl<T: AdaptiveNodes> Adaptive<T> {
         O: Observer<T>,
     {
         let tolerance = self.tolerance;
+        if in_closed_form(law, energy, observer).is_some() {
+            let budget = budget.unwrap_or(MOST_INTERVALS);
+            // A node costs the same in a long interval, so there are more of them than for iterations.
+            return if tolerance >= T::constant(COARSE) {
+                Collocation::<7, T> { tolerance }.solve_within(budget, law, energy, observer)
+            } else if tolerance >= T::constant(FINE) {
+                Collocation::<10, T> { tolerance }.solve_within(budget, law, energy, observer)
+            } else {
+                Collocation::<14, T> { tolerance }.solve_within(budget, law, energy, observer)
+            };
+        }
         let whole_phases = law.loss_power() >= WEIGHT_POWER
             && energy >= T::constant(LEAST_PHASE_ENERGY)
             && !law.may_have_barrier()
@@ -247,6 +259,10 @@ impl<T: AdaptiveNodes> Adaptive<T> {
         path
     }
 }
+
+/// Least tolerances for which seven and ten nodes observe a motion in closed form.
+const COARSE: f64 = 3e-5;
+const FINE: f64 = 3e-7;
 
 /// Least kinetic energy before the impact for whole phases, where one half is the largest on the way. If adhesion multiplies the
 /// energy by more, a phase is slow at its end, and its estimated error is no longer a bound: over random scenes with ever smaller
