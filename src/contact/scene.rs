@@ -17,6 +17,9 @@ use crate::{
     Parameter, Real, Sphere, Stiffness,
 };
 
+/// An approach speed that occurs, m/s.
+const ORDINARY_SPEED: f64 = 1.0;
+
 /// A sphere and the physics of its contact: `L` the law of contact along the normal, `S` what happens along the surface.
 /// A term that is not added takes no memory and no time.
 ///
@@ -581,14 +584,16 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
     ///
     /// Where nothing holds a sphere, or nothing takes energy from it, or every speed of the range of
     /// [`Parameter::ApproachSpeed`] rebounds, the answer is [`CriticalSpeed::AlwaysRebounds`]; if a sphere is captured
-    /// even at the largest of them, [`CriticalSpeed::NeverRebounds`].
+    /// even at the largest of them, [`CriticalSpeed::NeverRebounds`]. That is said only of a scene whose forces are within their ranges at
+    /// 1 m/s.
     ///
     /// The search makes at most 88 trials of a speed, and few as a rule. A trial is the path of an impact, and one in reverse, of at most
     /// [`Collocation::MOST_INTERVALS`](super::Collocation::MOST_INTERVALS) intervals each. A
     /// [`CriticalSpeedSearch`](super::CriticalSpeedSearch) makes them in steps.
     ///
     /// # Errors
-    /// A ratio of the scene's forces outside its range at the critical speed. [`Parameter::Tolerance`] where rounding does not allow
+    /// A ratio of the scene's forces outside its range at the critical speed, or, where no speed rebounds, at 1 m/s.
+    /// [`Parameter::Tolerance`] where rounding does not allow
     /// even the largest tolerance.
     ///
     /// ```
@@ -605,7 +610,15 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
     /// ```
     pub fn critical_speed(&self, method: &impl ErrorControl<T>) -> Result<CriticalSpeed<T>, InputError> {
         let try_speed = |speed, allowed| self.try_speed(speed, allowed, method);
-        critical_search::critical_speed(self.first_trial(), method.tolerance(), try_speed)
+        self.suited(critical_search::critical_speed(self.first_trial(), method.tolerance(), try_speed)?)
+    }
+
+    /// The critical speed, unless no speed rebounds because none that occurs suits the scene: a stiffness may be in the wrong unit.
+    pub(super) fn suited(&self, critical: CriticalSpeed<T>) -> Result<CriticalSpeed<T>, InputError> {
+        if critical == CriticalSpeed::NeverRebounds {
+            self.law.in_units(&self.sphere, T::constant(ORDINARY_SPEED))?;
+        }
+        Ok(critical)
     }
 
     /// The first speed, m/s, that a search for the critical speed tries.

@@ -7,7 +7,7 @@ use microimpact::contact::{
 };
 use microimpact::rigid::EnergyLedger;
 use microimpact::space::Departing;
-use microimpact::{CriticalSpeed, InputError, NormalMotion, Parameter};
+use microimpact::{CriticalSpeed, InputError, Parameter};
 use rayon::prelude::*;
 
 use crate::impacts::{Slot, fill};
@@ -225,21 +225,10 @@ impl Contacts<'_> {
         method: &(impl ErrorControl<f64> + Sync),
         stop: impl Fn() -> bool + Sync,
     ) -> Option<Vec<Result<CriticalSpeed<f64>, InputError>>> {
-        let speed = |row: usize| {
-            let scene = self.scene(row)?;
-            let critical = scene.critical_speed(method)?;
-            if critical == CriticalSpeed::NeverRebounds {
-                // So does a scene that no speed suits, as with a stiffness of some pascals: an impact says why.
-                scene.solve_normal(&NormalMotion::new(ANY_SPEED)?, method)?;
-            }
-            Ok(critical)
-        };
+        let speed = |row: usize| self.scene(row)?.critical_speed(method);
         (0..count).into_par_iter().map(|row| if stop() { None } else { Some(speed(row)) }).collect()
     }
 }
-
-/// A speed at which an impact is tried, m/s.
-const ANY_SPEED: f64 = 1.0;
 
 /// Simulates rows by a `FixedCost` whose nodes are chosen at run time.
 struct InGroups<'a, S> {

@@ -4,7 +4,7 @@ use std::cell::LazyCell;
 use std::f64::consts::PI;
 
 use microimpact::contact::{Collocation, ConstantForce, Contact, HertzLaw, HystereticDamping, Nodes, Ring};
-use microimpact::{CriticalSpeed, InputError, NormalMotion, Outcome, Parameter, Real, Sphere, Stiffness};
+use microimpact::{CriticalSpeed, Fault, InputError, NormalMotion, Outcome, Parameter, Real, Sphere, Stiffness};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use reference::scenes::{Kind, critical_speed_near};
@@ -293,6 +293,15 @@ fn no_critical_speed_where_there_is_none() {
     assert_eq!(never.outcome(1e6), Outcome::Capture);
     let soft = Inputs { radius: 1e-9, stiffness: 1.0, adhesion: 1e9, ..FIGURE_6 };
     assert_eq!(soft.critical::<9, f64>(1e-9).unwrap_err().parameter, Parameter::AdhesionRatio);
+}
+
+/// 75 Pa instead of 75 GPa: the largest speeds are captured, and no speed that occurs suits the scene.
+#[test]
+fn a_stiffness_in_the_wrong_unit() {
+    let soft = Inputs { stiffness: 75.0, ..FIGURE_6 };
+    assert_eq!(soft.outcome(1e6), Outcome::Capture);
+    let error = soft.critical::<9, f64>(1e-9).unwrap_err();
+    assert_eq!((error.parameter, error.fault), (Parameter::DampingRatio, Fault::TooLarge));
 }
 
 #[test]

@@ -107,7 +107,8 @@ impl<T: Real> CriticalSpeedSearch<T> {
             if self.result.is_some() {
                 break;
             }
-            self.result = search.try_next(method.tolerance(), |speed, allowed| scene.try_speed(speed, allowed, method));
+            let found = search.try_next(method.tolerance(), |speed, allowed| scene.try_speed(speed, allowed, method));
+            self.result = found.map(|found| scene.suited(found?));
         }
         self.search = Some(search);
         self.result.transpose()

@@ -94,13 +94,7 @@ where
     L: ContactLaw<f64>,
 {
     fn critical_speed(&self, diameter: f64, adhesion: f64) -> Result<CriticalSpeed<f64>, PopulationError> {
-        let scene = (self.scene)(diameter, adhesion)?;
-        let critical = scene.critical_speed(&self.method)?;
-        if critical == CriticalSpeed::NeverRebounds {
-            // So does a scene that no speed suits, as with a stiffness of some pascals: an impact says why.
-            scene.solve_normal(&NormalMotion::new(ANY_SPEED)?, &self.method)?;
-        }
-        Ok(critical)
+        Ok((self.scene)(diameter, adhesion)?.critical_speed(&self.method)?)
     }
 
     fn rebound(&self, diameter: f64, adhesion: f64, speed: f64) -> Result<Rebound, PopulationError> {
