@@ -226,7 +226,7 @@ mod tests {
         let rebound = judge.truth.outcome == Some(truth::Outcome::Rebound);
         let (outcome, slides) = (if rebound { Outcome::Rebound } else { Outcome::Capture }, !judge.truth.rolls);
         let motion = if slides { SurfaceMotion::Sliding } else { SurfaceMotion::Rolling };
-        Answer::Solved { outcome, stated_error: 0.0, motion: Some((motion, slides)), outputs }
+        Answer::Solved { outcome, stated_error: 0.0, evaluations: None, motion: Some((motion, slides)), outputs }
     }
 
     #[test]
@@ -254,15 +254,24 @@ mod tests {
             let (solver, judges) = judges(outcome);
             for judge in judges {
                 let right = answer(&judge, 0, 0.0);
-                let Answer::Solved { motion, stated_error, outcome: same, outputs } = right else { unreachable!() };
-                let wrong = Answer::Solved { outcome: other, motion, stated_error, outputs: outputs.clone() };
+                let Answer::Solved { motion, stated_error, evaluations, outcome: same, outputs } = right else {
+                    unreachable!()
+                };
+                let wrong =
+                    Answer::Solved { outcome: other, motion, stated_error, evaluations, outputs: outputs.clone() };
                 assert!(matches!(judge.judge(&solver, &wrong), Finding::WrongOutcome), "{}", judge.scene);
                 if outcome == truth::Outcome::Rebound
                     && judge.truth.slip_margin.is_some_and(|margin| margin.abs() > Double::from(0.01))
                 {
                     let slides = judge.truth.rolls;
                     let motion = if slides { SurfaceMotion::Sliding } else { SurfaceMotion::Rolling };
-                    let wrong = Answer::Solved { outcome: same, motion: Some((motion, slides)), stated_error, outputs };
+                    let wrong = Answer::Solved {
+                        outcome: same,
+                        motion: Some((motion, slides)),
+                        stated_error,
+                        evaluations,
+                        outputs,
+                    };
                     let finding = judge.judge(&solver, &wrong);
                     assert!(matches!(finding, Finding::Right { wrong_class: true, .. }), "{}", judge.scene);
                 }
@@ -278,6 +287,7 @@ mod tests {
             let needless = |stated_error| {
                 let answer = Answer::Solved {
                     outcome: Outcome::Undecided,
+                    evaluations: None,
                     motion: None,
                     stated_error,
                     outputs: Default::default(),

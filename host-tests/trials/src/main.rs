@@ -77,13 +77,14 @@ fn label(solver: &Solver) -> String {
     format!("{} {}", solver.name, solver.number.name())
 }
 
-/// A table with a row for each solver: all counts, the largest distances from the boundary of undecided and wrong outcomes,
+/// A table with a row for each solver: the mean of its evaluations, all counts, the largest distances from the boundary of undecided and wrong outcomes,
 /// the errors of e^2, and the worst output.
 fn counts(solvers: &[Solver], tallies: &[Tally]) -> Table {
+    const FIRST: [&str; 2] = ["method", "evaluations"];
     const MORE: [&str; 5] = ["undecided to", "wrong to", "e^2 beyond", "beyond ten", "worst output"];
     let mut table = Table::new();
     table.load_preset(presets::NOTHING);
-    table.set_header([&["method"], &Count::ALL.map(Count::name)[..], &MORE].concat());
+    table.set_header([&FIRST, &Count::ALL.map(Count::name)[..], &MORE].concat());
     for (solver, tally) in solvers.iter().zip(tallies) {
         let e = &tally.outputs[0];
         let worst = Output::ALL.iter().zip(&tally.outputs).max_by(|a, b| a.1.largest.total_cmp(&b.1.largest));
@@ -97,7 +98,11 @@ fn counts(solvers: &[Solver], tallies: &[Tally]) -> Table {
             worst.unwrap_or_default(),
         ];
         let counts = Count::ALL.map(|count| count.of(tally).to_string());
-        table.add_row([label(solver)].into_iter().chain(counts).chain(more));
+        let evaluations = match tally.counted {
+            0 => String::new(),
+            counted => format!("{:.1}", tally.evaluations as f64 / counted as f64),
+        };
+        table.add_row([label(solver), evaluations].into_iter().chain(counts).chain(more));
     }
     table
 }

@@ -55,6 +55,8 @@ pub enum Answer {
         outcome: Outcome,
         /// Error of e^2 that the method states: its tolerance, or its own bound where that is larger.
         stated_error: f64,
+        /// Evaluations of a speed or of the forces; none in fixed point, whose methods all cost the same.
+        evaluations: Option<u32>,
         /// How the contact point moves, by the velocities after the impact and by the slip history.
         motion: Option<(SurfaceMotion, bool)>,
         /// In the order of [`Output::ALL`](crate::Output::ALL); `None` where a quantity does not exist.
@@ -212,6 +214,7 @@ fn answer<T: Real>(
     Answer::Solved {
         outcome,
         stated_error: tolerance.max(run.error_bound.to_f64()),
+        evaluations: Some(run.evaluations),
         motion: Some((tangential.motion(), slip.slides)),
         outputs: Box::new([
             Some(e * e),
@@ -251,5 +254,5 @@ fn in_fixed_point(scene: &Scene, method: &impl Method<FixedPoint>, tolerance: f6
     let mut outputs = Box::new([None; COUNT]);
     outputs[0] = Some(contact.restitution_squared.to_f64());
     let stated_error = tolerance.max(contact.error_bound.to_f64());
-    Ok(Answer::Solved { outcome, stated_error, motion: None, outputs })
+    Ok(Answer::Solved { outcome, stated_error, evaluations: None, motion: None, outputs })
 }

@@ -4,7 +4,7 @@ use truth::{Double, Scene};
 
 use crate::judge::{FAR, Finding, Judge, OutputError};
 use crate::output::{COUNT, Output};
-use crate::solver::Solver;
+use crate::solver::{Answer, Solver};
 
 /// Counts of the errors of an output.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -39,6 +39,10 @@ pub struct Tally {
     pub scenes: u64,
     /// Scenes of which the truth does not know the outcome.
     pub unknown: u64,
+    /// Answers with a number of evaluations, and their sum.
+    pub counted: u64,
+    /// Evaluations of a speed or of the forces.
+    pub evaluations: u64,
     /// Refused inputs.
     pub refused: u64,
     /// Statuses other than *solved*.
@@ -76,6 +80,10 @@ impl Tally {
             return;
         };
         self.scenes += 1;
+        if let Answer::Solved { evaluations: Some(evaluations), .. } = answer {
+            self.counted += 1;
+            self.evaluations += u64::from(evaluations);
+        }
         let margin = judge.truth.margin.map_or(f64::INFINITY, Double::to_f64);
         match judge.judge(solver, &answer) {
             Finding::Unknown => self.unknown += 1,
@@ -117,6 +125,8 @@ impl Tally {
     pub fn merge(&mut self, other: Self) {
         self.scenes += other.scenes;
         self.unknown += other.unknown;
+        self.counted += other.counted;
+        self.evaluations += other.evaluations;
         self.refused += other.refused;
         self.unsolved += other.unsolved;
         self.undecided += other.undecided;
