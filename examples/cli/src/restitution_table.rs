@@ -91,8 +91,13 @@ pub fn write(
         )
         .into());
     }
-    let ratio = (largest / smallest).powf(1.0 / f64::from(count.max(2) - 1));
-    let spheres = |place: f64| Spheres::new(smallest * ratio.powf(place), density, law);
+    let last = f64::from(count.max(2) - 1);
+    let ratio = (largest / smallest).powf(last.recip());
+    // The powers of a root have its rounding; the last radius is the one that was asked for.
+    let spheres = |place: f64| {
+        let radius = if place == last { largest } else { smallest * ratio.powf(place) };
+        Spheres::new(radius, density, law)
+    };
     let table = table(count, spheres, options, materials)?;
     match program {
         Program::Fluent => fluent::write(to, &table),

@@ -225,9 +225,9 @@ fn few_rebounds_are_not_enough() {
     );
     // Nor is one speed, however often.
     let alike = String::from("speed_normal_m_s,overall_restitution\n") + &"2,0.8\n".repeat(30);
-    for table in [few, alike] {
+    for (table, reason) in [(few, ""), (alike, "all rebounds have approach speeds of 2.0000 m/s")] {
         let text = String::from_utf8(fit(&table, &[]).stdout).unwrap();
-        assert!(text.contains("not enough data"), "{text}");
+        assert!(text.contains("not enough data") && text.contains(reason), "{text}");
     }
 }
 

@@ -233,3 +233,12 @@ fn both_models_and_their_difference() {
     let reason = written.text(0, "models_differ_because");
     assert!(reason.contains("of the critical speed of the rigid body, but the simulation has e ="), "{reason}");
 }
+
+/// A standard error in another unit than its number: the refusal says that a random number is to blame.
+#[test]
+fn a_standard_error_in_the_wrong_unit() {
+    let (written, _) = classified("simulation", "0.9", "2.8,0", &[("stiffness_error_pa", "1e15")]);
+    let error = written.text(0, "error");
+    assert!(error.starts_with("with random numbers of these standard errors: "), "{error}");
+    assert!(error.ends_with("; check the standard errors"), "{error}");
+}

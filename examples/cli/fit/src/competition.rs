@@ -135,9 +135,11 @@ fn verdict(stop: &Stop, observations: &[Observation], laws: &[Law], scatter: Sca
     let speeds = observations.iter().filter(|observation| observation.rebounds()).map(|observation| observation.speed);
     let (low, high) = speeds.fold((f64::MAX, 0.0_f64), |(low, high), speed| (low.min(speed), high.max(speed)));
     if high < LEAST_RANGE * low {
+        let [low, high] = [low, high].map(|speed| format!("{speed:.4}"));
+        let range = if low == high { format!("of {low} m/s") } else { format!("from {low} to {high} m/s") };
         return Verdict::NotEnough(format!(
-            "not enough data: all rebounds have approach speeds from {low:.4} to {high:.4} m/s, but a law needs speeds that differ \
-             by a factor of at least {LEAST_RANGE}"
+            "not enough data: all rebounds have approach speeds {range}, but a law needs speeds that differ by a factor of at least \
+             {LEAST_RANGE}"
         ));
     }
     let mut fits: Vec<LawFit> =

@@ -250,7 +250,9 @@ impl<'a, 'b> Deviations<'a, 'b> {
         let mut counts = [0_u32; 4];
         for _ in 0..draws {
             let row = self.with(self.numbers.iter().map(|number| T::constant(number.drawn(&mut random))));
-            let class = moving(class(&row)?);
+            let refused =
+                |reason| format!("with random numbers of these standard errors: {reason}; check the standard errors");
+            let class = moving(class(&row).map_err(refused)?);
             let Some(index) = CLASSES.iter().position(|other| *other == class) else {
                 return Err("the class of a random row is undecided; use --method adaptive".into());
             };
