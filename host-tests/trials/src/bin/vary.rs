@@ -92,9 +92,13 @@ impl Constant {
         found.map(|(line, value)| Self { file: file.to_owned(), line, value })
     }
 
-    /// The source with another value of the constant.
+    /// The source with another value of the constant. An integer may stand for a number with a decimal point.
     fn put(&self, source: &str, value: &str) -> String {
+        let point = if value.parse::<i64>().is_ok() { ".0" } else { "" };
         let lines = source.lines().enumerate().map(|(number, line)| match line.rsplit_once(" = ") {
+            Some((definition, _)) if number == self.line && definition.ends_with("f64") => {
+                format!("{definition} = {value}{point};\n")
+            }
             Some((definition, _)) if number == self.line => format!("{definition} = {value};\n"),
             _ => format!("{line}\n"),
         });
@@ -150,6 +154,8 @@ mod tests {
         let two = Constant::in_source("TWO", Path::new("a.rs"), source).unwrap();
         assert_eq!((two.line, two.value.as_str()), (3, "2"));
         assert_eq!(two.put(source, "5"), "/// One.\nconst ONE: f64 = 1.0;\n\npub(super) const TWO: u32 = 5;\n");
+        let one = Constant::in_source("ONE", Path::new("a.rs"), source).unwrap();
+        assert_eq!(one.put(source, "0"), "/// One.\nconst ONE: f64 = 0.0;\n\npub(super) const TWO: u32 = 2;\n");
         assert_eq!(Constant::in_source("THREE", Path::new("a.rs"), source), None);
     }
 }
