@@ -104,7 +104,7 @@ C = [
     ("IMPULSE_WEIGHT", "5", "adaptive: `phases`", "error of an impulse over that of the time: the force is largest near the peak"),
     ("UNDECIDED", "4", "adaptive: `phases`", "error bounds within which the outcome is left to intervals"),
     ("the ladder of nodes", "see above", "adaptive: `solve`", "tolerance that most scenes reach with a number of nodes"),
-    ("COARSE, FINE", "3e-5, 3e-7", "adaptive: `solve_within`", "least tolerances for which seven and ten nodes cost the least in closed form; fourteen below"),
+    ("nodes in closed form", "7, 10, 14", "adaptive: `nodes_in_closed_form`", "least cost to tolerances of 3e-5, 3e-7 and below"),
     ("**`FixedCost`**",),
     ("LOSSES_BOUND, UNCANCELLED, SLOW_END_BOUND", "1.5, 0.1, 10", "phase: `bound_with`", "make a bound of what the nodes do not resolve, and of the slow end; the tests `error_bounds` show them"),
     ("CHANGE_MARGIN, LEAST_MARGIN, LARGEST_MARGIN, CONTRACTION", "2, 0.5, 10, 0.15", "`fixed_cost`: `unconverged`", "error that iterations leave, over Aitken's estimate, over the last change, and over the drag; the same tests"),

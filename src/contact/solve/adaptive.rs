@@ -152,20 +152,44 @@ impl<T: Real> Adaptive<T> {
     }
 }
 
-/// A call of [`Collocation`] with the number of nodes that suits a tolerance.
+/// The number of nodes whose intervals cost the least at a tolerance.
+#[inline]
+fn nodes_of_intervals<T: Real>(tolerance: T) -> u32 {
+    if tolerance >= T::constant(3e-7) {
+        7
+    } else if tolerance >= T::constant(3e-10) {
+        9
+    } else if tolerance >= T::constant(1e-11) {
+        10
+    } else if tolerance >= T::constant(3e-13) {
+        12
+    } else {
+        14
+    }
+}
+
+/// The same where the motion is in closed form: a node costs as much in a long interval as in a short one, so there are more of them.
+#[inline]
+fn nodes_in_closed_form<T: Real>(tolerance: T) -> u32 {
+    if tolerance >= T::constant(3e-5) {
+        7
+    } else if tolerance >= T::constant(3e-7) {
+        10
+    } else {
+        14
+    }
+}
+
+/// A call of [`Collocation`] with a number of nodes.
 macro_rules! by_intervals {
-    ($tolerance:expr, $method:ident($($argument:expr),*)) => {{
+    ($nodes:expr, $tolerance:expr, $method:ident($($argument:expr),*)) => {{
         let tolerance = $tolerance;
-        if tolerance >= T::constant(3e-7) {
-            Collocation::<7, T> { tolerance }.$method($($argument),*)
-        } else if tolerance >= T::constant(3e-10) {
-            Collocation::<9, T> { tolerance }.$method($($argument),*)
-        } else if tolerance >= T::constant(1e-11) {
-            Collocation::<10, T> { tolerance }.$method($($argument),*)
-        } else if tolerance >= T::constant(3e-13) {
-            Collocation::<12, T> { tolerance }.$method($($argument),*)
-        } else {
-            Collocation::<14, T> { tolerance }.$method($($argument),*)
+        match $nodes {
+            7 => Collocation::<7, T> { tolerance }.$method($($argument),*),
+            9 => Collocation::<9, T> { tolerance }.$method($($argument),*),
+            10 => Collocation::<10, T> { tolerance }.$method($($argument),*),
+            12 => Collocation::<12, T> { tolerance }.$method($($argument),*),
+            _ => Collocation::<14, T> { tolerance }.$method($($argument),*),
         }
     }};
 }
@@ -183,11 +207,15 @@ impl<T: AdaptiveNodes> ErrorControl<T> for Adaptive<T> {
         observer: &mut O,
         criterion: &RestCriterion<T>,
     ) -> (NormalPath<T>, Option<Settling<T>>) {
-        by_intervals!(self.tolerance, solve_to_rest(law, energy, observer, criterion))
+        by_intervals!(
+            nodes_of_intervals(self.tolerance),
+            self.tolerance,
+            solve_to_rest(law, energy, observer, criterion)
+        )
     }
 
     fn try_energy<L: ContactLaw<T>>(&self, tolerance: T, law: &L, energy: T) -> Trial<T> {
-        by_intervals!(tolerance, try_energy(tolerance, law, energy))
+        by_intervals!(nodes_of_intervals(tolerance), tolerance, try_energy(tolerance, law, energy))
     }
 }
 
@@ -207,18 +235,9 @@ impl<T: AdaptiveNodes> Adaptive<T> {
         O: Observer<T>,
     {
         let tolerance = self.tolerance;
-        if in_closed_form(law, energy, observer).is_some() {
-            let budget = budget.unwrap_or(MOST_INTERVALS);
-            // A node costs the same in a long interval, so there are more of them than for iterations.
-            return if tolerance >= T::constant(COARSE) {
-                Collocation::<7, T> { tolerance }.solve_within(budget, law, energy, observer)
-            } else if tolerance >= T::constant(FINE) {
-                Collocation::<10, T> { tolerance }.solve_within(budget, law, energy, observer)
-            } else {
-                Collocation::<14, T> { tolerance }.solve_within(budget, law, energy, observer)
-            };
-        }
-        let whole_phases = law.loss_power() >= WEIGHT_POWER
+        let closed = in_closed_form(law, energy, observer).is_some();
+        let whole_phases = !closed
+            && law.loss_power() >= WEIGHT_POWER
             && energy >= T::constant(LEAST_PHASE_ENERGY)
             && !law.may_have_barrier()
             && !O::DEMANDS
@@ -248,21 +267,18 @@ impl<T: AdaptiveNodes> Adaptive<T> {
             try_phases!(13, 24, timed 6e-10, untimed 3e-11, to 5e-8);
             try_phases!(14, 26, timed 2e-10, untimed 8e-12, to 2e-9);
         }
+        let nodes = if closed { nodes_in_closed_form(tolerance) } else { nodes_of_intervals(tolerance) };
         let mut path = match budget {
-            None => by_intervals!(tolerance, solve(law, energy, observer)),
+            None => by_intervals!(nodes, tolerance, solve(law, energy, observer)),
             Some(intervals) => {
                 let remaining = intervals.saturating_sub(attempts.made * INTERVALS_OF_AN_ATTEMPT).min(MOST_INTERVALS);
-                by_intervals!(tolerance, solve_within(remaining, law, energy, observer))
+                by_intervals!(nodes, tolerance, solve_within(remaining, law, energy, observer))
             }
         };
         path.statistics.evaluations += attempts.evaluations;
         path
     }
 }
-
-/// Least tolerances for which seven and ten nodes observe a motion in closed form.
-const COARSE: f64 = 3e-5;
-const FINE: f64 = 3e-7;
 
 /// Least kinetic energy before the impact for whole phases, where one half is the largest on the way. If adhesion multiplies the
 /// energy by more, a phase is slow at its end, and its estimated error is no longer a bound: over random scenes with ever smaller

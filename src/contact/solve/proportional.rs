@@ -131,6 +131,7 @@ impl<T: Real> Phase<T> {
     }
 
     /// The coordinate at u, near a first value over the place on the way, the size of the speed, and the time for each du.
+    #[inline(never)]
     fn at(&self, law: &impl ContactLaw<T>, u: T, first: T) -> (T, T, T) {
         let inverse = self.inverse;
         let place = self.place(u);
@@ -215,7 +216,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
             Phase { peak, potential, surface, w, rebound, inverse, w_over_potential, rate, accuracy }
         };
         let (approach, rebound) = (phase(law.start(), w, false), phase(law.end(), last, true));
-        let shown = if self.control.observed { self.show_phases::<N>(&approach, &rebound) } else { Ok(()) };
+        let shown = if O::OBSERVES { self.show_phases::<N>(&approach, &rebound) } else { Ok(()) };
         self.statistics.intervals = self.statistics.intervals.max(2);
         let speed = exponential(last).0 / ratio;
         let speed_squared = speed * speed;
@@ -246,6 +247,7 @@ impl<T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'_, T, L, O> {
     }
 
     /// Shows a phase from one u to another.
+    #[inline(never)]
     fn show_phase<const N: usize>(&mut self, phase: &Phase<T>, from: T, to: T, fading: T) -> Result<(), End>
     where
         T: Nodes<N>,
