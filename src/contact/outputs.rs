@@ -7,7 +7,6 @@ use super::law::{ContactLaw, Units};
 use super::solve::integrals;
 use super::solve::observer::Observer;
 use super::solve::path::{End, NormalPath};
-use super::solve::proportional::strong_ratio;
 use super::solve::quantities;
 use crate::rigid::EnergyLedger;
 use crate::{Real, Sphere};
@@ -270,8 +269,7 @@ impl<T: Real> ContactWorks<T> {
     fn new<L: ContactLaw<T>>(works: &integrals::Works<T>, end: &Ended<'_, T, L>) -> Self {
         let (mut material, mut adhesion) = (works.material, works.adhesion);
         if end.path.end == End::Separation {
-            let unpaid = end.law.release_speed(end.law.end()).is_some();
-            if unpaid || strong_ratio(end.law, end.units.energy).is_some() {
+            if end.law.release_speed(end.law.end()).is_some() {
                 material = end.units.energy - end.path.energy;
             }
             adhesion = adhesion - end.law.potential(end.law.start());
@@ -300,9 +298,7 @@ impl<T: Real, S> Output<T, S> for Works {
 /// has not yet come to rest, and where there is no solution.
 ///
 /// The works of damping are integrals of their own, so the difference between the losses and the change of the kinetic
-/// energy shows the error of the run. It does not where [`loss_over_slope`](crate::contact::ContactLaw::loss_over_slope) is given and
-/// damping is strong: the energy is then known in closed form, and the work is what it has lost. The external force is conservative and
-/// gives back what it takes.
+/// energy shows the error of the run. The external force is conservative and gives back what it takes.
 ///
 /// ```
 /// use microimpact::contact::{Collocation, Contact, Energy};

@@ -119,7 +119,7 @@ fn damping_of_any_strength() {
     }
 }
 
-/// Nor is it much dearer than weak damping with times, and for e alone no dearer.
+/// Nor is it much dearer than weak damping, for e alone and with times.
 #[test]
 fn evaluations_of_strong_damping() {
     const WEAK: f64 = 0.05;
@@ -138,7 +138,7 @@ fn evaluations_of_strong_damping() {
         for step in 0..=steps {
             let d = WEAK * 10_f64.powf(5.3 * f64::from(step) / f64::from(steps));
             let strong = evaluations(d);
-            assert!(strong[0] <= weak[0] && strong[1] <= 4.2 * weak[1], "{tolerance}, {d}: {strong:?}, {weak:?}");
+            assert!(strong[0] <= 3.0 * weak[0] && strong[1] <= 4.2 * weak[1], "{tolerance}, {d}: {strong:?}, {weak:?}");
         }
     }
 }

@@ -20,7 +20,6 @@ mod ledger;
 mod micromath;
 mod paper_method;
 mod pressing;
-mod proportional;
 mod published;
 mod simulation_exact;
 mod simulation_reference;

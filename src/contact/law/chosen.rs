@@ -269,12 +269,8 @@ impl<T: Real> Damping<T> for AnyDamping<T> {
     }
 
     #[inline]
-    fn over_elastic_force(&self) -> Option<T> {
-        match self {
-            Self::None => Some(T::ZERO),
-            Self::Hysteretic(damping) => Damping::over_elastic_force(damping),
-            _ => None,
-        }
+    fn is_proportional(&self) -> bool {
+        matches!(self, Self::None | Self::Hysteretic(_))
     }
 
     #[inline]
@@ -390,7 +386,6 @@ impl<T: Real> ContactLaw<T> for AnyLaw<T> {
         external_force() -> T;
         may_have_barrier() -> bool;
         admits_compliance() -> bool;
-        loss_over_slope() -> Option<T>;
         energy_power() -> f64;
         speed_of_adhesion(sphere: &Sphere<T>) -> T;
         duration(energy: T) -> T;

@@ -31,10 +31,10 @@ pub trait Damping<T: Real>: Copy {
     /// Outward speed at which the damping cancels the elastic force.
     fn release_speed(&self, radius: T, root: T) -> T;
 
-    /// The force for each unit of speed over the elastic force, where that is constant; `None` unless given.
+    /// Whether the force is in proportion to the elastic force, or none.
     #[inline]
-    fn over_elastic_force(&self) -> Option<T> {
-        None
+    fn is_proportional(&self) -> bool {
+        false
     }
 
     /// Whether the force is a polynomial in the root of the contact radius only. The root is then the coordinate of the law.
@@ -193,8 +193,8 @@ impl<T: Real> ConstantDamping<T> {
 
 impl<T: Real> Damping<T> for NoDamping {
     #[inline]
-    fn over_elastic_force(&self) -> Option<T> {
-        Some(T::ZERO)
+    fn is_proportional(&self) -> bool {
+        true
     }
 
     #[inline]
@@ -227,8 +227,8 @@ impl<T: Real> ProportionalDamping<T> for NoDamping {
 
 impl<T: Real> Damping<T> for HystereticDamping<T> {
     #[inline]
-    fn over_elastic_force(&self) -> Option<T> {
-        Some(self.rate)
+    fn is_proportional(&self) -> bool {
+        true
     }
 
     #[inline]

@@ -469,13 +469,7 @@ impl<T: Real, D: Damping<T>, A: Attraction<T>, X: Attraction<T>> ContactLaw<T> f
 
     #[inline]
     fn admits_compliance(&self) -> bool {
-        self.loss_over_slope().is_some()
-    }
-
-    #[inline]
-    fn loss_over_slope(&self) -> Option<T> {
-        let is_alone = self.adhesion.is_absent() && self.force.is_absent();
-        if is_alone { self.damping.over_elastic_force() } else { None }
+        self.damping.is_proportional() && self.adhesion.is_absent() && self.force.is_absent()
     }
 
     #[inline]

@@ -202,13 +202,6 @@ pub trait ContactLaw<T: Real>: Copy {
         T::ZERO
     }
 
-    /// c, if the losses are c dV/ds at every s on the way in and out, as under Hunt and Crossley's damping without any other force. The
-    /// motion is then known in closed form. `None` unless given.
-    #[inline]
-    fn loss_over_slope(&self) -> Option<T> {
-        None
-    }
-
     /// Outward speed at which contact ends at s, before [`end`](Self::end), for a law that ends so: the damping cancels the elastic
     /// force there. Such a law has no adhesion. `None` unless given.
     #[inline]

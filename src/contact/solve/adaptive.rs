@@ -10,7 +10,6 @@ use super::nodes::{Nodes, PhaseSamples, WEIGHT_POWER};
 use super::observer::Observer;
 use super::path::{End, MOST_INTERVALS, Method, NormalPath, Statistics, energy_bound};
 use super::phase::Phase;
-use super::proportional::in_closed_form;
 use super::rest::{RestCriterion, Settling};
 use super::split::{FirstPart, find_end_of_slip};
 use crate::contact::law::ContactLaw;
@@ -152,44 +151,20 @@ impl<T: Real> Adaptive<T> {
     }
 }
 
-/// The number of nodes whose intervals cost the least at a tolerance.
-#[inline]
-fn nodes_of_intervals<T: Real>(tolerance: T) -> u32 {
-    if tolerance >= T::constant(3e-7) {
-        7
-    } else if tolerance >= T::constant(3e-10) {
-        9
-    } else if tolerance >= T::constant(1e-11) {
-        10
-    } else if tolerance >= T::constant(3e-13) {
-        12
-    } else {
-        14
-    }
-}
-
-/// The same where the motion is in closed form: a node costs as much in a long interval as in a short one, so there are more of them.
-#[inline]
-fn nodes_in_closed_form<T: Real>(tolerance: T) -> u32 {
-    if tolerance >= T::constant(3e-5) {
-        7
-    } else if tolerance >= T::constant(3e-7) {
-        10
-    } else {
-        14
-    }
-}
-
-/// A call of [`Collocation`] with a number of nodes.
+/// A call of [`Collocation`] with the number of nodes that suits a tolerance.
 macro_rules! by_intervals {
-    ($nodes:expr, $tolerance:expr, $method:ident($($argument:expr),*)) => {{
+    ($tolerance:expr, $method:ident($($argument:expr),*)) => {{
         let tolerance = $tolerance;
-        match $nodes {
-            7 => Collocation::<7, T> { tolerance }.$method($($argument),*),
-            9 => Collocation::<9, T> { tolerance }.$method($($argument),*),
-            10 => Collocation::<10, T> { tolerance }.$method($($argument),*),
-            12 => Collocation::<12, T> { tolerance }.$method($($argument),*),
-            _ => Collocation::<14, T> { tolerance }.$method($($argument),*),
+        if tolerance >= T::constant(3e-7) {
+            Collocation::<7, T> { tolerance }.$method($($argument),*)
+        } else if tolerance >= T::constant(3e-10) {
+            Collocation::<9, T> { tolerance }.$method($($argument),*)
+        } else if tolerance >= T::constant(1e-11) {
+            Collocation::<10, T> { tolerance }.$method($($argument),*)
+        } else if tolerance >= T::constant(3e-13) {
+            Collocation::<12, T> { tolerance }.$method($($argument),*)
+        } else {
+            Collocation::<14, T> { tolerance }.$method($($argument),*)
         }
     }};
 }
@@ -207,15 +182,11 @@ impl<T: AdaptiveNodes> ErrorControl<T> for Adaptive<T> {
         observer: &mut O,
         criterion: &RestCriterion<T>,
     ) -> (NormalPath<T>, Option<Settling<T>>) {
-        by_intervals!(
-            nodes_of_intervals(self.tolerance),
-            self.tolerance,
-            solve_to_rest(law, energy, observer, criterion)
-        )
+        by_intervals!(self.tolerance, solve_to_rest(law, energy, observer, criterion))
     }
 
     fn try_energy<L: ContactLaw<T>>(&self, tolerance: T, law: &L, energy: T) -> Trial<T> {
-        by_intervals!(nodes_of_intervals(tolerance), tolerance, try_energy(tolerance, law, energy))
+        by_intervals!(tolerance, try_energy(tolerance, law, energy))
     }
 }
 
@@ -235,9 +206,7 @@ impl<T: AdaptiveNodes> Adaptive<T> {
         O: Observer<T>,
     {
         let tolerance = self.tolerance;
-        let closed = in_closed_form(law, energy, observer).is_some();
-        let whole_phases = !closed
-            && law.loss_power() >= WEIGHT_POWER
+        let whole_phases = law.loss_power() >= WEIGHT_POWER
             && energy >= T::constant(LEAST_PHASE_ENERGY)
             && !law.may_have_barrier()
             && !O::DEMANDS
@@ -267,12 +236,11 @@ impl<T: AdaptiveNodes> Adaptive<T> {
             try_phases!(13, 24, timed 6e-10, untimed 3e-11, to 5e-8);
             try_phases!(14, 26, timed 2e-10, untimed 8e-12, to 2e-9);
         }
-        let nodes = if closed { nodes_in_closed_form(tolerance) } else { nodes_of_intervals(tolerance) };
         let mut path = match budget {
-            None => by_intervals!(nodes, tolerance, solve(law, energy, observer)),
+            None => by_intervals!(tolerance, solve(law, energy, observer)),
             Some(intervals) => {
                 let remaining = intervals.saturating_sub(attempts.made * INTERVALS_OF_AN_ATTEMPT).min(MOST_INTERVALS);
-                by_intervals!(nodes, tolerance, solve_within(remaining, law, energy, observer))
+                by_intervals!(tolerance, solve_within(remaining, law, energy, observer))
             }
         };
         path.statistics.evaluations += attempts.evaluations;

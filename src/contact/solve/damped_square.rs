@@ -22,7 +22,7 @@ const TERMS: u32 = 14;
 
 /// e^w - 1 and e^w - 1 - w, without cancellation.
 #[inline]
-pub(super) fn exponential<T: Real>(w: T) -> (T, T) {
+fn exponential<T: Real>(w: T) -> (T, T) {
     if w.abs() > T::constant(SERIES) {
         let rise = w.exp() - T::ONE;
         return (rise, rise - w);

@@ -14,7 +14,6 @@ pub(super) mod nodes;
 pub(super) mod observer;
 pub(super) mod path;
 mod phase;
-pub(super) mod proportional;
 pub(super) mod quantities;
 mod rest;
 mod run;

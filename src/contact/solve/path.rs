@@ -4,7 +4,6 @@ use super::damped_square::{loss_over_force, remaining_loss};
 use super::interval::{Control, Course, Interval, Point, TURNING_CONTRACTION, arrive, distance_to_stop, leave, pass};
 use super::nodes::Nodes;
 use super::observer::Observer;
-use super::proportional::in_closed_form;
 use super::strong_damping::{BALANCE_ROUNDINGS, DEEPEST, LEAST_DRAG, Stop};
 use super::well;
 use crate::contact::law::ContactLaw;
@@ -287,25 +286,27 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
     where
         T: Nodes<N>,
     {
-        if self.control.approach > T::ZERO
-            && let Some(ratio) = in_closed_form(self.law, self.kinetic, self.observer)
-        {
-            return self.pass_in_closed_form::<N>(ratio);
-        }
-        if let Err(end) = self.approach::<N>() {
-            return self.path(end, T::ZERO);
-        }
-        let peak = self.at.s;
-        match self.rebound::<N>(to_turning_point) {
-            Ok(turning) => NormalPath { turning, ..self.path(End::Capture, peak) },
-            Err(end) => self.path(end, peak),
-        }
-    }
-
-    /// The motion as it has been followed, to this end.
-    pub(super) fn path(&self, end: End, peak: T) -> NormalPath<T> {
-        let error_bound = self.surplus().1.saturating_div(self.kinetic);
-        NormalPath { end, energy: self.at.energy, peak, turning: T::ZERO, error_bound, statistics: self.statistics }
+        let (energy, statistics) = (self.at.energy, self.statistics);
+        let zero = T::ZERO;
+        let mut path =
+            NormalPath { end: End::Budget, energy, peak: zero, turning: zero, error_bound: zero, statistics };
+        path.end = match self.approach::<N>() {
+            Err(end) => end,
+            Ok(()) => {
+                path.peak = self.at.s;
+                match self.rebound::<N>(to_turning_point) {
+                    Ok(turning) => {
+                        path.turning = turning;
+                        End::Capture
+                    }
+                    Err(end) => end,
+                }
+            }
+        };
+        path.energy = self.at.energy;
+        path.error_bound = self.surplus().1.saturating_div(self.kinetic);
+        path.statistics = self.statistics;
+        path
     }
 
     /// Energy beyond that of a sphere that separates at rest, and the bound of its error: twice as large where a barrier has to be
@@ -376,7 +377,7 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             }
             // Without an external force no peak lies beyond one.
             let farthest = if self.law.may_have_barrier() { beyond } else { T::ONE };
-            if self.at.s > self.law.start() {
+            if self.at.s > self.law.start() || self.takes_whole_phases(beyond, Course::APPROACH) {
                 let arrival = self.arrive::<N>(beyond, Course::APPROACH);
                 if self.take(&arrival, Course::APPROACH, Some(arrival.end.s))? {
                     return Ok(());
@@ -538,7 +539,11 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         // that turned back in front of it.
         let mut passed = self.turned_back_outside(peak);
         let distance = peak - outermost;
-        let depth = self.leave_peak::<N>(T::constant(DEEPEST_DEPARTURE) * distance)?;
+        let whole = self.takes_whole_phases(peak, Course::REBOUND);
+        let depth = self.leave_peak::<N>(if whole { distance } else { T::constant(DEEPEST_DEPARTURE) * distance })?;
+        if depth == distance {
+            self.at.s = outermost;
+        }
         let mut length = if depth < T::constant(SHALLOW_DEPARTURE) * distance {
             T::constant(AFTER_SHALLOW_DEPARTURE) * depth
         } else {
@@ -616,6 +621,20 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
             let separates = passed || surplus > uncertain || well::well(self.law).is_none();
             Err(if separates { End::Separation } else { End::Undecided })
         }
+    }
+
+    /// Whether nothing remains of the loss from first contact to a place near the peak, and nothing but the end of the motion is asked for:
+    /// then damped squares know the speed anywhere, whatever the nodes resolve.
+    fn takes_whole_phases(&self, peak: T, course: Course) -> bool {
+        let (law, control) = (self.law, &self.control);
+        let ratio = loss_over_force(law, peak, course);
+        let half_way = T::constant(0.5) * (peak + law.start());
+        control.approach > T::ZERO
+            && !control.observed
+            && !law.may_have_barrier()
+            && law.release_speed(peak).is_none()
+            && ratio.abs() * control.approach.sqrt() > T::constant(LEAST_DRAG)
+            && remaining_loss(law, ratio, half_way, course) == T::ZERO
     }
 
     /// How far the speed of a rebound is from that at which force and damping are equal, as 1 + c y; with c. `None` where damping is weak,
@@ -711,7 +730,10 @@ impl<'a, T: Real, L: ContactLaw<T>, O: Observer<T>> Follower<'a, T, L, O> {
         let mut depth = longest;
         let ratio = loss_over_force(self.law, from, course);
         if !course.reversed && ratio < T::ZERO && self.control.approach > T::ZERO {
-            depth = depth.min(T::constant(DEEPEST) / (ratio * ratio * signed(self.law.slope(from))));
+            let exact = remaining_loss(self.law, ratio, from - signed(longest), course) == T::ZERO;
+            if self.control.observed || !exact {
+                depth = depth.min(T::constant(DEEPEST) / (ratio * ratio * signed(self.law.slope(from))));
+            }
         }
         // The error that an iteration leaves grows with the root of the depth. Damped squares may do without this limit.
         let reach = T::constant(2.0 * TURNING_CONTRACTION) * self.law.loss(from, course.rebound);

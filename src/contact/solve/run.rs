@@ -44,9 +44,7 @@ impl Status {
 /// use microimpact::contact::{Collocation, Contact, RunReport};
 /// use microimpact::{NormalMotion, Sphere, Stiffness};
 ///
-/// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?)
-///     .with_damping(10.0)?
-///     .with_ring(10.0, 5.0)?;
+/// let scene = Contact::hertz(Sphere::solid(1e-6, 1000.0)?, Stiffness::new(1e10)?).with_damping(10.0)?;
 /// let run: RunReport<f64> = scene.solve(&NormalMotion::new(1.0)?, &Collocation::<9, f64>::new(1e-9)?)?.run;
 /// assert!(run.steps + run.refused <= Collocation::<9, f64>::MOST_INTERVALS);
 /// assert!(run.evaluations >= 9 * run.steps);
@@ -63,8 +61,7 @@ pub struct RunReport<T> {
     pub steps: u32,
     /// Those that were tried and refused.
     pub refused: u32,
-    /// Evaluations of a speed from the forces, or of the forces in time. Where the motion has a closed form, finding how it ends counts as
-    /// an interval of them.
+    /// Evaluations of a speed from the forces, or of the forces in time.
     pub evaluations: u32,
     /// Bound of the error of e^2, and of the energy with which the sphere passes a barrier, over the kinetic energy before the
     /// impact. If either differs from zero by less, the outcome is undecided: in front of the barrier of a force out of the surface

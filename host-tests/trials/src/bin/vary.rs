@@ -13,7 +13,7 @@ use clap::Parser;
 /// `cargo vary SECOND_COEFFICIENT 0 1 -- --kind mild --method Adaptive` shows what the constant is good for.
 #[derive(Parser)]
 struct Arguments {
-    /// Name of the constant; behind that of its file where several have it, as `proportional::TAIL_ERROR`
+    /// Name of the constant; behind that of its file where several have it, as `interval::TAIL_ERROR`
     name: String,
     /// Values besides its own
     #[arg(required = true, allow_negative_numbers = true)]
@@ -143,8 +143,8 @@ mod tests {
         let one = Constant::named("SECOND_COEFFICIENT", &root).unwrap();
         assert!(one.file.ends_with("solve/interval.rs") && one.value.parse::<f64>().is_ok(), "{one:?}");
         let several = Constant::named("TAIL_ERROR", &root).unwrap_err();
-        assert!(several.contains("solve/interval.rs") && several.contains("solve/proportional.rs"), "{several}");
-        assert!(Constant::named("proportional::TAIL_ERROR", &root).unwrap().file.ends_with("solve/proportional.rs"));
+        assert!(several.contains("solve/interval.rs") && several.contains("along/compliance.rs"), "{several}");
+        assert!(Constant::named("compliance::TAIL_ERROR", &root).unwrap().file.ends_with("along/compliance.rs"));
         assert!(Constant::named("NO_SUCH", &root).unwrap_err().contains("no file of src/contact"));
     }
 
