@@ -593,8 +593,7 @@ impl<T: Real, L: ContactLaw<T>, S> Contact<T, L, S> {
     ///
     /// # Errors
     /// A ratio of the scene's forces outside its range at the critical speed, or, where no speed rebounds, at 1 m/s.
-    /// [`Parameter::Tolerance`] where rounding does not allow
-    /// even the largest tolerance.
+    /// [`Parameter::Tolerance`] where rounding does not allow even the largest tolerance.
     ///
     /// ```
     /// use microimpact::contact::{Adaptive, Contact};

@@ -77,8 +77,8 @@ fn label(solver: &Solver) -> String {
     format!("{} {}", solver.name, solver.number.name())
 }
 
-/// A table with a row for each solver: the mean of its evaluations, all counts, the largest distances from the boundary of undecided and wrong outcomes,
-/// the errors of e^2, and the worst output.
+/// A table with a row for each solver: the mean of its evaluations, all counts, the largest distances from the boundary of undecided and
+/// wrong outcomes, the errors of e^2, and the worst output.
 fn counts(solvers: &[Solver], tallies: &[Tally]) -> Table {
     const FIRST: [&str; 2] = ["method", "evaluations"];
     const MORE: [&str; 5] = ["undecided to", "wrong to", "e^2 beyond", "beyond ten", "worst output"];

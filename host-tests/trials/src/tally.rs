@@ -39,9 +39,9 @@ pub struct Tally {
     pub scenes: u64,
     /// Scenes of which the truth does not know the outcome.
     pub unknown: u64,
-    /// Answers with a number of evaluations, and their sum.
+    /// Answers that say how many evaluations they took.
     pub counted: u64,
-    /// Evaluations of a speed or of the forces.
+    /// The sum of those.
     pub evaluations: u64,
     /// Refused inputs.
     pub refused: u64,

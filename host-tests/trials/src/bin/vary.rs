@@ -94,12 +94,11 @@ impl Constant {
 
     /// The source with another value of the constant. An integer may stand for a number with a decimal point.
     fn put(&self, source: &str, value: &str) -> String {
-        let point = if value.parse::<i64>().is_ok() { ".0" } else { "" };
         let lines = source.lines().enumerate().map(|(number, line)| match line.rsplit_once(" = ") {
-            Some((definition, _)) if number == self.line && definition.ends_with("f64") => {
+            Some((definition, _)) if number == self.line => {
+                let point = if definition.ends_with("f64") && value.parse::<i64>().is_ok() { ".0" } else { "" };
                 format!("{definition} = {value}{point};\n")
             }
-            Some((definition, _)) if number == self.line => format!("{definition} = {value};\n"),
             _ => format!("{line}\n"),
         });
         lines.collect()
